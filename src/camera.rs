@@ -1,0 +1,32 @@
+//! The pinhole camera of the bench scenes: right-handed, y up.
+
+use glam::Vec3;
+
+/// A pinhole camera. Rays leave `eye` along `forward + px * right + py * up`, pixels from the top left.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// Position, metres.
+    pub eye: Vec3,
+    /// Unit view direction.
+    pub forward: Vec3,
+    /// Direction to the right, scaled to half the picture's height at distance one.
+    pub right: Vec3,
+    /// Direction up, scaled like `right`.
+    pub up: Vec3,
+}
+
+impl Camera {
+    /// Looks from `eye` to `target` with a vertical field of view `fov` in radians, rolled by `roll` radians.
+    ///
+    /// Never degenerate: where `eye` equals `target` it looks along -z, and where the view is vertical
+    /// the screen's up is -z (looking down) or +z (looking up).
+    pub fn look_at(eye: Vec3, target: Vec3, fov: f32, roll: f32) -> Camera {
+        let forward = (target - eye).try_normalize().unwrap_or(Vec3::NEG_Z);
+        let side = forward.cross(Vec3::Y);
+        let right = if side.length_squared() > 1e-12 { side.normalize() } else { Vec3::X };
+        let up = right.cross(forward);
+        let scale = (0.5 * fov).tan();
+        let (sin, cos) = roll.sin_cos();
+        Camera { eye, forward, right: (right * cos + up * sin) * scale, up: (up * cos - right * sin) * scale }
+    }
+}

@@ -1,0 +1,10 @@
+//! Paprsek: a CPU-only software renderer in the style of a 64 kB intro.
+//!
+//! One straight flow: time -> scene -> layers -> tiles in parallel -> `0RGB` pixels. See `ARCHITECTURE.md`.
+
+pub mod camera;
+pub mod color;
+pub mod noise;
+pub mod quality;
+pub mod scenes;
+pub mod tile;

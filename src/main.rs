@@ -1,0 +1,2 @@
+//! The intro executable.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Perlin's improved noise (2002).

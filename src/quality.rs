@@ -1,0 +1,41 @@
+//! Speed against error, in one value whose limit is exact.
+
+/// Every approximation that a renderer may take. [`Quality::EXACT`] and [`Quality::REFERENCE`] take none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Edge of the coarsest cell of the corner grid, pixels: a power of two from 2 to 16; 1 traces every pixel.
+    pub cell: usize,
+    /// A cell is interpolated when the error estimated at its centre is at most this, linear light.
+    pub threshold: f32,
+    /// A secondary ray whose weight falls below this is not traced; 0 traces all up to the depth limit.
+    pub min_weight: f32,
+    /// Anti-aliasing where an edge runs through a pixel: 0 none, 1 halves and 2 quarters the pixel.
+    pub subpixel: u32,
+    /// Samples of a pixel along each axis, everywhere: 1, or 8 for the reference.
+    pub grid: usize,
+}
+
+impl Quality {
+    /// Every shortcut, one sample a pixel.
+    pub const FAST: Quality = Quality { cell: 8, threshold: 0.01, min_weight: 1.0 / 64.0, subpixel: 0, grid: 1 };
+    /// What the intro plays: every shortcut, anti-aliased.
+    pub const DEFAULT: Quality = Quality { subpixel: 2, ..Quality::FAST };
+    /// No shortcut, one sample at each pixel centre.
+    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, subpixel: 0, grid: 1 };
+    /// No shortcut, 64 samples a pixel.
+    pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
+
+    /// The names of the command line.
+    pub const NAMES: [&'static str; 4] = ["fast", "default", "exact", "reference"];
+
+    /// The quality of that name.
+    pub fn named(name: &str) -> Option<Quality> {
+        Some(match name {
+            "fast" => Quality::FAST,
+            "default" => Quality::DEFAULT,
+            "exact" => Quality::EXACT,
+            "reference" => Quality::REFERENCE,
+            _ => return None,
+        })
+    }
+}
