@@ -4,7 +4,9 @@
 
 pub mod camera;
 pub mod color;
+pub mod math;
 pub mod noise;
 pub mod quality;
 pub mod scenes;
 pub mod tile;
+pub mod trace;

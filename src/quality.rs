@@ -13,15 +13,17 @@ pub struct Quality {
     pub subpixel: u32,
     /// Samples of a pixel along each axis, everywhere: 1, or 8 for the reference.
     pub grid: usize,
+    /// Points on a light that has a size.
+    pub light_samples: u32,
 }
 
 impl Quality {
     /// Every shortcut, one sample a pixel.
-    pub const FAST: Quality = Quality { cell: 8, threshold: 0.01, min_weight: 1.0 / 64.0, subpixel: 0, grid: 1 };
+    pub const FAST: Quality = Quality { cell: 8, threshold: 0.01, min_weight: 1.0 / 64.0, subpixel: 0, grid: 1, light_samples: 16 };
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality { subpixel: 2, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
-    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, subpixel: 0, grid: 1 };
+    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 

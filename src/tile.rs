@@ -1,8 +1,10 @@
 //! How a frame is cut into tiles and run: the only file that names rayon.
 
+use crate::color::{self, Transfer};
 use crate::quality::Quality;
-use crate::scenes::Scene;
-use fearless_simd::Level;
+use crate::scenes::{Scene, Shot};
+use fearless_simd::{Level, Simd, dispatch};
+use rayon::prelude::*;
 
 /// A finished picture: `0RGB` pixels, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +29,64 @@ impl Frame {
 pub struct Stats {
     /// Eye rays traced.
     pub samples: u64,
+}
+
+/// A piece of the picture that stays in the first levels of the cache: linear light, and what lies in front of what.
+///
+/// All planes have rows of [`Tile::SIZE`] pixels, whatever the width.
+pub struct Tile {
+    /// Left edge in the picture, pixels.
+    pub x: usize,
+    /// Top edge in the picture, pixels.
+    pub y: usize,
+    /// Pixels in use in a row.
+    pub width: usize,
+    /// Rows in use.
+    pub height: usize,
+    /// Linear red.
+    pub red: Box<[f32; Tile::AREA]>,
+    /// Linear green.
+    pub green: Box<[f32; Tile::AREA]>,
+    /// Linear blue.
+    pub blue: Box<[f32; Tile::AREA]>,
+    /// 1 / distance along the view axis of the nearest solid, 0 for none: affine on planes, and empty space needs no infinity.
+    pub closeness: Box<[f32; Tile::AREA]>,
+    /// Share of the pixel that solids cover.
+    pub coverage: Box<[f32; Tile::AREA]>,
+}
+
+impl Tile {
+    /// Pixels along an edge.
+    pub const SIZE: usize = 64;
+    /// Pixels.
+    pub const AREA: usize = Tile::SIZE * Tile::SIZE;
+
+    fn new() -> Tile {
+        let plane = || Box::new([0.0; Tile::AREA]);
+        let (red, green, blue, closeness, coverage) = (plane(), plane(), plane(), plane(), plane());
+        Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, closeness, coverage }
+    }
+
+    /// Black and empty.
+    pub fn clear(&mut self) {
+        for plane in [&mut self.red, &mut self.green, &mut self.blue, &mut self.closeness, &mut self.coverage] {
+            plane.fill(0.0);
+        }
+    }
+}
+
+/// Something that draws into tiles: layers of a picture are drawn in order, back to front.
+pub trait Layer: Sync {
+    /// Draws the tile's part of the layer over what is there; returns what that took.
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
+}
+
+/// A scene at one instant, ready to be drawn.
+pub struct Picture {
+    /// Back to front.
+    pub layers: Vec<Box<dyn Layer>>,
+    /// The screen's scale.
+    pub transfer: Transfer,
 }
 
 /// Renders frames on a fixed number of threads at one SIMD level.
@@ -76,11 +136,38 @@ impl Renderer {
     }
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
-    pub fn render(&mut self, scene: &Scene, time: f64, _quality: &Quality, frame: &mut Frame) -> Stats {
-        let (width, shade) = (frame.width, (time * 40.0 + scene.name.len() as f64) as usize);
-        for (i, p) in frame.pixels.iter_mut().enumerate() {
-            *p = (((i % width) + shade) & 255) as u32 * 0x010101;
-        }
-        Stats { samples: frame.pixels.len() as u64 }
+    pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
+        let shot = Shot { time, width: frame.width, height: frame.height, quality: *quality };
+        let picture = scene.picture(&shot);
+        let (level, width, height) = (self.level, frame.width, frame.height);
+        let columns = width.div_ceil(Tile::SIZE);
+        // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
+        let band = |(row, pixels): (usize, &mut [u32])| {
+            let mut tile = Tile::new();
+            let mut samples = 0;
+            for column in 0..columns {
+                (tile.x, tile.y) = (column * Tile::SIZE, row * Tile::SIZE);
+                tile.width = Tile::SIZE.min(width - tile.x);
+                tile.height = Tile::SIZE.min(height - tile.y);
+                for layer in &picture.layers {
+                    samples += layer.draw(level, &mut tile).samples;
+                }
+                dispatch!(level, simd => develop(simd, picture.transfer, &tile, width, pixels));
+            }
+            samples
+        };
+        let bands = || frame.pixels.par_chunks_mut((width * Tile::SIZE).max(1)).enumerate().map(band).sum();
+        Stats { samples: self.pool.install(bands) }
+    }
+}
+
+/// From the tile's light to the screen's codes.
+#[inline(always)]
+fn develop<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
+    for row in 0..tile.height {
+        let at = row * Tile::SIZE..row * Tile::SIZE + tile.width;
+        let (r, g, b) = (&tile.red[at.clone()], &tile.green[at.clone()], &tile.blue[at]);
+        let out = &mut pixels[row * stride + tile.x..][..tile.width];
+        color::encode(simd, transfer, tile.x as u32, (tile.y + row) as u32, r, g, b, out);
     }
 }

@@ -1,5 +1,15 @@
 //! One file a scene; only scenes know more than one renderer.
 
+#[cfg(feature = "bench-scenes")]
+pub mod spheres;
+
+use crate::camera::Camera;
+use crate::color::Transfer;
+use crate::quality::Quality;
+use crate::tile::Picture;
+use crate::trace::Traced;
+use crate::trace::world::World;
+
 /// A scene of the command line.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
@@ -9,17 +19,56 @@ pub struct Scene {
     pub about: &'static str,
     /// Length in seconds; playing loops after it.
     pub duration: f64,
+    /// The scene at one instant: a pure function of it.
+    picture: fn(&Shot) -> Picture,
 }
 
-/// The intro's own show: what plays when no scene is named.
-pub const INTRO: Scene = Scene { name: "intro", about: "the show", duration: 60.0 };
+impl Scene {
+    /// The layers of one instant.
+    pub fn picture(&self, shot: &Shot) -> Picture {
+        (self.picture)(shot)
+    }
+}
+
+/// One instant of a scene, and how it is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Seconds since the scene's start.
+    pub time: f64,
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Speed against error.
+    pub quality: Quality,
+}
+
+impl Shot {
+    /// A picture that is all ray tracing.
+    fn traced(&self, world: World, camera: Camera, transfer: Transfer) -> Picture {
+        Picture { layers: vec![Box::new(Traced::new(world, camera, self.width, self.height, self.quality))], transfer }
+    }
+}
 
 /// Every scene, the intro's own first.
+pub const ALL: &[Scene] = &[
+    #[cfg(feature = "bench-scenes")]
+    spheres::SPHERES,
+    #[cfg(feature = "bench-scenes")]
+    spheres::SPHERES_FLAT,
+    #[cfg(feature = "bench-scenes")]
+    spheres::SPHERES_GLASS,
+];
+
+/// The intro's own show: what plays when no scene is named.
+pub const INTRO: Scene = ALL[0];
+
+/// Every scene.
 pub fn all() -> Vec<Scene> {
-    vec![INTRO, Scene { name: "spheres", about: "bench", duration: 20.0 }]
+    ALL.to_vec()
 }
 
 /// The scene of that name.
 pub fn named(name: &str) -> Option<Scene> {
-    all().into_iter().find(|s| s.name == name)
+    ALL.iter().find(|s| s.name == name).copied()
 }

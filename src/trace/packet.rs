@@ -1,0 +1,523 @@
+//! Whitted's recursion in packets: one eye ray a lane, all levels, and everything that a corner has to remember.
+//!
+//! Textures are not evaluated here. A sample says which textured surfaces its chain of hits met, where, and how much of
+//! their colour it carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time.
+
+use super::lanes::{Bits, F, Lane, M, U, V3};
+use super::shape::FAR;
+use super::world::{Light, Source, World};
+use crate::camera::Camera;
+use crate::math;
+use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
+use glam::Vec3;
+
+/// Textured hits that a sample can remember; later ones (the deepest, of least weight) are looked up on the spot.
+pub const REMEMBERED: usize = 6;
+
+/// A textured surface in a sample's chain: its colour at `point`, times `gain`, is part of the sample's light.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Textured {
+    /// Index of the object.
+    pub object: u32,
+    /// Light that reaches the eye from there for a white surface.
+    pub gain: [f32; 3],
+    /// Where it was hit, world space.
+    pub point: [f32; 3],
+    /// 1 / length of the path from the eye, measured in steps of the unnormalised eye ray: affine in screen space on planes.
+    pub closeness: f32,
+}
+
+/// What one eye ray saw.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Hash of the whole chain: every object hit, by which path, and the state of every light there.
+    pub chain: u32,
+    /// Textured hits that count.
+    pub count: u32,
+    /// Light that depends on no texture: highlights, plain surfaces, sky.
+    pub light: [f32; 3],
+    /// 1 / distance of the first hit in steps of the eye ray; 0 where there is none.
+    pub closeness: f32,
+    /// The first `count` are set.
+    pub textured: [Textured; REMEMBERED],
+}
+
+/// From pixels to eye rays.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    camera: Camera,
+    /// Screen units of a pixel, and half of the screen in them.
+    pixel: f32,
+    half: (f32, f32),
+}
+
+impl View {
+    /// The view of a camera on a picture of that many pixels.
+    pub fn new(camera: Camera, width: usize, height: usize) -> View {
+        let pixel = 2.0 / height as f32;
+        View { camera, pixel, half: (width as f32 / height as f32, 1.0) }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
+    #[inline(always)]
+    pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {
+        let px = x * self.pixel - self.half.0;
+        let py = -(y * self.pixel) + self.half.1;
+        let c = &self.camera;
+        V3::splat(simd, c.forward)
+            + V3::splat(simd, c.right) * Lane(px)
+            + V3::splat(simd, c.up) * Lane(py)
+    }
+
+    /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
+    pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
+        let c = &self.camera;
+        let q = p - c.eye;
+        let depth = q.dot(c.forward);
+        if depth < 1e-3 {
+            return None;
+        }
+        let scale = c.right.length_squared();
+        let px = q.dot(c.right) / (scale * depth);
+        let py = q.dot(c.up) / (scale * depth);
+        let metre = 1.0 / (scale.sqrt() * depth * self.pixel);
+        Some(((px + self.half.0) / self.pixel, (self.half.1 - py) / self.pixel, metre))
+    }
+
+    /// Size of a pixel at distance one.
+    pub fn pixel_size(&self) -> f32 {
+        self.pixel * self.camera.up.length()
+    }
+}
+
+/// The knobs of the recursion.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Secondary rays of less weight are not traced.
+    pub min_weight: f32,
+    /// Points on a light that has a size.
+    pub light_samples: u32,
+}
+
+/// A bundle of rays that take the same path (sequence of reflections and refractions) from the eye.
+#[derive(Clone, Copy)]
+struct Node<S: Simd> {
+    active: M<S>,
+    origin: V3<S>,
+    direction: V3<S>,
+    weight: V3<S>,
+    /// Length of the path up to `origin`.
+    length: F<S>,
+    /// The body that the ray leaves, or `NOWHERE`, and whether it goes inside.
+    from: U<S>,
+    inward: M<S>,
+    level: u32,
+    /// 1 for the eye ray, then a bit for each level: 0 reflected, 1 refracted.
+    path: u32,
+}
+
+const NOWHERE: u32 = u32::MAX;
+/// Highlights of more light than this are part of a corner's state: the skirt of a highlight finds the highlight.
+const HIGHLIGHT: f32 = 1.0 / 16.0;
+
+/// What the shading of a hit needs of its object, one a lane.
+struct Surface<S: Simd> {
+    normal: V3<S>,
+    albedo: V3<S>,
+    reflectance: V3<S>,
+    filter: V3<S>,
+    fresnel: F<S>,
+    specular: F<S>,
+    exponent: F<S>,
+    ior: F<S>,
+    textured: M<S>,
+}
+
+/// Traces the eye rays through `xs`, `ys` (pixels) and appends a sample for each to `out`, in order.
+#[simd]
+pub fn trace<S: Simd>(simd: S, world: &World, view: &View, limits: &Limits, xs: &[f32], ys: &[f32], out: &mut Vec<Sample>) {
+    let lanes = F::<S>::LEN;
+    let mut stack = Vec::new();
+    let mut px = [0.0; 64];
+    let mut py = [0.0; 64];
+    for (xs, ys) in xs.chunks(lanes).zip(ys.chunks(lanes)) {
+        // The last packet repeats its last ray.
+        for lane in 0..lanes {
+            px[lane] = xs[lane.min(xs.len() - 1)];
+            py[lane] = ys[lane.min(ys.len() - 1)];
+        }
+        let (x, y) = (F::<S>::from_slice(simd, &px[..lanes]), F::<S>::from_slice(simd, &py[..lanes]));
+        let first = out.len();
+        out.resize(first + xs.len(), Sample::default());
+        packet(simd, world, limits, view.camera.eye, view.rays(simd, x, y), &mut out[first..], &mut stack);
+    }
+}
+
+/// One packet of eye rays, to its last reflection.
+#[simd]
+fn packet<S: Simd>(
+    simd: S,
+    world: &World,
+    limits: &Limits,
+    eye: Vec3,
+    ray: V3<S>,
+    out: &mut [Sample],
+    stack: &mut Vec<Node<S>>,
+) {
+    let zero = F::<S>::splat(simd, 0.0);
+    let one = F::<S>::splat(simd, 1.0);
+    let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
+    let step = ray.dot(ray).sqrt();
+    let mut chain = U::<S>::splat(simd, 0);
+    let mut light = V3::splat(simd, Vec3::ZERO);
+    let mut first_closeness = zero;
+    stack.clear();
+    let mut next = Some(Node {
+        active: lanes_in_use,
+        origin: V3::splat(simd, eye),
+        direction: ray * Lane(one / step),
+        weight: V3 { x: one, y: one, z: one },
+        length: zero,
+        from: U::<S>::splat(simd, NOWHERE),
+        inward: M::<S>::splat(simd, false),
+        level: 1,
+        path: 1,
+    });
+    while let Some(node) = next.take().or_else(|| stack.pop()) {
+        let Node { active, origin, direction, weight, length, level, path, .. } = node;
+        let object = nearest(simd, world, &node);
+        let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
+        let missed = active & !hit;
+        if missed.any_true() {
+            light = light + sky(simd, world, direction).mulv(weight).masked(simd, missed);
+        }
+        let mut state = U::<S>::splat(simd, 0);
+        if hit.any_true() {
+            let (t, surface) = resolve(simd, world, &node, object, hit);
+            let t = t.max(zero);
+            let point = origin + direction * Lane(t);
+            let length = length + t;
+            let closeness = step / length;
+            if level == 1 {
+                first_closeness = hit.select(closeness, zero);
+            }
+            let facing = -direction.dot(surface.normal);
+            let inside = facing.simd_lt(zero);
+            let cosine = facing.abs();
+            let normal = V3::select(inside, -surface.normal, surface.normal);
+            let glass = hit & surface.ior.simd_gt(zero);
+            let matt = hit & !glass;
+            let shaded = matt | (glass & surface.specular.simd_gt(zero));
+
+            // Local light: what is left beside the mirror.
+            let grazing = one - cosine.min(one);
+            let grazing = grazing * grazing * (grazing * grazing) * grazing;
+            let boost = surface.fresnel * grazing;
+            let mirror = surface.reflectance + (V3 { x: one, y: one, z: one } - surface.reflectance) * Lane(boost);
+            let local = (weight - weight.mulv(mirror)).masked(simd, matt);
+            let mut diffuse = V3::splat(simd, world.ambient);
+            let mut specular = V3::splat(simd, Vec3::ZERO);
+            if shaded.any_true() {
+                for (index, source) in world.lights.iter().enumerate() {
+                    let (to_light, reach) = toward(simd, source, point);
+                    let cos_light = normal.dot(to_light);
+                    let front = shaded & cos_light.simd_gt(zero);
+                    if !front.any_true() {
+                        continue;
+                    }
+                    let seen = visibility(simd, world, limits, source, point, to_light, reach, object, front);
+                    let lit = front & seen.simd_gt(zero);
+                    let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
+                    let shiny = lit & glint.simd_gt(zero) & surface.specular.simd_gt(zero);
+                    let mut shine = zero;
+                    if shiny.any_true() {
+                        let power = math::powf(simd, glint, surface.exponent);
+                        shine = shiny.select(power * surface.specular * seen, zero);
+                    }
+                    let amount = lit.select(cos_light * seen, zero);
+                    diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
+                    specular = specular + V3::splat(simd, source.color) * Lane(shine);
+                    // 0 unlit, 1 lit, 2 lit with a highlight, 3 half lit.
+                    let bright = lit & (shine * weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
+                    let half = lit & seen.simd_lt(one);
+                    let code = half.select(
+                        U::<S>::splat(simd, 3),
+                        bright.select(U::<S>::splat(simd, 2), lit.select(U::<S>::splat(simd, 1), U::<S>::splat(simd, 0))),
+                    );
+                    state = state | (code << (2 * index as u32));
+                }
+            }
+            // Glass shows the lights themselves and nothing else of its own.
+            let shine = specular.mulv(V3::select(glass, weight, local));
+            light = light + shine.masked(simd, shaded);
+            let gain = local.mulv(diffuse);
+            light = light + gain.mulv(surface.albedo).masked(simd, matt & !surface.textured);
+            let textured = matt & surface.textured;
+            if textured.any_true() {
+                remember(world, &object, &gain, &point, &closeness, textured.to_bitmask(), out);
+            }
+
+            if level < world.max_level {
+                let spread = |direction, weight, active, inward, path| Node {
+                    active,
+                    origin: point,
+                    direction,
+                    weight,
+                    length,
+                    from: object,
+                    inward,
+                    level: level + 1,
+                    path,
+                };
+                let mirrored = direction + normal * Lane(cosine * 2.0);
+                let strong = |w: V3<S>| w.max_element().simd_gt(F::<S>::splat(simd, limits.min_weight));
+                let mut reflected = weight.mulv(mirror);
+                let mut stays_inside = M::<S>::splat(simd, false);
+                if glass.any_true() {
+                    let eta = inside.select(surface.ior, one / surface.ior);
+                    let (share, cos_through, passes) = fresnel(simd, eta, cosine);
+                    let bend = eta * cosine - cos_through;
+                    let refracted = direction * Lane(eta) + normal * Lane(bend);
+                    let through = weight.mulv(surface.filter) * Lane(one - share);
+                    let active = glass & passes & strong(through);
+                    if active.any_true() {
+                        stack.push(spread(refracted, through, active, !inside, path * 2 + 1));
+                    }
+                    reflected = V3::select(glass, weight * Lane(share), reflected);
+                    stays_inside = glass & inside;
+                }
+                let active = hit & strong(reflected);
+                if active.any_true() {
+                    next = Some(spread(mirrored, reflected, active, stays_inside, path * 2));
+                }
+            }
+        }
+        let code = hash(simd, (object + 1) ^ (state << 12), path);
+        chain = chain + active.select(code, U::<S>::splat(simd, 0));
+    }
+    for (lane, sample) in out.iter_mut().enumerate() {
+        sample.chain = chain[lane];
+        sample.light = [light.x[lane], light.y[lane], light.z[lane]];
+        sample.closeness = first_closeness[lane];
+    }
+}
+
+/// The nearest body of every lane, or `NOWHERE`.
+#[inline(always)]
+fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
+    let zero = F::<S>::splat(simd, 0.0);
+    let mut best = F::<S>::splat(simd, FAR);
+    let mut object = U::<S>::splat(simd, NOWHERE);
+    for (index, candidate) in world.objects.iter().enumerate() {
+        let id = U::<S>::splat(simd, index as u32);
+        let same = node.from.simd_eq(id);
+        let (t0, t1) = candidate.shape.span(simd, node.origin, node.direction);
+        let outside = t0.simd_gt(zero) & !same;
+        let t = outside.select(t0, t1);
+        let meets = t0.simd_le(t1) & t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
+        best = meets.select(t, best);
+        object = meets.select(id, object);
+    }
+    object
+}
+
+/// Distance and surface of every lane's hit: once for each of the few bodies that a packet meets.
+#[inline(always)]
+fn resolve<S: Simd>(simd: S, world: &World, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, Surface<S>) {
+    let zero = F::<S>::splat(simd, 0.0);
+    let black = V3::splat(simd, Vec3::ZERO);
+    let mut t = zero;
+    let mut s = Surface {
+        normal: black,
+        albedo: black,
+        reflectance: black,
+        filter: black,
+        fresnel: zero,
+        specular: zero,
+        exponent: zero,
+        ior: zero,
+        textured: M::<S>::splat(simd, false),
+    };
+    let mut todo = hit.to_bitmask();
+    while todo != 0 {
+        let id = object[todo.trailing_zeros() as usize];
+        let here = object.simd_eq(U::<S>::splat(simd, id));
+        todo &= !here.to_bitmask();
+        let body = &world.objects[id as usize];
+        let material = &body.material;
+        let (t0, t1) = body.shape.span(simd, node.origin, node.direction);
+        let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
+        t = here.select(outside.select(t0, t1), t);
+        let normal = body.shape.normal(simd, node.origin + node.direction * Lane(t));
+        let pick = |value: f32, old: F<S>| here.select(F::<S>::splat(simd, value), old);
+        s.normal = V3::select(here, normal, s.normal);
+        match material.albedo.constant() {
+            Some(color) => s.albedo = V3::select(here, V3::splat(simd, color), s.albedo),
+            None => s.textured |= here,
+        }
+        s.reflectance = V3::select(here, V3::splat(simd, material.reflectance), s.reflectance);
+        s.fresnel = pick(material.fresnel, s.fresnel);
+        s.specular = pick(material.specular, s.specular);
+        s.exponent = pick(material.exponent, s.exponent);
+        if material.is_glass() {
+            s.filter = V3::select(here, V3::splat(simd, material.filter), s.filter);
+            s.ior = pick(material.ior, s.ior);
+        }
+    }
+    (t, s)
+}
+
+/// Unit direction and distance to a light's centre.
+#[inline(always)]
+fn toward<S: Simd>(simd: S, light: &Light, point: V3<S>) -> (V3<S>, F<S>) {
+    match light.source {
+        Source::Point(position) => {
+            let q = V3::splat(simd, position) - point;
+            let distance = q.dot(q).sqrt();
+            (q * Lane(F::<S>::splat(simd, 1.0) / distance), distance)
+        }
+        Source::Directional(direction) => (V3::splat(simd, direction), F::<S>::splat(simd, FAR)),
+    }
+}
+
+/// The share of a light that each lane sees: 0 or 1 for a point, the share of its sample points for one with a size.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn visibility<S: Simd>(
+    simd: S,
+    world: &World,
+    limits: &Limits,
+    light: &Light,
+    point: V3<S>,
+    to_light: V3<S>,
+    reach: F<S>,
+    from: U<S>,
+    wanted: M<S>,
+) -> F<S> {
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    if light.radius == 0.0 {
+        return (wanted & !occluded(simd, world, point, to_light, reach, from, wanted)).select(one, zero);
+    }
+    // The luminous ball's disc, seen from the point: two axes across the direction to it.
+    let y_up = to_light.y.abs().simd_lt(F::<S>::splat(simd, 0.9));
+    let helper = V3 { x: y_up.select(zero, one), y: y_up.select(one, zero), z: zero };
+    let u = cross(helper, to_light);
+    let u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
+    let v = cross(to_light, u);
+    let directional = matches!(light.source, Source::Directional(_));
+    let scale = if directional { one } else { reach };
+    let mut seen = zero;
+    for k in 0..limits.light_samples {
+        let (a, b) = disc_point(k, limits.light_samples);
+        let aim = to_light * Lane(scale) + u * Lane(F::<S>::splat(simd, a)) + v * Lane(F::<S>::splat(simd, b));
+        let length = aim.dot(aim).sqrt();
+        let distance = if directional { reach } else { length };
+        let aim = aim * Lane(one / length);
+        seen = seen + (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
+    }
+    seen * (1.0 / limits.light_samples as f32)
+}
+
+/// Point `k` of `n` spread evenly over the unit disc, by Vogel's spiral.
+fn disc_point(k: u32, n: u32) -> (f32, f32) {
+    const GOLDEN_ANGLE: f32 = 2.399_963_2;
+    let radius = ((k as f32 + 0.5) / n as f32).sqrt();
+    let (sin, cos) = (k as f32 * GOLDEN_ANGLE).sin_cos();
+    (radius * cos, radius * sin)
+}
+
+/// Which of the `wanted` lanes have something between them and a light.
+///
+/// A lit point of a convex body is never in that body's own shadow.
+#[inline(always)]
+fn occluded<S: Simd>(simd: S, world: &World, point: V3<S>, aim: V3<S>, reach: F<S>, from: U<S>, wanted: M<S>) -> M<S> {
+    let mut dark = M::<S>::splat(simd, false);
+    for (index, body) in world.objects.iter().enumerate() {
+        if !body.casts_shadow {
+            continue;
+        }
+        let other = !from.simd_eq(U::<S>::splat(simd, index as u32));
+        dark |= body.shape.blocks(simd, point, aim, reach) & other;
+        if !(wanted & !dark).any_true() {
+            break;
+        }
+    }
+    dark
+}
+
+/// Unpolarised Fresnel reflectance of a dielectric, the cosine behind the surface, and where light passes at all.
+///
+/// `eta` is the index on the ray's side over the index behind.
+#[inline(always)]
+fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let k = one - eta * eta * (one - cosine * cosine);
+    let passes = k.simd_gt(zero);
+    let through = k.max(zero).sqrt();
+    let s = (eta * cosine - through) / (eta * cosine + through);
+    let p = (eta * through - cosine) / (eta * through + cosine);
+    (passes.select((s * s + p * p) * 0.5, one), through, passes)
+}
+
+/// The sky in a direction.
+#[inline(always)]
+fn sky<S: Simd>(simd: S, world: &World, d: V3<S>) -> V3<S> {
+    let zero = F::<S>::splat(simd, 0.0);
+    let sky = &world.sky;
+    let base = V3::splat(simd, sky.horizon) + V3::splat(simd, sky.zenith - sky.horizon) * Lane(d.y.max(zero));
+    let (towards, color, exponent) = sky.glow;
+    if exponent == 0.0 {
+        return base;
+    }
+    let glow = math::powf(simd, d.dot1(towards).max(F::<S>::splat(simd, 1e-6)), F::<S>::splat(simd, exponent));
+    base + V3::splat(simd, color) * Lane(glow)
+}
+
+/// Notes the textured hits of a packet, lane by lane.
+#[inline(always)]
+fn remember<S: Simd>(
+    world: &World,
+    object: &U<S>,
+    gain: &V3<S>,
+    point: &V3<S>,
+    closeness: &F<S>,
+    lanes: u64,
+    out: &mut [Sample],
+) {
+    for lane in Bits(lanes) {
+        let sample = &mut out[lane];
+        let hit = Textured {
+            object: object[lane],
+            gain: [gain.x[lane], gain.y[lane], gain.z[lane]],
+            point: [point.x[lane], point.y[lane], point.z[lane]],
+            closeness: closeness[lane],
+        };
+        if let Some(slot) = sample.textured.get_mut(sample.count as usize) {
+            *slot = hit;
+            sample.count += 1;
+        } else {
+            let color = world.objects[hit.object as usize].material.albedo.color(Vec3::from(hit.point));
+            sample.light = (Vec3::from(sample.light) + color * Vec3::from(hit.gain)).into();
+        }
+    }
+}
+
+/// Cross product.
+#[inline(always)]
+fn cross<S: Simd>(a: V3<S>, b: V3<S>) -> V3<S> {
+    V3 { x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x }
+}
+
+/// Mixes what was hit with the path that led there.
+#[inline(always)]
+fn hash<S: Simd>(simd: S, key: U<S>, path: u32) -> U<S> {
+    let h = (key ^ U::<S>::splat(simd, path.wrapping_mul(0x9E37_79B1))) * 0x85EB_CA6B;
+    let h = (h ^ (h >> 15)) * 0x2C1B_3C6D;
+    h ^ (h >> 13)
+}

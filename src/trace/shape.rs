@@ -1,0 +1,218 @@
+//! Convex bodies and where a ray enters and leaves them.
+//!
+//! Every shape is convex, so a ray that leaves a body's surface outwards cannot meet it again, and one that goes
+//! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
+//! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
+
+use super::lanes::{F, Lane, M, V3};
+use fearless_simd::prelude::*;
+use glam::{Mat3, Vec3};
+
+/// A convex body.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// A ball.
+    Sphere {
+        /// Centre.
+        center: Vec3,
+        /// Radius, metres.
+        radius: f32,
+    },
+    /// The half-space below a plane: `normal . p <= offset`.
+    Plane {
+        /// Unit normal, outwards.
+        normal: Vec3,
+        /// Distance from the origin along the normal.
+        offset: f32,
+    },
+    /// A ball so large that its centre is useless: given by a point of its surface near to the eye.
+    Globe {
+        /// A point of the surface.
+        touch: Vec3,
+        /// Unit normal there, outwards.
+        normal: Vec3,
+        /// Radius, metres.
+        radius: f32,
+    },
+    /// A turned box.
+    Block {
+        /// Centre.
+        center: Vec3,
+        /// Half of each edge.
+        half: Vec3,
+        /// World to box, a rotation.
+        turn: Mat3,
+    },
+    /// A capped cylinder.
+    Cylinder {
+        /// Centre.
+        center: Vec3,
+        /// Unit axis.
+        axis: Vec3,
+        /// Half of its length.
+        half: f32,
+        /// Radius, metres.
+        radius: f32,
+    },
+}
+
+/// Beyond this a ray has left the scene.
+pub const FAR: f32 = 1e30;
+
+impl Shape {
+    /// Centre and radius of a ball around the body; an infinite radius for planes and globes.
+    pub fn bound(&self) -> (Vec3, f32) {
+        match *self {
+            Shape::Sphere { center, radius } => (center, radius),
+            Shape::Block { center, half, .. } => (center, half.length()),
+            Shape::Cylinder { center, half, radius, .. } => (center, half.hypot(radius)),
+            Shape::Plane { .. } | Shape::Globe { .. } => (Vec3::ZERO, f32::INFINITY),
+        }
+    }
+
+    /// Where the line `o + t d`, `|d| = 1`, is inside the body: `t0 <= t1`, or `t0 > t1` where it never is.
+    ///
+    /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
+    /// nearest point does not cancel as `b^2 - 4ac` does far away.
+    #[inline(always)]
+    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
+        let zero = F::<S>::splat(simd, 0.0);
+        match *self {
+            Shape::Sphere { center, radius } => {
+                let q = o.sub1(center);
+                let b = -q.dot(d);
+                let m = q + d * Lane(b);
+                let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
+                let s = disc.max(zero).sqrt();
+                let hit = disc.simd_gt(zero);
+                // The root on the far side of the nearest point is exact; the other follows from their product,
+                // |q|^2 - r^2, factored so that a ball of the eye's size does not cancel.
+                let far = b + s.copysign(b);
+                let length = q.dot(q).sqrt();
+                let near = (length - radius) * (length + radius) / far;
+                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+            }
+            Shape::Plane { normal, offset } => {
+                let speed = d.dot1(normal);
+                let height = o.dot1(normal) - offset;
+                let t = -height / speed;
+                let enters = speed.simd_lt(zero);
+                let leaves = speed.simd_gt(zero);
+                let below = height.simd_le(zero);
+                let far = F::<S>::splat(simd, FAR);
+                // Parallel to the plane a ray is inside all along or never.
+                let t0 = enters.select(t, (leaves | below).select(-far, far));
+                let t1 = leaves.select(t, (enters | below).select(far, -far));
+                (t0, t1)
+            }
+            Shape::Globe { touch, normal, radius } => {
+                // With q = o - touch and the centre at touch - R n: |o - c|^2 - R^2 = |q|^2 + 2 R q.n, and R^2 - |m|^2
+                // = R^2 (n.d)^2 - 2 R m.n - |m|^2, m the part of q across d: no term larger than the answer.
+                let q = o.sub1(touch);
+                let along = q.dot(d);
+                let slope = d.dot1(normal);
+                let m = q - d * Lane(along);
+                let across = m.dot1(normal);
+                let disc = slope * slope * radius - across * 2.0 - m.dot(m) * (1.0 / radius);
+                let s = (disc.max(zero) * radius).sqrt();
+                let b = -(along + slope * radius);
+                let hit = disc.simd_gt(zero);
+                let far = b + s.copysign(b);
+                let near = (q.dot(q) + q.dot1(normal) * (2.0 * radius)) / far;
+                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+            }
+            Shape::Block { center, half, turn } => {
+                let (o, d) = (turned(turn, o.sub1(center)), turned(turn, d));
+                let (x0, x1) = slab(simd, o.x, d.x, half.x);
+                let (y0, y1) = slab(simd, o.y, d.y, half.y);
+                let (z0, z1) = slab(simd, o.z, d.z, half.z);
+                (x0.max(y0).max(z0), x1.min(y1).min(z1))
+            }
+            Shape::Cylinder { center, axis, half, radius } => {
+                let q = o.sub1(center);
+                let (qa, da) = (q.dot1(axis), d.dot1(axis));
+                let (c0, c1) = slab(simd, qa, da, half);
+                let q = q - V3::splat(simd, axis) * Lane(qa);
+                let d = d - V3::splat(simd, axis) * Lane(da);
+                // Along the axis the round side is never crossed: then all of the line is inside it or none.
+                let a = d.dot(d).max(F::<S>::splat(simd, 1e-12));
+                let b = -q.dot(d) / a;
+                let m = q + d * Lane(b);
+                let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
+                let s = (disc.max(zero) / a).sqrt();
+                let hit = disc.simd_gt(zero);
+                let far = F::<S>::splat(simd, FAR);
+                (hit.select(c0.max(b - s), far), hit.select(c1.min(b + s), zero))
+            }
+        }
+    }
+
+    /// Does the body meet the open segment from `o` along `d` to distance `reach`? Both ends lie outside of it.
+    ///
+    /// For a ball that needs no root: its nearest point to the line lies between the ends and inside the ball.
+    #[inline(always)]
+    pub fn blocks<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, reach: F<S>) -> M<S> {
+        let zero = F::<S>::splat(simd, 0.0);
+        if let Shape::Sphere { center, radius } = *self {
+            let q = o.sub1(center);
+            let b = -q.dot(d);
+            let m = q + d * Lane(b);
+            return m.dot(m).simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
+        }
+        let (t0, t1) = self.span(simd, o, d);
+        t0.simd_le(t1) & t1.simd_gt(zero) & t0.simd_lt(reach)
+    }
+
+    /// Unit outward normal at a point of the surface.
+    #[inline(always)]
+    pub fn normal<S: Simd>(&self, simd: S, p: V3<S>) -> V3<S> {
+        match *self {
+            Shape::Sphere { center, radius } => {
+                let k = F::<S>::splat(simd, 1.0 / radius);
+                p.sub1(center) * Lane(k)
+            }
+            Shape::Plane { normal, .. } => V3::splat(simd, normal),
+            Shape::Globe { touch, normal, radius } => {
+                let k = F::<S>::splat(simd, 1.0 / radius);
+                p.sub1(touch) * Lane(k) + V3::splat(simd, normal)
+            }
+            Shape::Block { center, half, turn } => {
+                let q = turned(turn, p.sub1(center));
+                let (x, y, z) = (q.x * (1.0 / half.x), q.y * (1.0 / half.y), q.z * (1.0 / half.z));
+                let (one, zero) = (F::<S>::splat(simd, 1.0), F::<S>::splat(simd, 0.0));
+                let on_x = x.abs().simd_ge(y.abs()) & x.abs().simd_ge(z.abs());
+                let on_y = !on_x & y.abs().simd_ge(z.abs());
+                let on_z = !on_x & !on_y;
+                let local = V3 {
+                    x: on_x.select(one.copysign(x), zero),
+                    y: on_y.select(one.copysign(y), zero),
+                    z: on_z.select(one.copysign(z), zero),
+                };
+                turned(turn.transpose(), local)
+            }
+            Shape::Cylinder { center, axis, half, radius } => {
+                let q = p.sub1(center);
+                let h = q.dot1(axis);
+                let round = q - V3::splat(simd, axis) * Lane(h);
+                let cap = (h.abs() * (1.0 / half)).simd_ge(round.dot(round).sqrt() * (1.0 / radius));
+                let up = F::<S>::splat(simd, 1.0).copysign(h);
+                let k = F::<S>::splat(simd, 1.0 / radius);
+                V3::select(cap, V3::splat(simd, axis) * Lane(up), round * Lane(k))
+            }
+        }
+    }
+}
+
+/// Where a line is between `-half` and `half` on one axis. Directions too small to divide by are nudged: 0 * inf never forms.
+#[inline(always)]
+fn slab<S: Simd>(simd: S, o: F<S>, d: F<S>, half: f32) -> (F<S>, F<S>) {
+    let d = d.abs().max(F::<S>::splat(simd, 1e-20)).copysign(d);
+    let (a, b) = ((-o - half) / d, (-o + half) / d);
+    (a.min(b), a.max(b))
+}
+
+/// A vector a lane, through one matrix.
+#[inline(always)]
+fn turned<S: Simd>(m: Mat3, v: V3<S>) -> V3<S> {
+    V3 { x: v.dot1(m.row(0)), y: v.dot1(m.row(1)), z: v.dot1(m.row(2)) }
+}

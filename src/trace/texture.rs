@@ -1,0 +1,203 @@
+//! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
+
+use super::lanes::{F, V3};
+use crate::math;
+use crate::noise::{self, BLOCK};
+use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
+use glam::{Mat3, Vec3};
+
+/// The scalar field, about 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pattern {
+    /// 0 everywhere.
+    Plain,
+    /// 0 and 1 in turn, in unit squares of x and z.
+    Checker,
+    /// 1/2 + 1/2 fbm.
+    Clouds {
+        /// Octaves of noise.
+        octaves: u32,
+    },
+    /// Turbulence: the sum of octaves of |noise|.
+    Turbulence {
+        /// Octaves of noise.
+        octaves: u32,
+    },
+    /// 1/2 + 1/2 sin(x + warp fbm(p / scale)): layers along x, folded.
+    Marble {
+        /// Radians that the noise moves the layers.
+        warp: f32,
+        /// Length of the lowest octave, in radians of x.
+        scale: f32,
+        /// Octaves of noise.
+        octaves: u32,
+    },
+    /// Year rings around the y axis, one a unit, bent by noise.
+    Wood {
+        /// Rings that the noise moves them.
+        warp: f32,
+        /// Octaves of noise.
+        octaves: u32,
+    },
+}
+
+/// From the field to a colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Palette {
+    /// From the first colour at 0 to the second at 1, not clamped.
+    Mix(Vec3, Vec3),
+    /// Four colours at 0, 1/3, 2/3 and 1, clamped at the ends.
+    Ramp([Vec3; 4]),
+}
+
+/// A solid texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Texture {
+    /// The field.
+    pub pattern: Pattern,
+    /// Its colours.
+    pub palette: Palette,
+    /// World to texture: a point p is looked up at `turn * (p - origin)`. Scales, and ties the texture to an object.
+    pub turn: Mat3,
+    /// Where the texture's origin lies in the world.
+    pub origin: Vec3,
+}
+
+impl Texture {
+    /// One colour.
+    pub const fn plain(color: Vec3) -> Texture {
+        Texture::new(Pattern::Plain, Palette::Mix(color, color), 1.0)
+    }
+
+    /// A pattern in world space, `scale` units of texture a metre.
+    pub const fn new(pattern: Pattern, palette: Palette, scale: f32) -> Texture {
+        let turn = Mat3::from_cols(
+            Vec3::new(scale, 0.0, 0.0),
+            Vec3::new(0.0, scale, 0.0),
+            Vec3::new(0.0, 0.0, scale),
+        );
+        Texture { pattern, palette, turn, origin: Vec3::ZERO }
+    }
+
+    /// The same texture, tied to an object at `origin` that is turned by `turn` (world to object).
+    pub fn on(self, origin: Vec3, turn: Mat3) -> Texture {
+        Texture { turn: self.turn * turn, origin, ..self }
+    }
+
+    /// The colour of a texture that is the same everywhere.
+    pub fn constant(&self) -> Option<Vec3> {
+        match (self.pattern, self.palette) {
+            (Pattern::Plain, Palette::Mix(color, _)) => Some(color),
+            (Pattern::Plain, Palette::Ramp(colors)) => Some(colors[0]),
+            _ => None,
+        }
+    }
+
+    /// How fast the colour changes, typically: linear light a metre. For the error of a displaced lookup.
+    pub fn roughness(&self) -> f32 {
+        // The gradient of fbm with n octaves is about n/2 times that of noise, whose typical size is 1.
+        let field = match self.pattern {
+            Pattern::Plain => 0.0,
+            Pattern::Checker => 1.0,
+            Pattern::Clouds { octaves } => 0.25 * octaves as f32,
+            Pattern::Turbulence { octaves } => 0.5 * octaves as f32,
+            Pattern::Marble { warp, scale, octaves } => 0.5 + 0.25 * warp * octaves as f32 / scale,
+            Pattern::Wood { warp, octaves } => 1.0 + 0.5 * warp * octaves as f32,
+        };
+        let contrast = match self.palette {
+            Palette::Mix(a, b) => (b - a).abs().max_element(),
+            Palette::Ramp(c) => (0..3).map(|i| (c[i + 1] - c[i]).abs().max_element() * 3.0).fold(0.0, f32::max),
+        };
+        field * contrast * self.turn.x_axis.length().max(self.turn.y_axis.length())
+    }
+
+    /// The colour at a point: the truth that [`shade`] is tested against.
+    pub fn color(&self, p: Vec3) -> Vec3 {
+        let p = self.turn * (p - self.origin);
+        let s = match self.pattern {
+            Pattern::Plain => 0.0,
+            Pattern::Checker => (p.x.floor() + p.z.floor()).rem_euclid(2.0),
+            Pattern::Clouds { octaves } => 0.5 + 0.5 * noise::fbm(p, octaves),
+            Pattern::Turbulence { octaves } => noise::turbulence(p, octaves),
+            Pattern::Marble { warp, scale, octaves } => {
+                0.5 + 0.5 * (p.x + warp * noise::fbm(p * (1.0 / scale), octaves)).sin()
+            }
+            Pattern::Wood { warp, octaves } => {
+                let ring = (p.x * p.x + p.z * p.z).sqrt() + warp * noise::fbm(p, octaves);
+                ring - ring.floor()
+            }
+        };
+        match self.palette {
+            Palette::Mix(a, b) => a + (b - a) * s,
+            Palette::Ramp(c) => (0..3).fold(c[0], |sum, i| sum + (c[i + 1] - c[i]) * (3.0 * s - i as f32).clamp(0.0, 1.0)),
+        }
+    }
+}
+
+/// x, y and z (or red, green and blue) of [`BLOCK`] points.
+pub type Block3 = [[f32; BLOCK]; 3];
+
+/// The colours of a block of points: [`Texture::color`], [`BLOCK`] at a time.
+#[simd]
+pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, out: &mut Block3) {
+    let mut local = [[0.0; BLOCK]; 3];
+    let pre = match texture.pattern {
+        Pattern::Marble { scale, .. } => 1.0 / scale,
+        _ => 1.0,
+    };
+    for i in (0..BLOCK).step_by(F::<S>::LEN) {
+        let p = load3(simd, points, i).sub1(texture.origin);
+        for (axis, out) in local.iter_mut().enumerate() {
+            (p.dot1(texture.turn.row(axis)) * pre).store_slice(&mut out[i..i + F::<S>::LEN]);
+        }
+    }
+    let mut field = [0.0; BLOCK];
+    let [x, y, z] = &local;
+    match texture.pattern {
+        Pattern::Plain | Pattern::Checker => (),
+        Pattern::Turbulence { octaves } => noise::turbulence_block(simd, x, y, z, octaves, &mut field),
+        Pattern::Clouds { octaves } | Pattern::Marble { octaves, .. } | Pattern::Wood { octaves, .. } => {
+            noise::fbm_block(simd, x, y, z, octaves, &mut field)
+        }
+    }
+    for i in (0..BLOCK).step_by(F::<S>::LEN) {
+        let p = load3(simd, &local, i);
+        let n = F::<S>::from_slice(simd, &field[i..i + F::<S>::LEN]);
+        let s = match texture.pattern {
+            Pattern::Plain | Pattern::Turbulence { .. } => n,
+            Pattern::Checker => {
+                let half = (p.x.floor() + p.z.floor()) * 0.5;
+                (half - half.floor()) * 2.0
+            }
+            Pattern::Clouds { .. } => n * 0.5 + 0.5,
+            Pattern::Marble { warp, scale, .. } => math::sin(simd, p.x * scale + n * warp) * 0.5 + 0.5,
+            Pattern::Wood { warp, .. } => {
+                let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
+                ring - ring.floor()
+            }
+        };
+        for (channel, out) in out.iter_mut().enumerate() {
+            let color = match &texture.palette {
+                Palette::Mix(a, b) => s * (b[channel] - a[channel]) + a[channel],
+                Palette::Ramp(c) => {
+                    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+                    let mut sum = F::<S>::splat(simd, c[0][channel]);
+                    for k in 0..3 {
+                        let step = (s * 3.0 - k as f32).max(zero).min(one);
+                        sum = sum + step * (c[k + 1][channel] - c[k][channel]);
+                    }
+                    sum
+                }
+            };
+            color.store_slice(&mut out[i..i + F::<S>::LEN]);
+        }
+    }
+}
+
+/// Lanes `i..` of a block.
+#[inline(always)]
+fn load3<S: Simd>(simd: S, block: &Block3, i: usize) -> V3<S> {
+    let lane = |axis: usize| F::<S>::from_slice(simd, &block[axis][i..i + F::<S>::LEN]);
+    V3 { x: lane(0), y: lane(1), z: lane(2) }
+}
