@@ -1,1 +1,0 @@
-//! Perlin's improved noise (2002).
