@@ -1,0 +1,89 @@
+//! Noises a second on one core, on the grid (i, j, k) 0.05 of 256 x 128 x 128 points.
+//!
+//! `cargo bench --bench noise`. Every level must give the scalar sum bit for bit.
+
+#![allow(missing_docs)] // criterion_group! makes an undocumented function.
+
+use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
+use fearless_simd::{Level, Simd, dispatch};
+use glam::Vec3;
+use paprsek::noise::{BLOCK, fbm, fbm_block, noise, noise_block};
+use std::time::Instant;
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+const SIZE: [usize; 3] = [256, 128, 128];
+const STEP: f32 = 0.05;
+
+/// The grid in blocks along x: `evaluate` is given the coordinates and answers with noises, which are hashed.
+#[inline(always)]
+fn grid<S: Simd>(_simd: S, planes: usize, evaluate: impl Fn(&[[f32; BLOCK]; 3], &mut [f32; BLOCK])) -> u32 {
+    let mut out = [0.0; BLOCK];
+    let mut sum = [0u32; BLOCK];
+    for k in 0..planes {
+        for j in 0..SIZE[1] {
+            for i in (0..SIZE[0]).step_by(BLOCK) {
+                let x = core::array::from_fn(
+                    #[inline(always)]
+                    |l| (i + l) as f32 * STEP,
+                );
+                let p = [x, [j as f32 * STEP; BLOCK], [k as f32 * STEP; BLOCK]];
+                evaluate(&p, &mut out);
+                for (sum, out) in sum.iter_mut().zip(&out) {
+                    *sum = sum.wrapping_add(out.to_bits());
+                }
+            }
+        }
+    }
+    sum.iter().fold(0, |a, b| a.wrapping_add(*b))
+}
+
+fn wide(level: Level, planes: usize, octaves: Option<u32>) -> u32 {
+    dispatch!(level, simd => grid(simd, planes, #[inline(always)] |[x, y, z], out| match octaves {
+        None => noise_block(simd, x, y, z, out),
+        Some(octaves) => fbm_block(simd, x, y, z, octaves, out),
+    }))
+}
+
+fn scalar(planes: usize, octaves: Option<u32>) -> u32 {
+    let mut sum = 0u32;
+    for k in 0..planes {
+        for j in 0..SIZE[1] {
+            for i in 0..SIZE[0] {
+                let p = Vec3::new(i as f32, j as f32, k as f32) * STEP;
+                sum = sum.wrapping_add(octaves.map_or_else(|| noise(p), |n| fbm(p, n)).to_bits());
+            }
+        }
+    }
+    sum
+}
+
+/// Prints the best of seven in million evaluations a second.
+fn report(name: &str, points: usize, mut run: impl FnMut() -> u32) {
+    let best = (0..7).map(|_| {
+        let start = Instant::now();
+        black_box(run());
+        start.elapsed().as_secs_f64()
+    });
+    println!("{name:24} {:8.1} Meval/s", points as f64 * 1e-6 / best.fold(f64::MAX, f64::min));
+}
+
+fn bench(c: &mut Criterion) {
+    for (name, planes, octaves) in [("noise", SIZE[2], None), ("fbm4", SIZE[2] / 4, Some(4))] {
+        let points = SIZE[0] * SIZE[1] * planes;
+        let expected = scalar(planes, octaves);
+        let mut group = c.benchmark_group(name);
+        group.throughput(Throughput::Elements(points as u64)).sample_size(10);
+        report(&format!("{name} scalar"), points, || scalar(planes, octaves));
+        group.bench_function("scalar", |b| b.iter(|| scalar(planes, octaves)));
+        for (level_name, level) in common::levels() {
+            assert_eq!(wide(level, planes, octaves), expected, "{name} {level_name}");
+            report(&format!("{name} {level_name}"), points, || wide(level, planes, octaves));
+            group.bench_function(level_name, |b| b.iter(|| wide(level, planes, octaves)));
+        }
+    }
+}
+
+criterion_group!(benches, bench);
+criterion_main!(benches);

@@ -1,0 +1,123 @@
+//! 64 noises at once with AVX-512: hashing is on bytes, whose arithmetic wraps just as Perlin's `& 255` does.
+//!
+//! A table of 256 bytes is four registers and a lookup for all 64 points two permutations (`vpermi2b`) and a blend.
+//! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
+
+use super::wide::{BLOCK, fade, lerp};
+use core::arch::x86_64::*;
+use fearless_simd::{Avx512, f32x16, prelude::*, u8x64, u32x16};
+
+/// Low four bits: the low four of the permutation at the index; high four: those of the entry after it.
+///
+/// One lookup gives the gradients of a corner and of the one above it.
+static GRADIENT_PAIRS: [u8; 256] = {
+    let mut pairs = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        pairs[i] = super::PERMUTATION[i] & 15 | super::PERMUTATION[(i + 1) & 255] << 4;
+        i += 1;
+    }
+    pairs
+};
+
+/// Components of the 16 gradients; their products with an offset are exact, so a fused add rounds just once, as
+/// Perlin's sum of two does.
+static GRADIENTS: [[f32; 16]; 3] = [
+    [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0],
+    [1.0, 1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0],
+    [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 0.0, 1.0, 0.0, -1.0],
+];
+
+type Floats = f32x16<Avx512>;
+
+fearless_simd::kernel!(
+    /// `table[index]` for 64 bytes.
+    #[inline]
+    fn lookup(simd: Avx512, table: [u8x64<Avx512>; 4], index: u8x64<Avx512>) -> u8x64<Avx512> {
+        let low = _mm512_permutex2var_epi8(table[0].into(), index.into(), table[1].into());
+        let high = _mm512_permutex2var_epi8(table[2].into(), index.into(), table[3].into());
+        _mm512_mask_blend_epi8(_mm512_movepi8_mask(index.into()), low, high).simd_into(simd)
+    }
+);
+
+fearless_simd::kernel!(
+    /// `table[index & 15]`.
+    #[inline]
+    fn component(simd: Avx512, table: f32x16<Avx512>, index: u32x16<Avx512>) -> f32x16<Avx512> {
+        _mm512_permutexvar_ps(index.into(), table.into()).simd_into(simd)
+    }
+);
+
+/// A table of 256 bytes in registers.
+#[inline(always)]
+fn load_table(simd: Avx512, table: &[u8; 256]) -> [u8x64<Avx512>; 4] {
+    [0, 64, 128, 192].map(
+        #[inline(always)]
+        |i| u8x64::from_slice(simd, &table[i..i + 64]),
+    )
+}
+
+/// 16 coordinates of group `g`.
+#[inline(always)]
+fn load(simd: Avx512, x: &[f32; BLOCK], g: usize) -> Floats {
+    f32x16::from_slice(simd, &x[16 * g..16 * g + 16])
+}
+
+/// The cells of 64 coordinates modulo 256, in the order of bytes above.
+#[inline(always)]
+fn cells(simd: Avx512, x: &[f32; BLOCK]) -> u8x64<Avx512> {
+    // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
+    let cell = [0, 1, 2, 3].map(
+        #[inline(always)]
+        |g| load(simd, x, g).floor().to_int::<fearless_simd::i32x16<_>>().bitcast::<u32x16<_>>(),
+    );
+    let low = (cell[0] & 0xff) | ((cell[1] & 0xff) << 8);
+    (low | ((cell[2] & 0xff) << 16) | (cell[3] << 24)).bitcast()
+}
+
+/// The product of a gradient and the offset (x, y, z).
+#[inline(always)]
+fn gradient(simd: Avx512, tables: &[Floats; 3], hash: u32x16<Avx512>, x: Floats, y: Floats, z: Floats) -> Floats {
+    let z = component(simd, tables[2], hash) * z;
+    component(simd, tables[0], hash).mul_add(x, component(simd, tables[1], hash).mul_add(y, z))
+}
+
+/// Perlin's noise at 64 points.
+#[inline(always)]
+pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], out: &mut [f32; BLOCK]) {
+    let table = load_table(simd, &super::PERMUTATION);
+    let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
+    let a = lookup(simd, table, ix) + iy;
+    let b = lookup(simd, table, ix + 1) + iy;
+    let (aa, ab) = (lookup(simd, table, a) + iz, lookup(simd, table, a + 1) + iz);
+    let (ba, bb) = (lookup(simd, table, b) + iz, lookup(simd, table, b + 1) + iz);
+
+    let pairs = load_table(simd, &GRADIENT_PAIRS);
+    let mut hashes: [u32x16<Avx512>; 4] = [aa, ba, ab, bb].map(
+        #[inline(always)]
+        |h| lookup(simd, pairs, h).bitcast(),
+    );
+    let tables = GRADIENTS.map(
+        #[inline(always)]
+        |g| f32x16::load_array(simd, g),
+    );
+
+    for g in 0..4 {
+        let (x, y, z) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
+        let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
+        let (u, v, w) = (fade(x), fade(y), fade(z));
+        let (x1, y1) = (x - 1.0, y - 1.0);
+        let [aa, ba, ab, bb] = hashes;
+        let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
+        let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
+        let bottom = lerp(v, near, far);
+
+        let z = z - 1.0;
+        let [aa, ba, ab, bb] = [aa >> 4, ba >> 4, ab >> 4, bb >> 4];
+        let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
+        let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
+        let top = lerp(v, near, far);
+        (lerp(w, bottom, top) + 0.0).store_slice(&mut out[16 * g..16 * g + 16]);
+        hashes = [aa >> 4, ba >> 4, ab >> 4, bb >> 4];
+    }
+}

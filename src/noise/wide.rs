@@ -1,0 +1,266 @@
+//! Noise for 64 points at once, the same bits as the scalar truth at every SIMD level.
+
+use super::PERMUTATION;
+#[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Avx2, f32x8, u32x8};
+use fearless_simd::{Level, Simd, prelude::*};
+use fearless_simd_macros::simd;
+
+/// Points of a block: the bytes of one AVX-512 register.
+pub const BLOCK: usize = 64;
+
+/// The permutation and its first entry again, so that an entry and the next are one load of 16 bits.
+static HASHES: [u8; 257] = cyclic(PERMUTATION);
+
+/// The gradient of each hash: components of -1, 0 or 1 as signed fields of two bits, x lowest; repeated like [`HASHES`].
+static GRADIENTS: [u8; 257] = {
+    // x, y and z of 1 are 1, 4 and 16, of -1 3, 12 and 48; in the order of Perlin's `h & 15`.
+    const CODES: [u8; 16] =
+        [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
+    let mut codes = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        codes[i] = CODES[PERMUTATION[i] as usize & 15];
+        i += 1;
+    }
+    cyclic(codes)
+};
+
+/// A table followed by its first entry.
+const fn cyclic(table: [u8; 256]) -> [u8; 257] {
+    let mut longer = [table[0]; 257];
+    let mut i = 0;
+    while i < 256 {
+        longer[i] = table[i];
+        i += 1;
+    }
+    longer
+}
+
+/// Entries `i` and `i + 1` of a table, the latter in the high byte.
+#[inline(always)]
+fn pair(table: &[u8; 257], i: u8) -> u16 {
+    u16::from_le_bytes([table[i as usize], table[i as usize + 1]])
+}
+
+/// [`super::fade`], wide.
+#[inline(always)]
+pub(super) fn fade<S: Simd, F: SimdFloat<S, Element = f32>>(t: F) -> F {
+    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+/// [`super::lerp`], wide.
+#[inline(always)]
+pub(super) fn lerp<S: Simd, F: SimdFloat<S, Element = f32>>(t: F, a: F, b: F) -> F {
+    a + t * (b - a)
+}
+
+/// Perlin's improved noise at 64 points: the bits of [`super::noise`].
+#[simd]
+pub fn noise_block<S: Simd>(simd: S, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], out: &mut [f32; BLOCK]) {
+    match simd.level() {
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(simd) => super::avx512::noise64(simd, x, y, z, out),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(avx2) => noise64(
+            avx2,
+            x,
+            y,
+            z,
+            out,
+            #[inline(always)]
+            |codes| component_avx2(avx2, codes),
+        ),
+        _ => noise64(
+            simd,
+            x,
+            y,
+            z,
+            out,
+            #[inline(always)]
+            |codes| ((codes << 30).bitcast::<S::i32s>() >> 30).to_float(),
+        ),
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fearless_simd::kernel!(
+    /// The low two bits of each lane, signed, as a float.
+    #[inline]
+    fn component_avx2(simd: Avx2, codes: u32x8<Avx2>) -> f32x8<Avx2> {
+        let values = _mm256_setr_ps(0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0);
+        _mm256_permutevar_ps(values, codes.into()).simd_into(simd)
+    }
+);
+
+/// Noise for 64 points: cells and hashes one point at a time, all else wide.
+///
+/// `component` gives the float of the signed field in the low two bits of each lane. Gathers would not be faster than
+/// loads of pairs, and byte shuffles of a table of 256 only are from AVX-512 on.
+#[inline(always)]
+fn noise64<S: Simd>(
+    simd: S,
+    x: &[f32; BLOCK],
+    y: &[f32; BLOCK],
+    z: &[f32; BLOCK],
+    out: &mut [f32; BLOCK],
+    component: impl Fn(S::u32s) -> S::f32s,
+) {
+    let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
+    let mut codes = [[0u32; BLOCK]; 4];
+    for i in 0..BLOCK {
+        let [a, b] = pair(&HASHES, ix[i] as u8).to_le_bytes();
+        let [aa, ab] = pair(&HASHES, a.wrapping_add(iy[i] as u8)).to_le_bytes();
+        let [ba, bb] = pair(&HASHES, b.wrapping_add(iy[i] as u8)).to_le_bytes();
+        for (codes, hash) in codes.iter_mut().zip([aa, ba, ab, bb]) {
+            codes[i] = pair(&GRADIENTS, hash.wrapping_add(iz[i] as u8)) as u32;
+        }
+    }
+
+    for i in (0..BLOCK).step_by(S::f32s::LEN) {
+        let lanes = i..i + S::f32s::LEN;
+        let codes = codes.each_ref().map(
+            #[inline(always)]
+            |codes| S::u32s::from_slice(simd, &codes[lanes.clone()]),
+        );
+        let [x, y, z] = [x, y, z].map(
+            #[inline(always)]
+            |x| {
+                let x = S::f32s::from_slice(simd, &x[lanes.clone()]);
+                x - x.floor()
+            },
+        );
+        let w = fade(z);
+        let planes = [(0, z), (8, z - 1.0)].map(
+            #[inline(always)]
+            |(shift, z)| {
+                let face = codes.map(
+                    #[inline(always)]
+                    |code| code >> shift,
+                );
+                plane(face, x, y, z, &component)
+            },
+        );
+        (lerp(w, planes[0], planes[1]) + 0.0).store_slice(&mut out[lanes]);
+    }
+}
+
+/// Noise of the four corners of one face of a cell, at the offset (x, y, z) from the first.
+#[inline(always)]
+fn plane<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
+    [aa, ba, ab, bb]: [C; 4],
+    x: F,
+    y: F,
+    z: F,
+    component: &impl Fn(C) -> F,
+) -> F {
+    let (u, v) = (fade(x), fade(y));
+    let (x1, y1) = (x - 1.0, y - 1.0);
+    let near = lerp(u, gradient(aa, x, y, z, component), gradient(ba, x1, y, z, component));
+    let far = lerp(u, gradient(ab, x, y1, z, component), gradient(bb, x1, y1, z, component));
+    lerp(v, near, far)
+}
+
+/// The product of a gradient and an offset: one of the three products is zero, so this is Perlin's sum of two.
+#[inline(always)]
+fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
+    code: C,
+    x: F,
+    y: F,
+    z: F,
+    component: &impl Fn(C) -> F,
+) -> F {
+    component(code) * x + (component(code >> 2) * y + component(code >> 4) * z)
+}
+
+/// The cells of coordinates, of which only the low byte is right for every float.
+#[inline(always)]
+fn cells<S: Simd>(simd: S, x: &[f32; BLOCK]) -> [i32; BLOCK] {
+    let mut cells = [0; BLOCK];
+    // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
+    // Others saturate.
+    let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
+    for i in (0..BLOCK).step_by(S::f32s::LEN) {
+        let lanes = i..i + S::f32s::LEN;
+        let mut cell = S::f32s::from_slice(simd, &x[lanes.clone()]).floor();
+        if saturates {
+            cell = cell - (cell * (1.0 / 256.0)).floor() * 256.0;
+        }
+        cell.to_int::<S::i32s>().store_slice(&mut cells[lanes]);
+    }
+    cells
+}
+
+/// [`super::fbm`] at 64 points, the same bits.
+#[simd]
+pub fn fbm_block<S: Simd>(
+    simd: S,
+    x: &[f32; BLOCK],
+    y: &[f32; BLOCK],
+    z: &[f32; BLOCK],
+    octaves: u32,
+    out: &mut [f32; BLOCK],
+) {
+    sum_octaves(
+        simd,
+        [x, y, z],
+        octaves,
+        out,
+        #[inline(always)]
+        |n| n,
+    )
+}
+
+/// [`super::turbulence`] at 64 points, the same bits.
+#[simd]
+pub fn turbulence_block<S: Simd>(
+    simd: S,
+    x: &[f32; BLOCK],
+    y: &[f32; BLOCK],
+    z: &[f32; BLOCK],
+    octaves: u32,
+    out: &mut [f32; BLOCK],
+) {
+    sum_octaves(
+        simd,
+        [x, y, z],
+        octaves,
+        out,
+        #[inline(always)]
+        |n| n.abs(),
+    )
+}
+
+/// The sum over `octaves` of `shape(noise)`, in the order of the scalar truth.
+#[inline(always)]
+fn sum_octaves<S: Simd>(
+    simd: S,
+    p: [&[f32; BLOCK]; 3],
+    octaves: u32,
+    out: &mut [f32; BLOCK],
+    shape: impl Fn(S::f32s) -> S::f32s,
+) {
+    let mut p = p.map(
+        #[inline(always)]
+        |x| *x,
+    );
+    let mut octave = [0.0; BLOCK];
+    let mut amplitude = 0.5;
+    *out = [0.0; BLOCK];
+    for _ in 0..octaves {
+        noise_block(simd, &p[0], &p[1], &p[2], &mut octave);
+        for i in (0..BLOCK).step_by(S::f32s::LEN) {
+            let lanes = i..i + S::f32s::LEN;
+            let noise = shape(S::f32s::from_slice(simd, &octave[lanes.clone()]));
+            let sum = S::f32s::from_slice(simd, &out[lanes.clone()]) + noise * amplitude;
+            sum.store_slice(&mut out[lanes.clone()]);
+            for x in &mut p {
+                let doubled = S::f32s::from_slice(simd, &x[lanes.clone()]) * 2.0;
+                doubled.store_slice(&mut x[lanes.clone()]);
+            }
+        }
+        amplitude *= 0.5;
+    }
+}
