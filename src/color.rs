@@ -11,7 +11,17 @@ pub enum Transfer {
 use fearless_simd::prelude::*;
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub fn encode<S: Simd>(_: S, t: Transfer, _x: u32, _y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
-    let e = |c: f32| { let _ = t; (c.clamp(0.0, 1.0).powf(1.0/2.2) * 255.0).round() as u32 };
-    for (i, o) in out.iter_mut().enumerate() { *o = e(r[i]) << 16 | e(g[i]) << 8 | e(b[i]); }
+pub fn encode<S: Simd>(simd: S, _t: Transfer, _x: u32, _y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
+    let n = S::f32s::LEN;
+    let mut i = 0;
+    while i + n <= out.len() {
+        let v = (enc(simd, S::f32s::from_slice(simd, &r[i..i + n])) << 16) | (enc(simd, S::f32s::from_slice(simd, &g[i..i + n])) << 8) | enc(simd, S::f32s::from_slice(simd, &b[i..i + n]));
+        v.store_slice(&mut out[i..i + n]);
+        i += n;
+    }
+}
+#[inline(always)]
+fn enc<S: Simd>(simd: S, c: S::f32s) -> S::u32s {
+    let c = c.max(S::f32s::splat(simd, 0.0)).min(S::f32s::splat(simd, 1.0));
+    (crate::math::powf(simd, c, S::f32s::splat(simd, 1.0 / 2.2)) * 255.0 + 0.5).to_int()
 }

@@ -16,7 +16,7 @@
 use super::deferred::Deferred;
 use super::guard::Guard;
 use super::lanes::F;
-use super::packet::{self, Limits, REMEMBERED, Sample, Textured, View};
+use super::packet::{self, HIT, Limits, NUMBERS, PLAIN, Sample, View};
 use super::world::World;
 use crate::noise::BLOCK;
 use crate::quality::Quality;
@@ -151,15 +151,13 @@ fn resolve<S: Simd>(
     sample: &Sample,
     share: f32,
 ) {
-    tile.red[pixel] += sample.light[0] * share;
-    tile.green[pixel] += sample.light[1] * share;
-    tile.blue[pixel] += sample.light[2] * share;
-    tile.closeness[pixel] = tile.closeness[pixel].max(sample.closeness);
-    tile.coverage[pixel] += if sample.closeness > 0.0 { share } else { 0.0 };
-    for hit in &sample.textured[..sample.count as usize] {
-        let gain = hit.gain.map(|g| g * share);
-        deferred.push(simd, job.world, tile, pixel as u16, &Textured { gain, ..*hit });
-    }
+    let [red, green, blue, closeness, ..] = sample.numbers;
+    tile.red[pixel] += red * share;
+    tile.green[pixel] += green * share;
+    tile.blue[pixel] += blue * share;
+    tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
+    tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
+    deferred.push(simd, job.world, tile, pixel as u16, sample, share);
 }
 
 /// Cuts the tile into squares, from the coarsest to the finest.
@@ -175,6 +173,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
         }
     }
     tile.clear();
+    let end = ((tile.width * unit) as u16, (tile.height * unit) as u16);
     let mut size = coarsest;
     while !scratch.cells.is_empty() {
         let cells = std::mem::take(&mut scratch.cells);
@@ -198,35 +197,31 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
             if size < unit {
                 // Inside of a pixel: the weights are found when all of its parts are there.
                 if size > 1 && !same_chain(scratch.corners(cx, cy, size)) {
-                    split(&mut scratch.parts, x, y, half);
+                    split(&mut scratch.parts, x, y, half, end);
                 }
                 continue;
             }
             if size == 1 {
                 let Scratch { samples, deferred, lattice, .. } = scratch;
                 let sample = &samples[lattice[cy * LATTICE + cx].1 as usize];
-                if cx < tile.width && cy < tile.height {
-                    resolve(simd, job, tile, deferred, cy * Tile::SIZE + cx, sample, 1.0);
-                }
+                resolve(simd, job, tile, deferred, cy * Tile::SIZE + cx, sample, 1.0);
                 continue;
             }
             let finest = job.guard.finest(tile.x + cx / unit, tile.y + cy / unit);
             let agree = size <= finest * unit
-                && agree(job, scratch.corners(cx, cy, size), scratch.at(cx + half, cy + half));
+                && agree(simd, job, scratch.corners(cx, cy, size), scratch.at(cx + half, cy + half));
             if !agree && size == unit {
                 scratch.edges.push((x, y));
-                split(&mut scratch.parts, x, y, half);
+                split(&mut scratch.parts, x, y, half, end);
             } else if !agree {
-                split(&mut scratch.parts, x, y, half);
-                // Parts of a square on the tile's edge may lie outside of the picture.
-                let (w, h) = ((tile.width * unit) as u16, (tile.height * unit) as u16);
-                scratch.parts.retain(|&(x, y)| x < w && y < h);
+                split(&mut scratch.parts, x, y, half, end);
             } else if size == unit {
                 let Scratch { samples, deferred, lattice, .. } = scratch;
                 let centre = &samples[lattice[(cy + half) * LATTICE + cx + half].1 as usize];
                 resolve(simd, job, tile, deferred, cy / unit * Tile::SIZE + cx / unit, centre, 1.0);
             } else {
-                let corners = scratch.corners(cx, cy, size).map(|s| *s);
+                let [a, b, c, d] = scratch.corners(cx, cy, size);
+                let corners = [*a, *b, *c, *d];
                 let offset = if unit == 1 { 0.0 } else { 0.5 };
                 interpolate(simd, job, tile, &mut scratch.deferred, &corners, cx / unit, cy / unit, size / unit, offset);
             }
@@ -240,29 +235,32 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
         }
     }
     let edges = std::mem::take(&mut scratch.edges);
+    let mut groups = Groups::default();
     for &(x, y) in &edges {
-        let mut groups = Groups::default();
+        groups.count = 0;
         weigh(scratch, x as usize, y as usize, unit, 1.0, &mut groups);
         let pixel = y as usize / unit * Tile::SIZE + x as usize / unit;
         for group in &groups.list[..groups.count] {
-            let k = 1.0 / group.weight;
             let mut mean = group.sum;
-            for hit in &mut mean.textured[..mean.count as usize] {
-                hit.point = hit.point.map(|p| p * k);
-                hit.gain = hit.gain.map(|g| g * k);
+            let k = 1.0 / group.weight;
+            for number in &mut mean.numbers {
+                *number *= k;
             }
-            mean.light = mean.light.map(|l| l * k);
-            mean.closeness *= k;
             resolve(simd, job, tile, &mut scratch.deferred, pixel, &mean, group.weight);
         }
     }
     scratch.edges = edges;
 }
 
-/// The four parts of a square.
-fn split(parts: &mut Vec<(u16, u16)>, x: u16, y: u16, half: usize) {
-    let half = half as u16;
-    parts.extend([(x, y), (x + half, y), (x, y + half), (x + half, y + half)]);
+/// The four parts of a square, without those that lie beyond the picture's end.
+#[inline(always)]
+fn split(parts: &mut Vec<(u16, u16)>, x: u16, y: u16, half: usize, end: (u16, u16)) {
+    let (right, below) = (x + half as u16, y + half as u16);
+    for (x, y) in [(x, y), (right, y), (x, below), (right, below)] {
+        if x < end.0 && y < end.1 {
+            parts.push((x, y));
+        }
+    }
 }
 
 /// Do the corners have one chain?
@@ -273,35 +271,40 @@ fn same_chain(c: [&Sample; 4]) -> bool {
 
 /// May a square be interpolated?
 #[inline(always)]
-fn agree(job: &Job, c: [&Sample; 4], centre: &Sample) -> bool {
+fn agree<S: Simd>(simd: S, job: &Job, c: [&Sample; 4], centre: &Sample) -> bool {
     if !same_chain(c) || c[0].chain != centre.chain {
         return false;
     }
-    let mean = |f: &dyn Fn(&Sample) -> f32| 0.25 * (f(c[0]) + f(c[1]) + f(c[2]) + f(c[3]));
-    let mut error = 0.0f32;
-    let mut level = 0.0f32;
-    for k in 0..3 {
-        error = error.max((mean(&|s| s.light[k]) - centre.light[k]).abs());
-        level += centre.light[k];
+    // What the corners foretell of the centre.
+    let mut mean = [0.0; NUMBERS];
+    for i in (0..centre.used()).step_by(F::<S>::LEN) {
+        let range = i..i + F::<S>::LEN;
+        let sum = F::<S>::from_slice(simd, &c[0].numbers[range.clone()])
+            + F::<S>::from_slice(simd, &c[1].numbers[range.clone()])
+            + F::<S>::from_slice(simd, &c[2].numbers[range.clone()])
+            + F::<S>::from_slice(simd, &c[3].numbers[range.clone()]);
+        (sum * 0.25).store_slice(&mut mean[range]);
     }
-    for (n, hit) in centre.textured[..centre.count as usize].iter().enumerate() {
-        let mut gain_error = 0.0f32;
-        for k in 0..3 {
-            gain_error = gain_error.max((mean(&|s| s.textured[n].gain[k]) - hit.gain[k]).abs());
-            level += 0.5 * hit.gain[k];
-        }
-        let closeness = mean(&|s| s.textured[n].closeness);
-        let mut shift = 0.0;
-        for k in 0..3 {
-            let p = mean(&|s| s.textured[n].point[k] * s.textured[n].closeness) / closeness;
-            shift += (p - hit.point[k]) * (p - hit.point[k]);
-        }
-        let gain = hit.gain[0].max(hit.gain[1]).max(hit.gain[2]);
-        let roughness = job.world.objects[hit.object as usize].material.albedo.roughness();
-        error += gain_error + gain * roughness * shift.sqrt();
+    let [found, foretold] = [&centre.numbers, &mean];
+    let mut error = distance(&found[..3], &foretold[..3]);
+    let mut level = found[0] + found[1] + found[2];
+    for n in 0..centre.count as usize {
+        let at = PLAIN + HIT * n;
+        let (hit, guess) = (&found[at..at + HIT], &foretold[at..at + HIT]);
+        let (k, l) = (1.0 / hit[6], 1.0 / guess[6]);
+        let shift = distance(&[hit[3] * k, hit[4] * k, hit[5] * k], &[guess[3] * l, guess[4] * l, guess[5] * l]);
+        let roughness = job.world.objects[centre.object[n] as usize].material.albedo.roughness();
+        error += distance(&hit[..3], &guess[..3]) + hit[0].max(hit[1]).max(hit[2]) * roughness * shift;
+        level += 0.5 * (hit[0] + hit[1] + hit[2]);
     }
     // The eye sees differences on the encoded scale, whose slope falls about with the root of the light.
     error <= job.quality.threshold * (level * (1.0 / 3.0)).max(1.0 / 64.0).sqrt()
+}
+
+/// The largest difference of three components.
+#[inline(always)]
+fn distance(a: &[f32], b: &[f32]) -> f32 {
+    (a[0] - b[0]).abs().max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs())
 }
 
 /// Fills a square of `size` pixels from its corners.
@@ -321,73 +324,69 @@ fn interpolate<S: Simd>(
     let area = size * size;
     let shift = size.trailing_zeros();
     let step = 1.0 / size as f32;
-    let mut us = [0.0; 256];
-    let mut vs = [0.0; 256];
-    for i in 0..area {
-        us[i] = ((i & (size - 1)) as f32 + offset) * step;
-        vs[i] = ((i >> shift) as f32 + offset) * step;
-    }
+    let solid = corners[0].closeness() > 0.0;
+    // A block is as many whole rows as fit; lanes beyond the square are computed and not used.
     for start in (0..area).step_by(BLOCK) {
         let count = BLOCK.min(area - start);
-        let (us, vs) = (&us[start..start + BLOCK], &vs[start..start + BLOCK]);
+        let mut us = [0.0; BLOCK];
+        let mut vs = [0.0; BLOCK];
         let mut pixels = [0u16; BLOCK];
-        for (i, pixel) in pixels[..count].iter_mut().enumerate() {
-            let i = start + i;
-            *pixel = ((y + (i >> shift)) * Tile::SIZE + x + (i & (size - 1))) as u16;
+        for i in 0..count {
+            let (column, row) = ((start + i) & (size - 1), (start + i) >> shift);
+            us[i] = (column as f32 + offset) * step;
+            vs[i] = (row as f32 + offset) * step;
+            pixels[i] = ((y + row) * Tile::SIZE + x + column) as u16;
         }
-        let rows = size.min(count / size);
-        let mut block = [0.0; BLOCK];
-        let channel = |f: &dyn Fn(&Sample) -> f32| corners.each_ref().map(|c| f(c));
-        for k in 0..4 {
-            let values = if k < 3 { channel(&|s| s.light[k]) } else { channel(&|s| s.closeness) };
-            bilinear(simd, values, us, vs, count, &mut block);
-            let plane = match k {
-                0 => &mut tile.red,
-                1 => &mut tile.green,
-                2 => &mut tile.blue,
-                _ => &mut tile.closeness,
-            };
-            for row in 0..rows {
-                let at = pixels[row * size] as usize;
-                plane[at..at + size].copy_from_slice(&block[row * size..(row + 1) * size]);
-            }
+        let mut block = [[0.0; BLOCK]; HIT];
+        let rows = count >> shift;
+        for k in 0..PLAIN {
+            bilinear(simd, corners, k, &us, &vs, count, &mut block[k]);
         }
-        if corners[0].closeness > 0.0 {
-            for row in 0..rows {
-                let at = pixels[row * size] as usize;
-                tile.coverage[at..at + size].fill(1.0);
-            }
+        let [red, green, blue, closeness, ..] = &block;
+        for row in 0..rows {
+            let from = row * size..(row + 1) * size;
+            let to = pixels[from.start] as usize;
+            let to = to..to + size;
+            tile.red[to.clone()].copy_from_slice(&red[from.clone()]);
+            tile.green[to.clone()].copy_from_slice(&green[from.clone()]);
+            tile.blue[to.clone()].copy_from_slice(&blue[from.clone()]);
+            tile.closeness[to.clone()].copy_from_slice(&closeness[from]);
+            tile.coverage[to].fill(if solid { 1.0 } else { 0.0 });
         }
         for n in 0..corners[0].count as usize {
-            let mut gain = [[0.0; BLOCK]; 3];
-            let mut point = [[0.0; BLOCK]; 3];
-            let mut closeness = [0.0; BLOCK];
-            bilinear(simd, channel(&|s| s.textured[n].closeness), us, vs, count, &mut closeness);
-            for k in 0..3 {
-                bilinear(simd, channel(&|s| s.textured[n].gain[k]), us, vs, count, &mut gain[k]);
-                let scaled = channel(&|s| s.textured[n].point[k] * s.textured[n].closeness);
-                bilinear(simd, scaled, us, vs, count, &mut point[k]);
+            for k in 0..HIT {
+                bilinear(simd, corners, PLAIN + HIT * n + k, &us, &vs, count, &mut block[k]);
             }
             for i in (0..count).step_by(F::<S>::LEN) {
                 let range = i..i + F::<S>::LEN;
-                let k = F::<S>::splat(simd, 1.0) / F::<S>::from_slice(simd, &closeness[range.clone()]);
-                for p in &mut point {
-                    (F::<S>::from_slice(simd, &p[range.clone()]) * k).store_slice(&mut p[range.clone()]);
+                let k = F::<S>::splat(simd, 1.0) / F::<S>::from_slice(simd, &block[6][range.clone()]);
+                for axis in 3..6 {
+                    let point = &mut block[axis][range.clone()];
+                    (F::<S>::from_slice(simd, point) * k).store_slice(point);
                 }
             }
-            deferred.push_run(simd, job.world, tile, corners[0].textured[n].object, &pixels[..count], &gain, &point);
+            deferred.push_run(simd, job.world, tile, corners[0].object[n], &pixels[..count], &block);
         }
     }
 }
 
-/// Bilinear interpolation of one number at the first `count` places, rounded up to full lanes.
+/// Bilinear interpolation of number `k` at the first `count` places, rounded up to full lanes.
 #[inline(always)]
-fn bilinear<S: Simd>(simd: S, c: [f32; 4], us: &[f32], vs: &[f32], count: usize, out: &mut [f32; BLOCK]) {
-    let (du, dv, duv) = (c[1] - c[0], c[2] - c[0], c[3] - c[2] - c[1] + c[0]);
+fn bilinear<S: Simd>(
+    simd: S,
+    corners: &[Sample; 4],
+    k: usize,
+    us: &[f32; BLOCK],
+    vs: &[f32; BLOCK],
+    count: usize,
+    out: &mut [f32; BLOCK],
+) {
+    let [a, b, c, d] = [corners[0].numbers[k], corners[1].numbers[k], corners[2].numbers[k], corners[3].numbers[k]];
+    let (du, dv, duv) = (b - a, c - a, d - c - b + a);
     for i in (0..count).step_by(F::<S>::LEN) {
         let range = i..i + F::<S>::LEN;
         let (u, v) = (F::<S>::from_slice(simd, &us[range.clone()]), F::<S>::from_slice(simd, &vs[range.clone()]));
-        let value = u * (v * duv + du) + (v * dv + c[0]);
+        let value = u * (v * duv + du) + (v * dv + a);
         value.store_slice(&mut out[range]);
     }
 }
@@ -413,25 +412,18 @@ struct Group {
 impl Groups {
     /// Adds a sample to those of its chain.
     fn add(&mut self, sample: &Sample, weight: f32) {
-        let found = self.list[..self.count].iter().position(|g| g.sum.chain == sample.chain);
-        let at = found.unwrap_or(self.count);
-        if found.is_none() {
-            self.count += 1;
-            self.list[at].sum = Sample { chain: sample.chain, count: sample.count, ..Sample::default() };
+        let mut at = 0;
+        while at < self.count && self.list[at].sum.chain != sample.chain {
+            at += 1;
         }
         let group = &mut self.list[at];
-        group.weight += weight;
-        let sum = &mut group.sum;
-        for k in 0..3 {
-            sum.light[k] += sample.light[k] * weight;
+        if at == self.count {
+            self.count += 1;
+            *group = Group { weight: 0.0, sum: Sample { numbers: [0.0; NUMBERS], ..*sample } };
         }
-        sum.closeness += sample.closeness * weight;
-        for (sum, hit) in sum.textured.iter_mut().zip(&sample.textured[..sample.count as usize]) {
-            sum.object = hit.object;
-            for k in 0..3 {
-                sum.gain[k] += hit.gain[k] * weight;
-                sum.point[k] += hit.point[k] * weight;
-            }
+        group.weight += weight;
+        for k in 0..sample.used() {
+            group.sum.numbers[k] += sample.numbers[k] * weight;
         }
     }
 }
@@ -451,4 +443,5 @@ fn weigh(scratch: &Scratch, x: usize, y: usize, size: usize, weight: f32, groups
     }
 }
 
-const _: () = assert!(REMEMBERED > 0 && Tile::AREA <= 1 << 16);
+// Pixels of a tile are numbered in 16 bits, and the numbers of a sample come in full lanes of any width.
+const _: () = assert!(Tile::AREA <= 1 << 16 && NUMBERS % 16 == 0);

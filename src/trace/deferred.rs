@@ -4,7 +4,7 @@
 //! and noise always runs on full blocks, however broken the picture is.
 
 use super::lanes::F;
-use super::packet::Textured;
+use super::packet::{HIT, PLAIN, Sample};
 use super::texture::{self, Block3};
 use super::world::World;
 use crate::noise::BLOCK;
@@ -34,23 +34,28 @@ impl Deferred {
         self.queues.resize(objects, empty);
     }
 
-    /// Adds one hit of a pixel.
+    /// Adds `share` of the textured hits of one sample of a pixel.
     #[inline(always)]
-    pub fn push<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile, pixel: u16, hit: &Textured) {
-        let queue = &mut self.queues[hit.object as usize];
-        let at = queue.count;
-        queue.pixel[at] = pixel;
-        for axis in 0..3 {
-            queue.gain[axis][at] = hit.gain[axis];
-            queue.point[axis][at] = hit.point[axis];
-        }
-        queue.count += 1;
-        if queue.count == BLOCK {
-            flush(simd, world, queue, hit.object, tile);
+    pub fn push<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile, pixel: u16, sample: &Sample, share: f32) {
+        for n in 0..sample.count as usize {
+            let object = sample.object[n];
+            let hit = &sample.numbers[PLAIN + HIT * n..][..HIT];
+            let queue = &mut self.queues[object as usize];
+            let at = queue.count & (BLOCK - 1);
+            let k = 1.0 / hit[6];
+            queue.pixel[at] = pixel;
+            for axis in 0..3 {
+                queue.gain[axis][at] = hit[axis] * share;
+                queue.point[axis][at] = hit[3 + axis] * k;
+            }
+            queue.count += 1;
+            if queue.count == BLOCK {
+                flush(simd, world, queue, object, tile);
+            }
         }
     }
 
-    /// Adds a run of hits of one object; all slices are of the same length.
+    /// Adds a hit of one object for each of `pixels`: gain (3), point (3), and its closeness, which is not needed here.
     #[inline(always)]
     pub fn push_run<S: Simd>(
         &mut self,
@@ -59,8 +64,7 @@ impl Deferred {
         tile: &mut Tile,
         object: u32,
         pixels: &[u16],
-        gain: &Block3,
-        point: &Block3,
+        hits: &[[f32; BLOCK]; HIT],
     ) {
         let queue = &mut self.queues[object as usize];
         let mut done = 0;
@@ -68,8 +72,8 @@ impl Deferred {
             let (at, n) = (queue.count, (BLOCK - queue.count).min(pixels.len() - done));
             queue.pixel[at..at + n].copy_from_slice(&pixels[done..done + n]);
             for axis in 0..3 {
-                queue.gain[axis][at..at + n].copy_from_slice(&gain[axis][done..done + n]);
-                queue.point[axis][at..at + n].copy_from_slice(&point[axis][done..done + n]);
+                queue.gain[axis][at..at + n].copy_from_slice(&hits[axis][done..done + n]);
+                queue.point[axis][at..at + n].copy_from_slice(&hits[3 + axis][done..done + n]);
             }
             queue.count += n;
             done += n;

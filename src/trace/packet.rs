@@ -13,34 +13,48 @@ use fearless_simd_macros::simd;
 use glam::Vec3;
 
 /// Textured hits that a sample can remember; later ones (the deepest, of least weight) are looked up on the spot.
-pub const REMEMBERED: usize = 6;
+pub const REMEMBERED: usize = 4;
+/// Numbers of a sample before those of its textured hits.
+pub const PLAIN: usize = 4;
+/// Numbers of a textured hit.
+pub const HIT: usize = 7;
+/// Numbers of a sample.
+pub const NUMBERS: usize = PLAIN + HIT * REMEMBERED;
 
-/// A textured surface in a sample's chain: its colour at `point`, times `gain`, is part of the sample's light.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Textured {
-    /// Index of the object.
-    pub object: u32,
-    /// Light that reaches the eye from there for a white surface.
-    pub gain: [f32; 3],
-    /// Where it was hit, world space.
-    pub point: [f32; 3],
-    /// 1 / length of the path from the eye, measured in steps of the unnormalised eye ray: affine in screen space on planes.
-    pub closeness: f32,
-}
-
-/// What one eye ray saw.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What one eye ray saw: a chain to be compared, and numbers to be interpolated.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Hash of the whole chain: every object hit, by which path, and the state of every light there.
     pub chain: u32,
     /// Textured hits that count.
     pub count: u32,
-    /// Light that depends on no texture: highlights, plain surfaces, sky.
-    pub light: [f32; 3],
-    /// 1 / distance of the first hit in steps of the eye ray; 0 where there is none.
-    pub closeness: f32,
-    /// The first `count` are set.
-    pub textured: [Textured; REMEMBERED],
+    /// The object of each textured hit.
+    pub object: [u32; REMEMBERED],
+    /// Linear light that depends on no texture (highlights, plain surfaces, sky), then the closeness of the first hit,
+    /// 1 / distance in steps of the unnormalised eye ray or 0 where there is none.
+    ///
+    /// Then for each textured hit: its gain, the light that would reach the eye from there off a white surface (3);
+    /// the hit point times its closeness (3); and its closeness, 1 / length of the path from the eye in those steps.
+    /// In this homogeneous form a point on a plane is affine in screen space, exactly, also seen in flat mirrors.
+    pub numbers: [f32; NUMBERS],
+}
+
+impl Default for Sample {
+    fn default() -> Sample {
+        Sample { chain: 0, count: 0, object: [0; REMEMBERED], numbers: [0.0; NUMBERS] }
+    }
+}
+
+impl Sample {
+    /// 1 / distance of the first hit along the view axis, 0 for the sky.
+    pub fn closeness(&self) -> f32 {
+        self.numbers[3]
+    }
+
+    /// How many of the numbers are in use.
+    pub fn used(&self) -> usize {
+        PLAIN + HIT * self.count as usize
+    }
 }
 
 /// From pixels to eye rays.
@@ -189,7 +203,14 @@ fn packet<S: Simd>(
         level: 1,
         path: 1,
     });
-    while let Some(node) = next.take().or_else(|| stack.pop()) {
+    loop {
+        let node = match next.take() {
+            Some(node) => node,
+            None => match stack.pop() {
+                Some(node) => node,
+                None => break,
+            },
+        };
         let Node { active, origin, direction, weight, length, level, path, .. } = node;
         let object = nearest(simd, world, &node);
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
@@ -264,19 +285,9 @@ fn packet<S: Simd>(
             }
 
             if level < world.max_level {
-                let spread = |direction, weight, active, inward, path| Node {
-                    active,
-                    origin: point,
-                    direction,
-                    weight,
-                    length,
-                    from: object,
-                    inward,
-                    level: level + 1,
-                    path,
-                };
+                let least = F::<S>::splat(simd, limits.min_weight);
+                let child = Node { origin: point, length, from: object, level: level + 1, ..node };
                 let mirrored = direction + normal * Lane(cosine * 2.0);
-                let strong = |w: V3<S>| w.max_element().simd_gt(F::<S>::splat(simd, limits.min_weight));
                 let mut reflected = weight.mulv(mirror);
                 let mut stays_inside = M::<S>::splat(simd, false);
                 if glass.any_true() {
@@ -285,16 +296,18 @@ fn packet<S: Simd>(
                     let bend = eta * cosine - cos_through;
                     let refracted = direction * Lane(eta) + normal * Lane(bend);
                     let through = weight.mulv(surface.filter) * Lane(one - share);
-                    let active = glass & passes & strong(through);
+                    let active = glass & passes & through.max_element().simd_gt(least);
                     if active.any_true() {
-                        stack.push(spread(refracted, through, active, !inside, path * 2 + 1));
+                        let (direction, weight, inward, path) = (refracted, through, !inside, path * 2 + 1);
+                        stack.push(Node { active, direction, weight, inward, path, ..child });
                     }
                     reflected = V3::select(glass, weight * Lane(share), reflected);
                     stays_inside = glass & inside;
                 }
-                let active = hit & strong(reflected);
+                let active = hit & reflected.max_element().simd_gt(least);
                 if active.any_true() {
-                    next = Some(spread(mirrored, reflected, active, stays_inside, path * 2));
+                    let (direction, weight, inward, path) = (mirrored, reflected, stays_inside, path * 2);
+                    next = Some(Node { active, direction, weight, inward, path, ..child });
                 }
             }
         }
@@ -303,8 +316,11 @@ fn packet<S: Simd>(
     }
     for (lane, sample) in out.iter_mut().enumerate() {
         sample.chain = chain[lane];
-        sample.light = [light.x[lane], light.y[lane], light.z[lane]];
-        sample.closeness = first_closeness[lane];
+        // Textures that did not fit are in the light already.
+        sample.numbers[0] += light.x[lane];
+        sample.numbers[1] += light.y[lane];
+        sample.numbers[2] += light.z[lane];
+        sample.numbers[3] = first_closeness[lane];
     }
 }
 
@@ -317,7 +333,7 @@ fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
     for (index, candidate) in world.objects.iter().enumerate() {
         let id = U::<S>::splat(simd, index as u32);
         let same = node.from.simd_eq(id);
-        let (t0, t1) = candidate.shape.span(simd, node.origin, node.direction);
+        let (t0, t1) = candidate.shape.span_roughly(simd, node.origin, node.direction);
         let outside = t0.simd_gt(zero) & !same;
         let t = outside.select(t0, t1);
         let meets = t0.simd_le(t1) & t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
@@ -355,19 +371,18 @@ fn resolve<S: Simd>(simd: S, world: &World, node: &Node<S>, object: U<S>, hit: M
         let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
         t = here.select(outside.select(t0, t1), t);
         let normal = body.shape.normal(simd, node.origin + node.direction * Lane(t));
-        let pick = |value: f32, old: F<S>| here.select(F::<S>::splat(simd, value), old);
         s.normal = V3::select(here, normal, s.normal);
         match material.albedo.constant() {
             Some(color) => s.albedo = V3::select(here, V3::splat(simd, color), s.albedo),
             None => s.textured |= here,
         }
         s.reflectance = V3::select(here, V3::splat(simd, material.reflectance), s.reflectance);
-        s.fresnel = pick(material.fresnel, s.fresnel);
-        s.specular = pick(material.specular, s.specular);
-        s.exponent = pick(material.exponent, s.exponent);
+        s.fresnel = here.select(F::<S>::splat(simd, material.fresnel), s.fresnel);
+        s.specular = here.select(F::<S>::splat(simd, material.specular), s.specular);
+        s.exponent = here.select(F::<S>::splat(simd, material.exponent), s.exponent);
         if material.is_glass() {
             s.filter = V3::select(here, V3::splat(simd, material.filter), s.filter);
-            s.ior = pick(material.ior, s.ior);
+            s.ior = here.select(F::<S>::splat(simd, material.ior), s.ior);
         }
     }
     (t, s)
@@ -492,18 +507,27 @@ fn remember<S: Simd>(
 ) {
     for lane in Bits(lanes) {
         let sample = &mut out[lane];
-        let hit = Textured {
-            object: object[lane],
-            gain: [gain.x[lane], gain.y[lane], gain.z[lane]],
-            point: [point.x[lane], point.y[lane], point.z[lane]],
-            closeness: closeness[lane],
-        };
-        if let Some(slot) = sample.textured.get_mut(sample.count as usize) {
-            *slot = hit;
+        let id = object[lane];
+        let n = sample.count as usize;
+        if n < REMEMBERED {
+            let k = closeness[lane];
+            sample.object[n] = id;
+            sample.numbers[PLAIN + HIT * n..][..HIT].copy_from_slice(&[
+                gain.x[lane],
+                gain.y[lane],
+                gain.z[lane],
+                point.x[lane] * k,
+                point.y[lane] * k,
+                point.z[lane] * k,
+                k,
+            ]);
             sample.count += 1;
         } else {
-            let color = world.objects[hit.object as usize].material.albedo.color(Vec3::from(hit.point));
-            sample.light = (Vec3::from(sample.light) + color * Vec3::from(hit.gain)).into();
+            let at = Vec3::new(point.x[lane], point.y[lane], point.z[lane]);
+            let color = world.objects[id as usize].material.albedo.color(at);
+            sample.numbers[0] += color.x * gain.x[lane];
+            sample.numbers[1] += color.y * gain.y[lane];
+            sample.numbers[2] += color.z * gain.z[lane];
         }
     }
 }

@@ -147,6 +147,21 @@ impl Shape {
         }
     }
 
+    /// [`Shape::span`] with an absolute error of a few ulps of the distance to the centre: enough to tell which body is
+    /// nearest, at half the price for a ball.
+    #[inline(always)]
+    pub fn span_roughly<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
+        let Shape::Sphere { center, radius } = *self else { return self.span(simd, o, d) };
+        let zero = F::<S>::splat(simd, 0.0);
+        let q = o.sub1(center);
+        let b = -q.dot(d);
+        let m = q + d * Lane(b);
+        let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
+        let s = disc.max(zero).sqrt();
+        let hit = disc.simd_gt(zero);
+        (hit.select(b - s, F::<S>::splat(simd, FAR)), hit.select(b + s, zero))
+    }
+
     /// Does the body meet the open segment from `o` along `d` to distance `reach`? Both ends lie outside of it.
     ///
     /// For a ball that needs no root: its nearest point to the line lies between the ends and inside the ball.
