@@ -111,52 +111,50 @@ fn noise64<S: Simd>(
     let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
     let mut codes = [[0u32; BLOCK]; 4];
     for i in 0..BLOCK {
+        let (iy, iz) = (iy[i] as u8, iz[i] as u8);
         let [a, b] = pair(&HASHES, ix[i] as u8).to_le_bytes();
-        let [aa, ab] = pair(&HASHES, a.wrapping_add(iy[i] as u8)).to_le_bytes();
-        let [ba, bb] = pair(&HASHES, b.wrapping_add(iy[i] as u8)).to_le_bytes();
-        for (codes, hash) in codes.iter_mut().zip([aa, ba, ab, bb]) {
-            codes[i] = pair(&GRADIENTS, hash.wrapping_add(iz[i] as u8)) as u32;
-        }
+        let [aa, ab] = pair(&HASHES, a.wrapping_add(iy)).to_le_bytes();
+        let [ba, bb] = pair(&HASHES, b.wrapping_add(iy)).to_le_bytes();
+        codes[0][i] = pair(&GRADIENTS, aa.wrapping_add(iz)) as u32;
+        codes[1][i] = pair(&GRADIENTS, ba.wrapping_add(iz)) as u32;
+        codes[2][i] = pair(&GRADIENTS, ab.wrapping_add(iz)) as u32;
+        codes[3][i] = pair(&GRADIENTS, bb.wrapping_add(iz)) as u32;
     }
 
-    for i in (0..BLOCK).step_by(S::f32s::LEN) {
-        let lanes = i..i + S::f32s::LEN;
-        let codes = codes.each_ref().map(
-            #[inline(always)]
-            |codes| S::u32s::from_slice(simd, &codes[lanes.clone()]),
-        );
-        let [x, y, z] = [x, y, z].map(
-            #[inline(always)]
-            |x| {
-                let x = S::f32s::from_slice(simd, &x[lanes.clone()]);
-                x - x.floor()
-            },
-        );
-        let w = fade(z);
-        let planes = [(0, z), (8, z - 1.0)].map(
-            #[inline(always)]
-            |(shift, z)| {
-                let face = codes.map(
-                    #[inline(always)]
-                    |code| code >> shift,
-                );
-                plane(face, x, y, z, &component)
-            },
-        );
-        (lerp(w, planes[0], planes[1]) + 0.0).store_slice(&mut out[lanes]);
+    // No `map` below: what it calls lacks the target features where the optimizer, asked for size, does not inline it.
+    let mut i = 0;
+    while i < BLOCK {
+        let (x, y, z) = (fraction(simd, x, i), fraction(simd, y, i), fraction(simd, z, i));
+        let (u, v, w) = (fade(x), fade(y), fade(z));
+        let aa = S::u32s::from_slice(simd, &codes[0][i..i + S::f32s::LEN]);
+        let ba = S::u32s::from_slice(simd, &codes[1][i..i + S::f32s::LEN]);
+        let ab = S::u32s::from_slice(simd, &codes[2][i..i + S::f32s::LEN]);
+        let bb = S::u32s::from_slice(simd, &codes[3][i..i + S::f32s::LEN]);
+        let bottom = face([aa, ba, ab, bb], x, y, z, u, v, &component);
+        let top = face([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v, &component);
+        (lerp(w, bottom, top) + 0.0).store_slice(&mut out[i..i + S::f32s::LEN]);
+        i += S::f32s::LEN;
     }
+}
+
+/// The offsets of coordinates from `i` on in their cells.
+#[inline(always)]
+fn fraction<S: Simd>(simd: S, x: &[f32; BLOCK], i: usize) -> S::f32s {
+    let x = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]);
+    x - x.floor()
 }
 
 /// Noise of the four corners of one face of a cell, at the offset (x, y, z) from the first.
 #[inline(always)]
-fn plane<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
+fn face<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     [aa, ba, ab, bb]: [C; 4],
     x: F,
     y: F,
     z: F,
+    u: F,
+    v: F,
     component: &impl Fn(C) -> F,
 ) -> F {
-    let (u, v) = (fade(x), fade(y));
     let (x1, y1) = (x - 1.0, y - 1.0);
     let near = lerp(u, gradient(aa, x, y, z, component), gradient(ba, x1, y, z, component));
     let far = lerp(u, gradient(ab, x, y1, z, component), gradient(bb, x1, y1, z, component));
@@ -182,13 +180,14 @@ fn cells<S: Simd>(simd: S, x: &[f32; BLOCK]) -> [i32; BLOCK] {
     // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
     // Others saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
-    for i in (0..BLOCK).step_by(S::f32s::LEN) {
-        let lanes = i..i + S::f32s::LEN;
-        let mut cell = S::f32s::from_slice(simd, &x[lanes.clone()]).floor();
+    let mut i = 0;
+    while i < BLOCK {
+        let mut cell = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]).floor();
         if saturates {
             cell = cell - (cell * (1.0 / 256.0)).floor() * 256.0;
         }
-        cell.to_int::<S::i32s>().store_slice(&mut cells[lanes]);
+        cell.to_int::<S::i32s>().store_slice(&mut cells[i..i + S::f32s::LEN]);
+        i += S::f32s::LEN;
     }
     cells
 }
@@ -242,25 +241,34 @@ fn sum_octaves<S: Simd>(
     out: &mut [f32; BLOCK],
     shape: impl Fn(S::f32s) -> S::f32s,
 ) {
-    let mut p = p.map(
-        #[inline(always)]
-        |x| *x,
-    );
+    let mut p = [*p[0], *p[1], *p[2]];
     let mut octave = [0.0; BLOCK];
     let mut amplitude = 0.5;
     *out = [0.0; BLOCK];
     for _ in 0..octaves {
         noise_block(simd, &p[0], &p[1], &p[2], &mut octave);
-        for i in (0..BLOCK).step_by(S::f32s::LEN) {
+        let mut i = 0;
+        while i < BLOCK {
             let lanes = i..i + S::f32s::LEN;
             let noise = shape(S::f32s::from_slice(simd, &octave[lanes.clone()]));
             let sum = S::f32s::from_slice(simd, &out[lanes.clone()]) + noise * amplitude;
-            sum.store_slice(&mut out[lanes.clone()]);
-            for x in &mut p {
-                let doubled = S::f32s::from_slice(simd, &x[lanes.clone()]) * 2.0;
-                doubled.store_slice(&mut x[lanes.clone()]);
-            }
+            sum.store_slice(&mut out[lanes]);
+            i += S::f32s::LEN;
         }
+        double(simd, &mut p[0]);
+        double(simd, &mut p[1]);
+        double(simd, &mut p[2]);
         amplitude *= 0.5;
+    }
+}
+
+/// Doubles every element.
+#[inline(always)]
+fn double<S: Simd>(simd: S, x: &mut [f32; BLOCK]) {
+    let mut i = 0;
+    while i < BLOCK {
+        let doubled = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]) * 2.0;
+        doubled.store_slice(&mut x[i..i + S::f32s::LEN]);
+        i += S::f32s::LEN;
     }
 }
