@@ -3,7 +3,7 @@
 //! A table of 256 bytes is four registers and a lookup for all 64 points two permutations (`vpermi2b`) and a blend.
 //! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
 
-use super::wide::{BLOCK, fade, lerp};
+use super::wide::{BLOCK, fade, lerp, load, store};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 
@@ -60,17 +60,11 @@ fn load_table(simd: Avx512, table: &[u8; 256]) -> [u8x64<Avx512>; 4] {
     ]
 }
 
-/// 16 coordinates of group `g`.
-#[inline(always)]
-fn load(simd: Avx512, x: &[f32; BLOCK], g: usize) -> Floats {
-    f32x16::from_slice(simd, &x[16 * g..16 * g + 16])
-}
-
 /// The cells of group `g`, modulo 256 in the low byte.
 #[inline(always)]
 fn cell(simd: Avx512, x: &[f32; BLOCK], g: usize) -> u32x16<Avx512> {
     // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
-    load(simd, x, g).floor().to_int::<i32x16<_>>().bitcast()
+    load::<_, Floats>(simd, x, g).floor().to_int::<i32x16<_>>().bitcast()
 }
 
 /// The cells of 64 coordinates modulo 256, in the order of bytes above.
@@ -108,8 +102,8 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
         f32x16::load_array(simd, GRADIENTS[2]),
     ];
 
-    for g in 0..4 {
-        let (x, y, z) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
+    for g in 0..BLOCK / Floats::LEN {
+        let (x, y, z): (Floats, Floats, Floats) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (x1, y1) = (x - 1.0, y - 1.0);
@@ -123,6 +117,6 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
         let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
         let top = lerp(v, near, far);
         (aa, ba, ab, bb) = (aa >> 4, ba >> 4, ab >> 4, bb >> 4);
-        (lerp(w, bottom, top) + 0.0).store_slice(&mut out[16 * g..16 * g + 16]);
+        store(lerp(w, bottom, top) + 0.0, out, g);
     }
 }

@@ -108,7 +108,10 @@ fn noise64<S: Simd>(
     out: &mut [f32; BLOCK],
     component: impl Fn(S::u32s) -> S::f32s,
 ) {
-    let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
+    let [mut ix, mut iy, mut iz] = [[0; BLOCK]; 3];
+    cells(simd, x, &mut ix);
+    cells(simd, y, &mut iy);
+    cells(simd, z, &mut iz);
     let mut codes = [[0u32; BLOCK]; 4];
     for i in 0..BLOCK {
         let (iy, iz) = (iy[i] as u8, iz[i] as u8);
@@ -121,27 +124,40 @@ fn noise64<S: Simd>(
         codes[3][i] = pair(&GRADIENTS, bb.wrapping_add(iz)) as u32;
     }
 
-    // No `map` below: what it calls lacks the target features where the optimizer, asked for size, does not inline it.
     let mut i = 0;
-    while i < BLOCK {
-        let (x, y, z) = (fraction(simd, x, i), fraction(simd, y, i), fraction(simd, z, i));
+    while i < BLOCK / S::f32s::LEN {
+        let (x, y, z): (S::f32s, S::f32s, S::f32s) = (load(simd, x, i), load(simd, y, i), load(simd, z, i));
+        let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
-        let aa = S::u32s::from_slice(simd, &codes[0][i..i + S::f32s::LEN]);
-        let ba = S::u32s::from_slice(simd, &codes[1][i..i + S::f32s::LEN]);
-        let ab = S::u32s::from_slice(simd, &codes[2][i..i + S::f32s::LEN]);
-        let bb = S::u32s::from_slice(simd, &codes[3][i..i + S::f32s::LEN]);
+        let (aa, ba): (S::u32s, S::u32s) = (load(simd, &codes[0], i), load(simd, &codes[1], i));
+        let (ab, bb): (S::u32s, S::u32s) = (load(simd, &codes[2], i), load(simd, &codes[3], i));
         let bottom = face([aa, ba, ab, bb], x, y, z, u, v, &component);
         let top = face([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v, &component);
-        (lerp(w, bottom, top) + 0.0).store_slice(&mut out[i..i + S::f32s::LEN]);
-        i += S::f32s::LEN;
+        store(lerp(w, bottom, top) + 0.0, out, i);
+        i += 1;
     }
 }
 
-/// The offsets of coordinates from `i` on in their cells.
+/// Vector `i` of a block.
+///
+/// Arrays of a constant length, because the optimizer, asked for size, calls a function for each range of a slice.
 #[inline(always)]
-fn fraction<S: Simd>(simd: S, x: &[f32; BLOCK], i: usize) -> S::f32s {
-    let x = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]);
-    x - x.floor()
+pub(super) fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
+    match V::LEN {
+        4 => V::from_slice(simd, &x.as_chunks::<4>().0[i]),
+        8 => V::from_slice(simd, &x.as_chunks::<8>().0[i]),
+        _ => V::from_slice(simd, &x.as_chunks::<16>().0[i]),
+    }
+}
+
+/// Writes vector `i` of a block.
+#[inline(always)]
+pub(super) fn store<S: Simd, V: SimdBase<S>>(value: V, out: &mut [V::Element; BLOCK], i: usize) {
+    match V::LEN {
+        4 => value.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
+        8 => value.store_slice(&mut out.as_chunks_mut::<8>().0[i]),
+        _ => value.store_slice(&mut out.as_chunks_mut::<16>().0[i]),
+    }
 }
 
 /// Noise of the four corners of one face of a cell, at the offset (x, y, z) from the first.
@@ -175,21 +191,20 @@ fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
 
 /// The cells of coordinates, of which only the low byte is right for every float.
 #[inline(always)]
-fn cells<S: Simd>(simd: S, x: &[f32; BLOCK]) -> [i32; BLOCK] {
-    let mut cells = [0; BLOCK];
+fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [i32; BLOCK]) {
     // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
     // Others saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
     let mut i = 0;
-    while i < BLOCK {
-        let mut cell = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]).floor();
+    while i < BLOCK / S::f32s::LEN {
+        let mut cell: S::f32s = load(simd, x, i);
+        cell = cell.floor();
         if saturates {
-            cell = cell - (cell * (1.0 / 256.0)).floor() * 256.0;
+            cell -= (cell * (1.0 / 256.0)).floor() * 256.0;
         }
-        cell.to_int::<S::i32s>().store_slice(&mut cells[i..i + S::f32s::LEN]);
-        i += S::f32s::LEN;
+        store(cell.to_int::<S::i32s>(), cells, i);
+        i += 1;
     }
-    cells
 }
 
 /// [`super::fbm`] at 64 points, the same bits.
@@ -248,12 +263,10 @@ fn sum_octaves<S: Simd>(
     for _ in 0..octaves {
         noise_block(simd, &p[0], &p[1], &p[2], &mut octave);
         let mut i = 0;
-        while i < BLOCK {
-            let lanes = i..i + S::f32s::LEN;
-            let noise = shape(S::f32s::from_slice(simd, &octave[lanes.clone()]));
-            let sum = S::f32s::from_slice(simd, &out[lanes.clone()]) + noise * amplitude;
-            sum.store_slice(&mut out[lanes]);
-            i += S::f32s::LEN;
+        while i < BLOCK / S::f32s::LEN {
+            let sum: S::f32s = load(simd, out, i);
+            store(sum + shape(load(simd, &octave, i)) * amplitude, out, i);
+            i += 1;
         }
         double(simd, &mut p[0]);
         double(simd, &mut p[1]);
@@ -266,9 +279,9 @@ fn sum_octaves<S: Simd>(
 #[inline(always)]
 fn double<S: Simd>(simd: S, x: &mut [f32; BLOCK]) {
     let mut i = 0;
-    while i < BLOCK {
-        let doubled = S::f32s::from_slice(simd, &x[i..i + S::f32s::LEN]) * 2.0;
-        doubled.store_slice(&mut x[i..i + S::f32s::LEN]);
-        i += S::f32s::LEN;
+    while i < BLOCK / S::f32s::LEN {
+        let half: S::f32s = load(simd, x, i);
+        store(half + half, x, i);
+        i += 1;
     }
 }
