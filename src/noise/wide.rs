@@ -11,11 +11,11 @@ use fearless_simd_macros::simd;
 /// Points of a block: the bytes of one AVX-512 register.
 pub const BLOCK: usize = 64;
 
-/// The permutation and its first entry again, so that an entry and the next are one load of 16 bits.
-static HASHES: [u8; 257] = cyclic(PERMUTATION);
+/// Each entry of the permutation and, in the high byte, the next one.
+static HASHES: [u16; 256] = pairs(PERMUTATION);
 
-/// The gradient of each hash: components of -1, 0 or 1 as signed fields of two bits, x lowest; repeated like [`HASHES`].
-static GRADIENTS: [u8; 257] = {
+/// The gradient of each hash: components of -1, 0 or 1 as signed fields of two bits, x lowest. Pairs like [`HASHES`].
+static GRADIENTS: [u16; 256] = {
     // x, y and z of 1 are 1, 4 and 16, of -1 3, 12 and 48; in the order of Perlin's `h & 15`.
     const CODES: [u8; 16] =
         [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
@@ -25,24 +25,24 @@ static GRADIENTS: [u8; 257] = {
         codes[i] = CODES[PERMUTATION[i] as usize & 15];
         i += 1;
     }
-    cyclic(codes)
+    pairs(codes)
 };
 
-/// A table followed by its first entry.
-const fn cyclic(table: [u8; 256]) -> [u8; 257] {
-    let mut longer = [table[0]; 257];
+/// Each entry and, in the high byte, the next one, the first after the last.
+const fn pairs(table: [u8; 256]) -> [u16; 256] {
+    let mut pairs = [0; 256];
     let mut i = 0;
     while i < 256 {
-        longer[i] = table[i];
+        pairs[i] = table[i] as u16 | (table[(i + 1) & 255] as u16) << 8;
         i += 1;
     }
-    longer
+    pairs
 }
 
-/// Entries `i` and `i + 1` of a table, the latter in the high byte.
+/// Entry `i` modulo 256. In 32 bits: bytes in registers would make each lookup wait for the last.
 #[inline(always)]
-fn pair(table: &[u8; 257], i: u8) -> u16 {
-    u16::from_le_bytes([table[i as usize], table[i as usize + 1]])
+fn at(table: &[u16; 256], i: u32) -> u32 {
+    table[i as usize & 255] as u32
 }
 
 /// [`super::fade`], wide.
@@ -108,20 +108,19 @@ fn noise64<S: Simd>(
     out: &mut [f32; BLOCK],
     component: impl Fn(S::u32s) -> S::f32s,
 ) {
-    let [mut ix, mut iy, mut iz] = [[0; BLOCK]; 3];
+    let [mut ix, mut iy, mut iz] = [[0u32; BLOCK]; 3];
     cells(simd, x, &mut ix);
     cells(simd, y, &mut iy);
     cells(simd, z, &mut iz);
     let mut codes = [[0u32; BLOCK]; 4];
     for i in 0..BLOCK {
-        let (iy, iz) = (iy[i] as u8, iz[i] as u8);
-        let [a, b] = pair(&HASHES, ix[i] as u8).to_le_bytes();
-        let [aa, ab] = pair(&HASHES, a.wrapping_add(iy)).to_le_bytes();
-        let [ba, bb] = pair(&HASHES, b.wrapping_add(iy)).to_le_bytes();
-        codes[0][i] = pair(&GRADIENTS, aa.wrapping_add(iz)) as u32;
-        codes[1][i] = pair(&GRADIENTS, ba.wrapping_add(iz)) as u32;
-        codes[2][i] = pair(&GRADIENTS, ab.wrapping_add(iz)) as u32;
-        codes[3][i] = pair(&GRADIENTS, bb.wrapping_add(iz)) as u32;
+        let (iy, iz) = (iy[i], iz[i]);
+        let ab = at(&HASHES, ix[i]);
+        let (a, b) = (at(&HASHES, ab + iy), at(&HASHES, (ab >> 8) + iy));
+        codes[0][i] = at(&GRADIENTS, a + iz);
+        codes[1][i] = at(&GRADIENTS, b + iz);
+        codes[2][i] = at(&GRADIENTS, (a >> 8) + iz);
+        codes[3][i] = at(&GRADIENTS, (b >> 8) + iz);
     }
 
     let mut i = 0;
@@ -189,9 +188,9 @@ fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     component(code) * x + (component(code >> 2) * y + component(code >> 4) * z)
 }
 
-/// The cells of coordinates, of which only the low byte is right for every float.
+/// The cells of coordinates, modulo 256.
 #[inline(always)]
-fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [i32; BLOCK]) {
+fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [u32; BLOCK]) {
     // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
     // Others saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
@@ -202,7 +201,7 @@ fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [i32; BLOCK]) {
         if saturates {
             cell -= (cell * (1.0 / 256.0)).floor() * 256.0;
         }
-        store(cell.to_int::<S::i32s>(), cells, i);
+        store(cell.to_int::<S::i32s>().bitcast::<S::u32s>() & 255, cells, i);
         i += 1;
     }
 }
