@@ -5,7 +5,7 @@
 #![allow(missing_docs)] // criterion_group! makes an undocumented function.
 
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
 use paprsek::noise::{BLOCK, fbm, fbm_block, noise, noise_block};
 use std::time::Instant;
@@ -16,27 +16,41 @@ mod common;
 const SIZE: [usize; 3] = [256, 128, 128];
 const STEP: f32 = 0.05;
 
-/// The grid in blocks along x: `evaluate` is given the coordinates and answers with noises, which are hashed.
+/// The grid in blocks along x: `evaluate` is given the coordinates and answers with noises, whose bits are summed.
 #[inline(always)]
-fn grid<S: Simd>(_simd: S, planes: usize, evaluate: impl Fn(&[[f32; BLOCK]; 3], &mut [f32; BLOCK])) -> u32 {
+fn grid<S: Simd>(simd: S, planes: usize, evaluate: impl Fn(&[[f32; BLOCK]; 3], &mut [f32; BLOCK])) -> u32 {
     let mut out = [0.0; BLOCK];
-    let mut sum = [0u32; BLOCK];
+    let mut sum = S::u32s::splat(simd, 0);
+    let mut p = [[0.0; BLOCK]; 3];
+    let mut row = [[0.0; BLOCK]; SIZE[0] / BLOCK];
+    for i in 0..SIZE[0] {
+        row[i / BLOCK][i % BLOCK] = i as f32 * STEP;
+    }
     for k in 0..planes {
+        fill(simd, k as f32 * STEP, &mut p[2]);
         for j in 0..SIZE[1] {
-            for i in (0..SIZE[0]).step_by(BLOCK) {
-                let x = core::array::from_fn(
-                    #[inline(always)]
-                    |l| (i + l) as f32 * STEP,
-                );
-                let p = [x, [j as f32 * STEP; BLOCK], [k as f32 * STEP; BLOCK]];
+            fill(simd, j as f32 * STEP, &mut p[1]);
+            for x in &row {
+                p[0] = *x;
                 evaluate(&p, &mut out);
-                for (sum, out) in sum.iter_mut().zip(&out) {
-                    *sum = sum.wrapping_add(out.to_bits());
+                let mut i = 0;
+                while i < BLOCK {
+                    sum += S::f32s::from_slice(simd, &out[i..i + S::f32s::LEN]).bitcast::<S::u32s>();
+                    i += S::f32s::LEN;
                 }
             }
         }
     }
-    sum.iter().fold(0, |a, b| a.wrapping_add(*b))
+    sum.reduce_sum()
+}
+
+#[inline(always)]
+fn fill<S: Simd>(simd: S, value: f32, out: &mut [f32; BLOCK]) {
+    let mut i = 0;
+    while i < BLOCK {
+        S::f32s::splat(simd, value).store_slice(&mut out[i..i + S::f32s::LEN]);
+        i += S::f32s::LEN;
+    }
 }
 
 fn wide(level: Level, planes: usize, octaves: Option<u32>) -> u32 {

@@ -3,9 +3,9 @@
 //! A table of 256 bytes is four registers and a lookup for all 64 points two permutations (`vpermi2b`) and a blend.
 //! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
 
-use super::wide::{BLOCK, fade, lerp};
+use super::wide::{BLOCK, fade, lerp, load, store};
 use core::arch::x86_64::*;
-use fearless_simd::{Avx512, f32x16, prelude::*, u8x64, u32x16};
+use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 
 /// Low four bits: the low four of the permutation at the index; high four: those of the entry after it.
 ///
@@ -51,28 +51,27 @@ fearless_simd::kernel!(
 /// A table of 256 bytes in registers.
 #[inline(always)]
 fn load_table(simd: Avx512, table: &[u8; 256]) -> [u8x64<Avx512>; 4] {
-    [0, 64, 128, 192].map(
-        #[inline(always)]
-        |i| u8x64::from_slice(simd, &table[i..i + 64]),
-    )
+    // No `map`: what it calls lacks the target features where the optimizer, asked for size, does not inline it.
+    [
+        u8x64::from_slice(simd, &table[..64]),
+        u8x64::from_slice(simd, &table[64..128]),
+        u8x64::from_slice(simd, &table[128..192]),
+        u8x64::from_slice(simd, &table[192..]),
+    ]
 }
 
-/// 16 coordinates of group `g`.
+/// The cells of group `g`, modulo 256 in the low byte.
 #[inline(always)]
-fn load(simd: Avx512, x: &[f32; BLOCK], g: usize) -> Floats {
-    f32x16::from_slice(simd, &x[16 * g..16 * g + 16])
+fn cell(simd: Avx512, x: &[f32; BLOCK], g: usize) -> u32x16<Avx512> {
+    // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
+    load::<_, Floats>(simd, x, g).floor().to_int::<i32x16<_>>().bitcast()
 }
 
 /// The cells of 64 coordinates modulo 256, in the order of bytes above.
 #[inline(always)]
 fn cells(simd: Avx512, x: &[f32; BLOCK]) -> u8x64<Avx512> {
-    // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
-    let cell = [0, 1, 2, 3].map(
-        #[inline(always)]
-        |g| load(simd, x, g).floor().to_int::<fearless_simd::i32x16<_>>().bitcast::<u32x16<_>>(),
-    );
-    let low = (cell[0] & 0xff) | ((cell[1] & 0xff) << 8);
-    (low | ((cell[2] & 0xff) << 16) | (cell[3] << 24)).bitcast()
+    let low = (cell(simd, x, 0) & 0xff) | ((cell(simd, x, 1) & 0xff) << 8);
+    (low | ((cell(simd, x, 2) & 0xff) << 16) | (cell(simd, x, 3) << 24)).bitcast()
 }
 
 /// The product of a gradient and the offset (x, y, z).
@@ -93,31 +92,31 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
     let (ba, bb) = (lookup(simd, table, b) + iz, lookup(simd, table, b + 1) + iz);
 
     let pairs = load_table(simd, &GRADIENT_PAIRS);
-    let mut hashes: [u32x16<Avx512>; 4] = [aa, ba, ab, bb].map(
-        #[inline(always)]
-        |h| lookup(simd, pairs, h).bitcast(),
-    );
-    let tables = GRADIENTS.map(
-        #[inline(always)]
-        |g| f32x16::load_array(simd, g),
-    );
+    let mut aa: u32x16<_> = lookup(simd, pairs, aa).bitcast();
+    let mut ba: u32x16<_> = lookup(simd, pairs, ba).bitcast();
+    let mut ab: u32x16<_> = lookup(simd, pairs, ab).bitcast();
+    let mut bb: u32x16<_> = lookup(simd, pairs, bb).bitcast();
+    let tables = [
+        f32x16::load_array(simd, GRADIENTS[0]),
+        f32x16::load_array(simd, GRADIENTS[1]),
+        f32x16::load_array(simd, GRADIENTS[2]),
+    ];
 
-    for g in 0..4 {
-        let (x, y, z) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
+    for g in 0..BLOCK / Floats::LEN {
+        let (x, y, z): (Floats, Floats, Floats) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (x1, y1) = (x - 1.0, y - 1.0);
-        let [aa, ba, ab, bb] = hashes;
         let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
         let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
         let bottom = lerp(v, near, far);
 
         let z = z - 1.0;
-        let [aa, ba, ab, bb] = [aa >> 4, ba >> 4, ab >> 4, bb >> 4];
+        (aa, ba, ab, bb) = (aa >> 4, ba >> 4, ab >> 4, bb >> 4);
         let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
         let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
         let top = lerp(v, near, far);
-        (lerp(w, bottom, top) + 0.0).store_slice(&mut out[16 * g..16 * g + 16]);
-        hashes = [aa >> 4, ba >> 4, ab >> 4, bb >> 4];
+        (aa, ba, ab, bb) = (aa >> 4, ba >> 4, ab >> 4, bb >> 4);
+        store(lerp(w, bottom, top) + 0.0, out, g);
     }
 }

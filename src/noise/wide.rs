@@ -11,11 +11,11 @@ use fearless_simd_macros::simd;
 /// Points of a block: the bytes of one AVX-512 register.
 pub const BLOCK: usize = 64;
 
-/// The permutation and its first entry again, so that an entry and the next are one load of 16 bits.
-static HASHES: [u8; 257] = cyclic(PERMUTATION);
+/// Each entry of the permutation and, in the high byte, the next one.
+static HASHES: [u16; 256] = pairs(PERMUTATION);
 
-/// The gradient of each hash: components of -1, 0 or 1 as signed fields of two bits, x lowest; repeated like [`HASHES`].
-static GRADIENTS: [u8; 257] = {
+/// The gradient of each hash: components of -1, 0 or 1 as signed fields of two bits, x lowest. Pairs like [`HASHES`].
+static GRADIENTS: [u16; 256] = {
     // x, y and z of 1 are 1, 4 and 16, of -1 3, 12 and 48; in the order of Perlin's `h & 15`.
     const CODES: [u8; 16] =
         [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
@@ -25,24 +25,24 @@ static GRADIENTS: [u8; 257] = {
         codes[i] = CODES[PERMUTATION[i] as usize & 15];
         i += 1;
     }
-    cyclic(codes)
+    pairs(codes)
 };
 
-/// A table followed by its first entry.
-const fn cyclic(table: [u8; 256]) -> [u8; 257] {
-    let mut longer = [table[0]; 257];
+/// Each entry and, in the high byte, the next one, the first after the last.
+const fn pairs(table: [u8; 256]) -> [u16; 256] {
+    let mut pairs = [0; 256];
     let mut i = 0;
     while i < 256 {
-        longer[i] = table[i];
+        pairs[i] = table[i] as u16 | (table[(i + 1) & 255] as u16) << 8;
         i += 1;
     }
-    longer
+    pairs
 }
 
-/// Entries `i` and `i + 1` of a table, the latter in the high byte.
+/// Entry `i` modulo 256. In 32 bits: bytes in registers would make each lookup wait for the last.
 #[inline(always)]
-fn pair(table: &[u8; 257], i: u8) -> u16 {
-    u16::from_le_bytes([table[i as usize], table[i as usize + 1]])
+fn at(table: &[u16; 256], i: u32) -> u32 {
+    table[i as usize & 255] as u32
 }
 
 /// [`super::fade`], wide.
@@ -108,55 +108,68 @@ fn noise64<S: Simd>(
     out: &mut [f32; BLOCK],
     component: impl Fn(S::u32s) -> S::f32s,
 ) {
-    let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
+    let [mut ix, mut iy, mut iz] = [[0u32; BLOCK]; 3];
+    cells(simd, x, &mut ix);
+    cells(simd, y, &mut iy);
+    cells(simd, z, &mut iz);
     let mut codes = [[0u32; BLOCK]; 4];
     for i in 0..BLOCK {
-        let [a, b] = pair(&HASHES, ix[i] as u8).to_le_bytes();
-        let [aa, ab] = pair(&HASHES, a.wrapping_add(iy[i] as u8)).to_le_bytes();
-        let [ba, bb] = pair(&HASHES, b.wrapping_add(iy[i] as u8)).to_le_bytes();
-        for (codes, hash) in codes.iter_mut().zip([aa, ba, ab, bb]) {
-            codes[i] = pair(&GRADIENTS, hash.wrapping_add(iz[i] as u8)) as u32;
-        }
+        let (iy, iz) = (iy[i], iz[i]);
+        let ab = at(&HASHES, ix[i]);
+        let (a, b) = (at(&HASHES, ab + iy), at(&HASHES, (ab >> 8) + iy));
+        codes[0][i] = at(&GRADIENTS, a + iz);
+        codes[1][i] = at(&GRADIENTS, b + iz);
+        codes[2][i] = at(&GRADIENTS, (a >> 8) + iz);
+        codes[3][i] = at(&GRADIENTS, (b >> 8) + iz);
     }
 
-    for i in (0..BLOCK).step_by(S::f32s::LEN) {
-        let lanes = i..i + S::f32s::LEN;
-        let codes = codes.each_ref().map(
-            #[inline(always)]
-            |codes| S::u32s::from_slice(simd, &codes[lanes.clone()]),
-        );
-        let [x, y, z] = [x, y, z].map(
-            #[inline(always)]
-            |x| {
-                let x = S::f32s::from_slice(simd, &x[lanes.clone()]);
-                x - x.floor()
-            },
-        );
-        let w = fade(z);
-        let planes = [(0, z), (8, z - 1.0)].map(
-            #[inline(always)]
-            |(shift, z)| {
-                let face = codes.map(
-                    #[inline(always)]
-                    |code| code >> shift,
-                );
-                plane(face, x, y, z, &component)
-            },
-        );
-        (lerp(w, planes[0], planes[1]) + 0.0).store_slice(&mut out[lanes]);
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let (x, y, z): (S::f32s, S::f32s, S::f32s) = (load(simd, x, i), load(simd, y, i), load(simd, z, i));
+        let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
+        let (u, v, w) = (fade(x), fade(y), fade(z));
+        let (aa, ba): (S::u32s, S::u32s) = (load(simd, &codes[0], i), load(simd, &codes[1], i));
+        let (ab, bb): (S::u32s, S::u32s) = (load(simd, &codes[2], i), load(simd, &codes[3], i));
+        let bottom = face([aa, ba, ab, bb], x, y, z, u, v, &component);
+        let top = face([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v, &component);
+        store(lerp(w, bottom, top) + 0.0, out, i);
+        i += 1;
+    }
+}
+
+/// Vector `i` of a block.
+///
+/// Arrays of a constant length, because the optimizer, asked for size, calls a function for each range of a slice.
+#[inline(always)]
+pub(super) fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
+    match V::LEN {
+        4 => V::from_slice(simd, &x.as_chunks::<4>().0[i]),
+        8 => V::from_slice(simd, &x.as_chunks::<8>().0[i]),
+        _ => V::from_slice(simd, &x.as_chunks::<16>().0[i]),
+    }
+}
+
+/// Writes vector `i` of a block.
+#[inline(always)]
+pub(super) fn store<S: Simd, V: SimdBase<S>>(value: V, out: &mut [V::Element; BLOCK], i: usize) {
+    match V::LEN {
+        4 => value.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
+        8 => value.store_slice(&mut out.as_chunks_mut::<8>().0[i]),
+        _ => value.store_slice(&mut out.as_chunks_mut::<16>().0[i]),
     }
 }
 
 /// Noise of the four corners of one face of a cell, at the offset (x, y, z) from the first.
 #[inline(always)]
-fn plane<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
+fn face<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     [aa, ba, ab, bb]: [C; 4],
     x: F,
     y: F,
     z: F,
+    u: F,
+    v: F,
     component: &impl Fn(C) -> F,
 ) -> F {
-    let (u, v) = (fade(x), fade(y));
     let (x1, y1) = (x - 1.0, y - 1.0);
     let near = lerp(u, gradient(aa, x, y, z, component), gradient(ba, x1, y, z, component));
     let far = lerp(u, gradient(ab, x, y1, z, component), gradient(bb, x1, y1, z, component));
@@ -175,22 +188,22 @@ fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     component(code) * x + (component(code >> 2) * y + component(code >> 4) * z)
 }
 
-/// The cells of coordinates, of which only the low byte is right for every float.
+/// The cells of coordinates, modulo 256.
 #[inline(always)]
-fn cells<S: Simd>(simd: S, x: &[f32; BLOCK]) -> [i32; BLOCK] {
-    let mut cells = [0; BLOCK];
+fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [u32; BLOCK]) {
     // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
     // Others saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
-    for i in (0..BLOCK).step_by(S::f32s::LEN) {
-        let lanes = i..i + S::f32s::LEN;
-        let mut cell = S::f32s::from_slice(simd, &x[lanes.clone()]).floor();
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let mut cell: S::f32s = load(simd, x, i);
+        cell = cell.floor();
         if saturates {
-            cell = cell - (cell * (1.0 / 256.0)).floor() * 256.0;
+            cell -= (cell * (1.0 / 256.0)).floor() * 256.0;
         }
-        cell.to_int::<S::i32s>().store_slice(&mut cells[lanes]);
+        store(cell.to_int::<S::i32s>().bitcast::<S::u32s>() & 255, cells, i);
+        i += 1;
     }
-    cells
 }
 
 /// [`super::fbm`] at 64 points, the same bits.
@@ -242,25 +255,32 @@ fn sum_octaves<S: Simd>(
     out: &mut [f32; BLOCK],
     shape: impl Fn(S::f32s) -> S::f32s,
 ) {
-    let mut p = p.map(
-        #[inline(always)]
-        |x| *x,
-    );
+    let mut p = [*p[0], *p[1], *p[2]];
     let mut octave = [0.0; BLOCK];
     let mut amplitude = 0.5;
     *out = [0.0; BLOCK];
     for _ in 0..octaves {
         noise_block(simd, &p[0], &p[1], &p[2], &mut octave);
-        for i in (0..BLOCK).step_by(S::f32s::LEN) {
-            let lanes = i..i + S::f32s::LEN;
-            let noise = shape(S::f32s::from_slice(simd, &octave[lanes.clone()]));
-            let sum = S::f32s::from_slice(simd, &out[lanes.clone()]) + noise * amplitude;
-            sum.store_slice(&mut out[lanes.clone()]);
-            for x in &mut p {
-                let doubled = S::f32s::from_slice(simd, &x[lanes.clone()]) * 2.0;
-                doubled.store_slice(&mut x[lanes.clone()]);
-            }
+        let mut i = 0;
+        while i < BLOCK / S::f32s::LEN {
+            let sum: S::f32s = load(simd, out, i);
+            store(sum + shape(load(simd, &octave, i)) * amplitude, out, i);
+            i += 1;
         }
+        double(simd, &mut p[0]);
+        double(simd, &mut p[1]);
+        double(simd, &mut p[2]);
         amplitude *= 0.5;
+    }
+}
+
+/// Doubles every element.
+#[inline(always)]
+fn double<S: Simd>(simd: S, x: &mut [f32; BLOCK]) {
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let half: S::f32s = load(simd, x, i);
+        store(half + half, x, i);
+        i += 1;
     }
 }
