@@ -9,6 +9,8 @@ pub struct Quality {
     pub threshold: f32,
     /// A secondary ray whose weight falls below this is not traced; 0 traces all up to the depth limit.
     pub min_weight: f32,
+    /// Hits whose share of the pixel's light falls below this are interpolated whatever they hit, with mean textures.
+    pub min_detail: f32,
     /// Anti-aliasing where an edge runs through a pixel: 0 none, 1 halves and 2 quarters the pixel.
     pub subpixel: u32,
     /// Samples of a pixel along each axis, everywhere: 1, or 8 for the reference.
@@ -19,11 +21,11 @@ pub struct Quality {
 
 impl Quality {
     /// Every shortcut, one sample a pixel.
-    pub const FAST: Quality = Quality { cell: 8, threshold: 0.01, min_weight: 1.0 / 64.0, subpixel: 0, grid: 1, light_samples: 16 };
+    pub const FAST: Quality = Quality { cell: 8, threshold: 0.02, min_weight: 1.0 / 64.0, min_detail: 1.0 / 16.0, subpixel: 0, grid: 1, light_samples: 16 };
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality { subpixel: 2, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
-    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
+    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, min_detail: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 

@@ -16,8 +16,7 @@
 use super::deferred::Deferred;
 use super::guard::Guard;
 use super::lanes::F;
-use super::packet::{self, HIT, Limits, NUMBERS, PLAIN, Sample, View};
-use super::world::World;
+use super::packet::{self, Context, HIT, NUMBERS, PLAIN, Sample};
 use crate::noise::BLOCK;
 use crate::quality::Quality;
 use crate::tile::Tile;
@@ -45,16 +44,14 @@ pub struct Scratch {
 /// What the renderer of one tile reads.
 #[derive(Clone, Copy)]
 pub struct Job<'a> {
-    /// The scene.
-    pub world: &'a World,
-    /// The camera.
-    pub view: &'a View,
+    /// What packets read.
+    pub context: Context<'a>,
+    /// How fast the texture of every object changes.
+    pub roughness: &'a [f32],
     /// Squares that must be cut.
     pub guard: &'a Guard,
     /// The knobs.
     pub quality: &'a Quality,
-    /// The knobs of the recursion.
-    pub limits: Limits,
 }
 
 impl Scratch {
@@ -86,7 +83,7 @@ impl Scratch {
     /// Traces all that was asked for.
     #[inline(always)]
     fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
-        packet::trace(simd, job.world, job.view, &job.limits, &self.xs, &self.ys, &mut self.samples);
+        packet::trace(simd, &job.context, &self.xs, &self.ys, &mut self.samples);
         self.xs.clear();
         self.ys.clear();
     }
@@ -102,7 +99,7 @@ fn lattice_step(quality: &Quality) -> (f32, f32) {
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
     scratch.samples.clear();
-    scratch.deferred.begin(job.world.objects.len());
+    scratch.deferred.begin(job.context.world.objects.len());
     if job.quality.cell > 1 {
         scratch.lattice.resize(LATTICE * LATTICE, (0, 0));
         scratch.generation = scratch.generation.wrapping_add(1).max(1);
@@ -111,7 +108,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
         every_pixel(simd, job, tile, scratch);
     }
     let Scratch { deferred, .. } = scratch;
-    deferred.finish(simd, job.world, tile);
+    deferred.finish(simd, job.context.world, tile);
     scratch.samples.len() as u64
 }
 
@@ -157,7 +154,7 @@ fn resolve<S: Simd>(
     tile.blue[pixel] += blue * share;
     tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
     tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
-    deferred.push(simd, job.world, tile, pixel as u16, sample, share);
+    deferred.push(simd, job.context.world, tile, pixel as u16, sample, share);
 }
 
 /// Cuts the tile into squares, from the coarsest to the finest.
@@ -293,7 +290,7 @@ fn agree<S: Simd>(simd: S, job: &Job, c: [&Sample; 4], centre: &Sample) -> bool 
         let (hit, guess) = (&found[at..at + HIT], &foretold[at..at + HIT]);
         let (k, l) = (1.0 / hit[6], 1.0 / guess[6]);
         let shift = distance(&[hit[3] * k, hit[4] * k, hit[5] * k], &[guess[3] * l, guess[4] * l, guess[5] * l]);
-        let roughness = job.world.objects[centre.object[n] as usize].material.albedo.roughness();
+        let roughness = job.roughness[centre.object[n] as usize];
         error += distance(&hit[..3], &guess[..3]) + hit[0].max(hit[1]).max(hit[2]) * roughness * shift;
         level += 0.5 * (hit[0] + hit[1] + hit[2]);
     }
@@ -365,7 +362,7 @@ fn interpolate<S: Simd>(
                     (F::<S>::from_slice(simd, point) * k).store_slice(point);
                 }
             }
-            deferred.push_run(simd, job.world, tile, corners[0].object[n], &pixels[..count], &block);
+            deferred.push_run(simd, job.context.world, tile, corners[0].object[n], &pixels[..count], &block);
         }
     }
 }

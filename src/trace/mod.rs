@@ -19,13 +19,16 @@ use crate::tile::{Layer, Stats, Tile};
 use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
 use guard::Guard;
-use packet::{Limits, View};
+use glam::Vec3;
+use packet::{Context, Limits, View};
 use std::cell::RefCell;
 use world::World;
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.
 pub struct Traced {
     world: World,
+    means: Vec<Vec3>,
+    roughness: Vec<f32>,
     view: View,
     guard: Guard,
     quality: Quality,
@@ -36,20 +39,53 @@ impl Traced {
     pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> Traced {
         let view = View::new(camera, width, height);
         let guard = Guard::new(&world, &view, width, height);
-        Traced { world, view, guard, quality }
+        let means = world.objects.iter().map(|o| o.material.albedo.mean()).collect();
+        let roughness = world.objects.iter().map(|o| o.material.albedo.roughness()).collect();
+        Traced { world, means, roughness, view, guard, quality }
+    }
+
+    /// The objects that eye rays through a tile may meet: by the angle between the tile's middle and their bounds.
+    fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
+        let eye = self.view.camera().eye;
+        let (x, y) = (tile.x as f32, tile.y as f32);
+        let half = Tile::SIZE as f32 * 0.5;
+        let middle = self.view.ray(x + half, y + half).normalize();
+        // Corners of the grid reach one pixel beyond the tile.
+        let reach = half + 1.0;
+        let corners = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)];
+        let cosine = |(dx, dy)| middle.dot(self.view.ray(x + half + dx, y + half + dy).normalize());
+        let spread = corners.map(cosine).into_iter().fold(1.0f32, f32::min).acos();
+        visible.clear();
+        for (index, body) in self.world.objects.iter().enumerate() {
+            let (center, radius) = body.shape.bound();
+            let distance = center.distance(eye);
+            let near = distance <= radius * 1.001;
+            let seen = || {
+                let angle = middle.dot((center - eye) / distance).clamp(-1.0, 1.0).acos();
+                angle <= spread + (radius / distance).min(1.0).asin() + 1e-3
+            };
+            if near || seen() {
+                visible.push(index as u32);
+            }
+        }
     }
 }
 
 thread_local! {
-    static SCRATCH: RefCell<Scratch> = RefCell::default();
+    static SCRATCH: RefCell<(Scratch, Vec<u32>)> = RefCell::default();
 }
 
 impl Layer for Traced {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let Traced { world, view, guard, quality } = self;
-        let limits = Limits { min_weight: quality.min_weight, light_samples: quality.light_samples };
-        let job = Job { world, view, guard, quality, limits };
-        let samples = SCRATCH.with_borrow_mut(|scratch| dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch)));
+        let Traced { world, means, roughness, view, guard, quality } = self;
+        let Quality { min_weight, min_detail, light_samples, .. } = *quality;
+        let limits = Limits { min_weight, min_detail, light_samples };
+        let samples = SCRATCH.with_borrow_mut(|(scratch, visible)| {
+            self.visible(tile, visible);
+            let context = Context { world, means, view, visible, limits };
+            let job = Job { context, roughness, guard, quality };
+            dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch))
+        });
         Stats { samples }
     }
 }

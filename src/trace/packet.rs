@@ -5,6 +5,7 @@
 
 use super::lanes::{Bits, F, Lane, M, U, V3};
 use super::shape::FAR;
+use super::texture::Pattern;
 use super::world::{Light, Source, World};
 use crate::camera::Camera;
 use crate::math;
@@ -89,6 +90,12 @@ impl View {
             + V3::splat(simd, c.up) * Lane(py)
     }
 
+    /// The unnormalised eye ray through one point of the picture.
+    pub fn ray(&self, x: f32, y: f32) -> Vec3 {
+        let c = &self.camera;
+        c.forward + c.right * (x * self.pixel - self.half.0) + c.up * (self.half.1 - y * self.pixel)
+    }
+
     /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
     pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
         let c = &self.camera;
@@ -110,11 +117,28 @@ impl View {
     }
 }
 
+/// What a packet reads of the frame.
+#[derive(Clone, Copy)]
+pub struct Context<'a> {
+    /// The scene.
+    pub world: &'a World,
+    /// The mean colour of every object.
+    pub means: &'a [Vec3],
+    /// The camera.
+    pub view: &'a View,
+    /// The objects that eye rays may meet.
+    pub visible: &'a [u32],
+    /// The knobs of the recursion.
+    pub limits: Limits,
+}
+
 /// The knobs of the recursion.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Secondary rays of less weight are not traced.
     pub min_weight: f32,
+    /// Hits of less weight are no part of the chain, and their textures are their means.
+    pub min_detail: f32,
     /// Points on a light that has a size.
     pub light_samples: u32,
 }
@@ -155,35 +179,32 @@ struct Surface<S: Simd> {
 
 /// Traces the eye rays through `xs`, `ys` (pixels) and appends a sample for each to `out`, in order.
 #[simd]
-pub fn trace<S: Simd>(simd: S, world: &World, view: &View, limits: &Limits, xs: &[f32], ys: &[f32], out: &mut Vec<Sample>) {
+pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &mut Vec<Sample>) {
     let lanes = F::<S>::LEN;
     let mut stack = Vec::new();
     let mut px = [0.0; 64];
     let mut py = [0.0; 64];
-    for (xs, ys) in xs.chunks(lanes).zip(ys.chunks(lanes)) {
+    let mut at = 0;
+    while at < xs.len() {
+        let count = lanes.min(xs.len() - at);
         // The last packet repeats its last ray.
         for lane in 0..lanes {
-            px[lane] = xs[lane.min(xs.len() - 1)];
-            py[lane] = ys[lane.min(ys.len() - 1)];
+            px[lane] = xs[at + lane.min(count - 1)];
+            py[lane] = ys[at + lane.min(count - 1)];
         }
         let (x, y) = (F::<S>::from_slice(simd, &px[..lanes]), F::<S>::from_slice(simd, &py[..lanes]));
         let first = out.len();
-        out.resize(first + xs.len(), Sample::default());
-        packet(simd, world, limits, view.camera.eye, view.rays(simd, x, y), &mut out[first..], &mut stack);
+        out.resize(first + count, Sample::default());
+        packet(simd, context, context.view.rays(simd, x, y), &mut out[first..], &mut stack);
+        at += count;
     }
 }
 
 /// One packet of eye rays, to its last reflection.
 #[simd]
-fn packet<S: Simd>(
-    simd: S,
-    world: &World,
-    limits: &Limits,
-    eye: Vec3,
-    ray: V3<S>,
-    out: &mut [Sample],
-    stack: &mut Vec<Node<S>>,
-) {
+fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], stack: &mut Vec<Node<S>>) {
+    let Context { world, limits, .. } = *context;
+    let eye = context.view.camera.eye;
     let zero = F::<S>::splat(simd, 0.0);
     let one = F::<S>::splat(simd, 1.0);
     let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
@@ -212,7 +233,8 @@ fn packet<S: Simd>(
             },
         };
         let Node { active, origin, direction, weight, length, level, path, .. } = node;
-        let object = nearest(simd, world, &node);
+        let object = if level == 1 { first_seen(simd, context, &node) } else { nearest(simd, world, &node) };
+        let detailed = weight.max_element().simd_gt(F::<S>::splat(simd, limits.min_detail));
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
         let missed = active & !hit;
         if missed.any_true() {
@@ -220,7 +242,7 @@ fn packet<S: Simd>(
         }
         let mut state = U::<S>::splat(simd, 0);
         if hit.any_true() {
-            let (t, surface) = resolve(simd, world, &node, object, hit);
+            let (t, surface) = resolve(simd, context, &node, object, hit);
             let t = t.max(zero);
             let point = origin + direction * Lane(t);
             let length = length + t;
@@ -252,7 +274,7 @@ fn packet<S: Simd>(
                     if !front.any_true() {
                         continue;
                     }
-                    let seen = visibility(simd, world, limits, source, point, to_light, reach, object, front);
+                    let seen = visibility(simd, world, &limits, source, point, to_light, reach, object, front);
                     let lit = front & seen.simd_gt(zero);
                     let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
                     let shiny = lit & glint.simd_gt(zero) & surface.specular.simd_gt(zero);
@@ -278,8 +300,8 @@ fn packet<S: Simd>(
             let shine = specular.mulv(V3::select(glass, weight, local));
             light = light + shine.masked(simd, shaded);
             let gain = local.mulv(diffuse);
-            light = light + gain.mulv(surface.albedo).masked(simd, matt & !surface.textured);
-            let textured = matt & surface.textured;
+            let textured = matt & surface.textured & detailed;
+            light = light + gain.mulv(surface.albedo).masked(simd, matt & !textured);
             if textured.any_true() {
                 remember(world, &object, &gain, &point, &closeness, textured.to_bitmask(), out);
             }
@@ -312,7 +334,7 @@ fn packet<S: Simd>(
             }
         }
         let code = hash(simd, (object + 1) ^ (state << 12), path);
-        chain = chain + active.select(code, U::<S>::splat(simd, 0));
+        chain = chain + (active & detailed).select(code, U::<S>::splat(simd, 0));
     }
     for (lane, sample) in out.iter_mut().enumerate() {
         sample.chain = chain[lane];
@@ -324,7 +346,24 @@ fn packet<S: Simd>(
     }
 }
 
-/// The nearest body of every lane, or `NOWHERE`.
+/// The nearest body of every lane of an eye ray, or `NOWHERE`.
+#[inline(always)]
+fn first_seen<S: Simd>(simd: S, context: &Context, node: &Node<S>) -> U<S> {
+    let zero = F::<S>::splat(simd, 0.0);
+    let mut best = F::<S>::splat(simd, FAR);
+    let mut object = U::<S>::splat(simd, NOWHERE);
+    for &index in context.visible {
+        let shape = &context.world.objects[index as usize].shape;
+        let (t0, t1) = shape.span_roughly(simd, node.origin, node.direction);
+        let t = t0.simd_gt(zero).select(t0, t1);
+        let meets = t.simd_gt(zero) & t.simd_lt(best);
+        best = meets.select(t, best);
+        object = meets.select(U::<S>::splat(simd, index), object);
+    }
+    object
+}
+
+/// The nearest body of every lane of a ray that leaves a body, or `NOWHERE`.
 #[inline(always)]
 fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
     let zero = F::<S>::splat(simd, 0.0);
@@ -334,9 +373,9 @@ fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
         let id = U::<S>::splat(simd, index as u32);
         let same = node.from.simd_eq(id);
         let (t0, t1) = candidate.shape.span_roughly(simd, node.origin, node.direction);
-        let outside = t0.simd_gt(zero) & !same;
-        let t = outside.select(t0, t1);
-        let meets = t0.simd_le(t1) & t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
+        // Outwards the body that the ray leaves does not count; inwards only its far side does.
+        let t = (t0.simd_gt(zero) & !same).select(t0, t1);
+        let meets = t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
         best = meets.select(t, best);
         object = meets.select(id, object);
     }
@@ -345,7 +384,7 @@ fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
 
 /// Distance and surface of every lane's hit: once for each of the few bodies that a packet meets.
 #[inline(always)]
-fn resolve<S: Simd>(simd: S, world: &World, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, Surface<S>) {
+fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, Surface<S>) {
     let zero = F::<S>::splat(simd, 0.0);
     let black = V3::splat(simd, Vec3::ZERO);
     let mut t = zero;
@@ -365,16 +404,16 @@ fn resolve<S: Simd>(simd: S, world: &World, node: &Node<S>, object: U<S>, hit: M
         let id = object[todo.trailing_zeros() as usize];
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
-        let body = &world.objects[id as usize];
+        let body = &context.world.objects[id as usize];
         let material = &body.material;
         let (t0, t1) = body.shape.span(simd, node.origin, node.direction);
         let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
         t = here.select(outside.select(t0, t1), t);
         let normal = body.shape.normal(simd, node.origin + node.direction * Lane(t));
         s.normal = V3::select(here, normal, s.normal);
-        match material.albedo.constant() {
-            Some(color) => s.albedo = V3::select(here, V3::splat(simd, color), s.albedo),
-            None => s.textured |= here,
+        s.albedo = V3::select(here, V3::splat(simd, context.means[id as usize]), s.albedo);
+        if material.albedo.pattern != Pattern::Plain {
+            s.textured |= here;
         }
         s.reflectance = V3::select(here, V3::splat(simd, material.reflectance), s.reflectance);
         s.fresnel = here.select(F::<S>::splat(simd, material.fresnel), s.fresnel);

@@ -70,7 +70,7 @@ impl Shape {
         }
     }
 
-    /// Where the line `o + t d`, `|d| = 1`, is inside the body: `t0 <= t1`, or `t0 > t1` where it never is.
+    /// Where the line `o + t d`, `|d| = 1`, is inside the body: `t0 <= t1`, or `(FAR, 0)` where it never is.
     ///
     /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
     /// nearest point does not cancel as `b^2 - 4ac` does far away.
@@ -102,7 +102,7 @@ impl Shape {
                 let far = F::<S>::splat(simd, FAR);
                 // Parallel to the plane a ray is inside all along or never.
                 let t0 = enters.select(t, (leaves | below).select(-far, far));
-                let t1 = leaves.select(t, (enters | below).select(far, -far));
+                let t1 = leaves.select(t, (enters | below).select(far, zero));
                 (t0, t1)
             }
             Shape::Globe { touch, normal, radius } => {
@@ -126,7 +126,9 @@ impl Shape {
                 let (x0, x1) = slab(simd, o.x, d.x, half.x);
                 let (y0, y1) = slab(simd, o.y, d.y, half.y);
                 let (z0, z1) = slab(simd, o.z, d.z, half.z);
-                (x0.max(y0).max(z0), x1.min(y1).min(z1))
+                let (t0, t1) = (x0.max(y0).max(z0), x1.min(y1).min(z1));
+                let hit = t0.simd_le(t1);
+                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
             }
             Shape::Cylinder { center, axis, half, radius } => {
                 let q = o.sub1(center);
@@ -140,9 +142,9 @@ impl Shape {
                 let m = q + d * Lane(b);
                 let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
                 let s = (disc.max(zero) / a).sqrt();
-                let hit = disc.simd_gt(zero);
-                let far = F::<S>::splat(simd, FAR);
-                (hit.select(c0.max(b - s), far), hit.select(c1.min(b + s), zero))
+                let (t0, t1) = (c0.max(b - s), c1.min(b + s));
+                let hit = disc.simd_gt(zero) & t0.simd_le(t1);
+                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
             }
         }
     }
@@ -175,7 +177,7 @@ impl Shape {
             return m.dot(m).simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
         }
         let (t0, t1) = self.span(simd, o, d);
-        t0.simd_le(t1) & t1.simd_gt(zero) & t0.simd_lt(reach)
+        t1.simd_gt(zero) & t0.simd_lt(reach)
     }
 
     /// Unit outward normal at a point of the surface.

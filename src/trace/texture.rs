@@ -85,13 +85,13 @@ impl Texture {
         Texture { turn: self.turn * turn, origin, ..self }
     }
 
-    /// The colour of a texture that is the same everywhere.
-    pub fn constant(&self) -> Option<Vec3> {
-        match (self.pattern, self.palette) {
-            (Pattern::Plain, Palette::Mix(color, _)) => Some(color),
-            (Pattern::Plain, Palette::Ramp(colors)) => Some(colors[0]),
-            _ => None,
-        }
+    /// The colour that stands for all of the texture where it is too faint to be seen.
+    pub fn mean(&self) -> Vec3 {
+        self.paint(match self.pattern {
+            Pattern::Plain => 0.0,
+            Pattern::Turbulence { .. } => 0.2,
+            _ => 0.5,
+        })
     }
 
     /// How fast the colour changes, typically: linear light a metre. For the error of a displaced lookup.
@@ -128,6 +128,11 @@ impl Texture {
                 ring - ring.floor()
             }
         };
+        self.paint(s)
+    }
+
+    /// The palette's colour for a value of the field.
+    fn paint(&self, s: f32) -> Vec3 {
         match self.palette {
             Palette::Mix(a, b) => a + (b - a) * s,
             Palette::Ramp(c) => (0..3).fold(c[0], |sum, i| sum + (c[i + 1] - c[i]) * (3.0 * s - i as f32).clamp(0.0, 1.0)),
