@@ -4,6 +4,7 @@
 
 pub mod camera;
 pub mod color;
+pub mod math;
 pub mod noise;
 pub mod quality;
 pub mod scenes;
