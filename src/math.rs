@@ -14,13 +14,13 @@ pub fn exp2<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     let x = x.max(-126.0).min(127.0);
     let whole = (x + 0.5).floor();
     let f = x - whole;
-    let p = f * 1.535_336_2e-4 + 1.339_887_4e-3;
-    let p = p * f + 9.618_437e-3;
-    let p = p * f + 5.550_332_5e-2;
-    let p = p * f + 2.402_264_8e-1;
-    let p = p * f + 6.931_472e-1;
+    // In pairs rather than Horner's chain, here and in `log2`: waiting for each other's results took a third longer.
+    let q = f * f;
+    let high = (f * 1.339_887_4e-3 + 9.618_437e-3) + q * 1.535_336_2e-4;
+    let middle = f * 5.550_332_5e-2 + 2.402_264_8e-1;
+    let p = (f * 6.931_472e-1 + 1.0) + q * (middle + q * high);
     let power = (whole.to_int::<S::i32s>() + 127) << 23;
-    (p * f + 1.0) * power.bitcast::<S::f32s>()
+    p * power.bitcast::<S::f32s>()
 }
 
 /// The binary logarithm of a positive normal `x`: within 2e-7 of the value or 1.5e-7 absolutely, whichever is more.
@@ -34,15 +34,12 @@ pub fn log2<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     // The exponent of x / sqrt(1/2), so that what remains lies around 1 and cancels nothing there.
     let whole = (bits - SQRT_HALF) & (EXPONENT | i32::MIN);
     let f = (bits - whole).bitcast::<S::f32s>() - 1.0;
-    let p = f * 7.037_683_6e-2 - 1.151_461e-1;
-    let p = p * f + 1.167_699_87e-1;
-    let p = p * f - 1.242_014_1e-1;
-    let p = p * f + 1.424_932_3e-1;
-    let p = p * f - 1.666_805_8e-1;
-    let p = p * f + 2.000_071_5e-1;
-    let p = p * f - 2.499_999_4e-1;
-    let p = p * f + 3.333_333e-1;
-    let natural = f + f * f * (p * f - 0.5);
+    let q = f * f;
+    let low = (f * -2.499_999_4e-1 + 3.333_333e-1) + q * (f * -1.666_805_8e-1 + 2.000_071_5e-1);
+    let high = (f * -1.242_014_1e-1 + 1.424_932_3e-1) + q * (f * -1.151_461e-1 + 1.167_699_87e-1);
+    let fourth = q * q;
+    let p = low + fourth * (high + fourth * 7.037_683_6e-2);
+    let natural = f + q * (p * f - 0.5);
     natural * core::f32::consts::LOG2_E + (whole >> 23).to_float::<S::f32s>()
 }
 

@@ -8,7 +8,7 @@ use paprsek::noise::{BLOCK, fbm, fbm_block, noise, noise_block, turbulence, turb
 use proptest::prelude::*;
 
 /// f32 against exact arithmetic, all roundings of one noise together.
-const TOLERANCE: f64 = 6e-7;
+const TOLERANCE: f64 = 4e-7;
 
 /// Perlin's permutation, copied apart from the source so that a slip in either shows.
 #[rustfmt::skip]
@@ -196,7 +196,7 @@ fn has_the_known_distribution() {
         squares += (v * v) as f64;
     }
     let sigma = (squares / n as f64).sqrt();
-    assert!((-1.0..-0.8).contains(&low) && (0.8..1.0).contains(&high), "{low} {high}");
+    assert!((-1.04..-0.8).contains(&low) && (0.8..1.04).contains(&high), "{low} {high}");
     assert!((sum / n as f64).abs() < 0.01, "{}", sum / n as f64);
     assert!((0.25..0.29).contains(&sigma), "{sigma}");
 }
