@@ -1,4 +1,10 @@
 //! From linear light to the 8-bit pixels of a screen.
+//!
+//! The scalar functions are the truth, in f64; [`encode`] is what a frame uses.
+
+use crate::math::powf;
+use fearless_simd::{Simd, prelude::*};
+use fearless_simd_macros::simd;
 
 /// How linear light becomes an 8-bit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,20 +14,167 @@ pub enum Transfer {
     /// The piecewise sRGB curve with an unbiased dither.
     Srgb,
 }
-use fearless_simd::prelude::*;
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-pub fn encode<S: Simd>(simd: S, _t: Transfer, _x: u32, _y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
-    let n = S::f32s::LEN;
+
+/// The code for linear light, 0 to 1, of display light 0 to 1: IEC 61966-2-1. Values outside are clamped, NaN is 0.
+pub fn srgb_encode(linear: f32) -> f32 {
+    let c = clamp(linear);
+    (if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }) as f32
+}
+
+/// The linear light of an sRGB code of 0 to 1. Values outside are clamped, NaN is 0.
+pub fn srgb_decode(code: f32) -> f32 {
+    let v = clamp(code);
+    (if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }) as f32
+}
+
+/// `linear^(1/2.2)`. Values outside 0 to 1 are clamped, NaN is 0.
+pub fn gamma22_encode(linear: f32) -> f32 {
+    clamp(linear).powf(1.0 / 2.2) as f32
+}
+
+/// 0 to 1; NaN is 0.
+fn clamp(x: f32) -> f64 {
+    if x > 0.0 { x.min(1.0) as f64 } else { 0.0 }
+}
+
+/// The code of one channel (0 red, 1 green, 2 blue) of the pixel at column `x` and row `y`: 0 to 255.
+///
+/// Black is always 0 and full light 255; NaN is 0.
+pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -> u32 {
+    let (value, threshold) = match transfer {
+        Transfer::Gamma22 => (gamma22_encode(linear), 0.5),
+        Transfer::Srgb => (srgb_encode(linear), dither(x, y, channel)),
+    };
+    (255.0 * value as f64 + threshold as f64) as u32
+}
+
+/// Steps of the dither along x and y, 2^-32: the inverse plastic number and its square, rounded to odd numbers so that
+/// every value comes before one comes again.
+const STEP_X: u32 = 0xC13F_A9A9;
+const STEP_Y: u32 = 0x91E1_0DA5;
+/// Steps of the dither from red to green to blue, 2^-32: a third, so that the three seldom round up together.
+const STEP_CHANNEL: u32 = 0x5555_5555;
+
+/// The dither added before a code is truncated, 0 to 1 - 2^-16.
+///
+/// Roberts' R2 sequence laid out over the picture: neighbours differ, and every area has all values equally often, so
+/// the mean over it is the value itself. 16 bits, so that 255 and a dither stay below 256 in f32.
+///
+/// M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
+fn dither(x: u32, y: u32, channel: u32) -> f32 {
+    let turns = x.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
+    let turns = turns.wrapping_add(channel.wrapping_mul(STEP_CHANNEL));
+    (turns >> 16) as f32 * (1.0 / 65536.0)
+}
+
+/// `scale c^exponent - offset`, but `toe c` up to `toe_end`: a transfer function times 255.
+struct Curve {
+    exponent: f32,
+    scale: f32,
+    offset: f32,
+    toe: f32,
+    toe_end: f32,
+}
+
+const GAMMA22: Curve = Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0 };
+const SRGB: Curve = Curve {
+    exponent: 1.0 / 2.4,
+    scale: 255.0 * 1.055,
+    offset: 255.0 * 0.055,
+    toe: 255.0 * 12.92,
+    toe_end: 0.003_130_8,
+};
+
+/// Pixels that are encoded at a time.
+const BLOCK: usize = 16;
+
+/// Encodes a row of linear light, from pixel (`x0`, `y`) on, to `0x00RRGGBB`: [`quantize`] for every channel, but for
+/// values within 1e-4 codes of a step. The same bits at every SIMD level.
+///
+/// Panics where a channel is shorter than `out`.
+#[simd]
+pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
+    let pixels = out.len();
+    let (r, r_rest) = r[..pixels].as_chunks::<BLOCK>();
+    let (g, g_rest) = g[..pixels].as_chunks::<BLOCK>();
+    let (b, b_rest) = b[..pixels].as_chunks::<BLOCK>();
+    let (out, rest) = out.as_chunks_mut::<BLOCK>();
+    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
     let mut i = 0;
-    while i + n <= out.len() {
-        let v = (enc(simd, S::f32s::from_slice(simd, &r[i..i + n])) << 16) | (enc(simd, S::f32s::from_slice(simd, &g[i..i + n])) << 8) | enc(simd, S::f32s::from_slice(simd, &b[i..i + n]));
-        v.store_slice(&mut out[i..i + n]);
-        i += n;
+    while i < out.len() {
+        encode_block(simd, transfer, turns, &r[i], &g[i], &b[i], &mut out[i]);
+        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
+        i += 1;
+    }
+    if !rest.is_empty() {
+        let [mut last_r, mut last_g, mut last_b] = [[0.0; BLOCK]; 3];
+        last_r[..rest.len()].copy_from_slice(r_rest);
+        last_g[..rest.len()].copy_from_slice(g_rest);
+        last_b[..rest.len()].copy_from_slice(b_rest);
+        let mut last = [0; BLOCK];
+        encode_block(simd, transfer, turns, &last_r, &last_g, &last_b, &mut last);
+        rest.copy_from_slice(&last[..rest.len()]);
     }
 }
+
+/// Encodes 16 pixels, the dither of whose first is `turns`.
 #[inline(always)]
-fn enc<S: Simd>(simd: S, c: S::f32s) -> S::u32s {
-    let c = c.max(S::f32s::splat(simd, 0.0)).min(S::f32s::splat(simd, 1.0));
-    (crate::math::powf(simd, c, S::f32s::splat(simd, 1.0 / 2.2)) * 255.0 + 0.5).to_int()
+fn encode_block<S: Simd>(
+    simd: S,
+    transfer: Transfer,
+    turns: u32,
+    r: &[f32; BLOCK],
+    g: &[f32; BLOCK],
+    b: &[f32; BLOCK],
+    out: &mut [u32; BLOCK],
+) {
+    static LANES: [u32; BLOCK] = {
+        let mut lanes = [0u32; BLOCK];
+        let mut i = 0;
+        while i < BLOCK {
+            lanes[i] = STEP_X.wrapping_mul(i as u32);
+            i += 1;
+        }
+        lanes
+    };
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let turns = load::<S, S::u32s>(simd, &LANES, i) + turns;
+        let red = channel(simd, transfer, load(simd, r, i), turns);
+        let green = channel(simd, transfer, load(simd, g, i), turns + STEP_CHANNEL);
+        let blue = channel(simd, transfer, load(simd, b, i), turns + STEP_CHANNEL.wrapping_mul(2));
+        let pixels = (red << 16) | (green << 8) | blue;
+        match S::f32s::LEN {
+            4 => pixels.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
+            8 => pixels.store_slice(&mut out.as_chunks_mut::<8>().0[i]),
+            _ => pixels.store_slice(out),
+        }
+        i += 1;
+    }
+}
+
+/// Vector `i` of a block.
+#[inline(always)]
+fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
+    match V::LEN {
+        4 => V::from_slice(simd, &x.as_chunks::<4>().0[i]),
+        8 => V::from_slice(simd, &x.as_chunks::<8>().0[i]),
+        _ => V::from_slice(simd, x),
+    }
+}
+
+/// The codes of one channel of linear light.
+#[inline(always)]
+fn channel<S: Simd>(simd: S, transfer: Transfer, linear: S::f32s, turns: S::u32s) -> S::u32s {
+    let (zero, one) = (S::f32s::splat(simd, 0.0), S::f32s::splat(simd, 1.0));
+    // Comparisons, as the minimum of a NaN is not the same everywhere.
+    let c = linear.simd_gt(zero).select(linear, zero);
+    let c = c.simd_lt(one).select(c, one);
+    let (curve, threshold) = match transfer {
+        Transfer::Gamma22 => (GAMMA22, S::f32s::splat(simd, 0.5)),
+        Transfer::Srgb => (SRGB, (turns >> 16).bitcast::<S::i32s>().to_float::<S::f32s>() * (1.0 / 65536.0)),
+    };
+    let value = powf(simd, c, curve.exponent) * curve.scale - curve.offset;
+    let value = c.simd_le(curve.toe_end).select(c * curve.toe, value);
+    (value + threshold).to_int::<S::i32s>().bitcast()
 }

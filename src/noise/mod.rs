@@ -46,9 +46,14 @@ fn lattice(floor: f32) -> usize {
     (floor - 256.0 * (floor * (1.0 / 256.0)).floor()) as usize
 }
 
-/// Perlin's quintic, 0 to 1 with two vanishing derivatives at both ends.
+/// Perlin's quintic 6 t^5 - 15 t^4 + 10 t^3, 0 to 1 with two vanishing derivatives at both ends.
+///
+/// Expanded about 1/2: his own form adds 10 to numbers near -9 where `t` is near 1, and noise is off by up to 2e-6.
+/// This one keeps it within 4e-7, for one more operation, and is still exact at both ends.
 fn fade(t: f32) -> f32 {
-    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+    let d = t - 0.5;
+    let q = d * d;
+    d * (q * (q * 6.0 - 5.0) + 1.875) + 0.5
 }
 
 /// `a` at `t` = 0, `b` at 1.
@@ -70,10 +75,10 @@ fn gradient(hash: usize, x: f32, y: f32, z: f32) -> f32 {
     (if h & 1 == 0 { u } else { -u }) + (if h & 2 == 0 { v } else { -v })
 }
 
-/// Perlin's improved noise at `p` in lattice units: -0.94 to 0.89 in practice, sigma 0.27, 0 on the lattice.
+/// Perlin's improved noise at `p` in lattice units: sigma 0.27, seldom beyond 0.9, never beyond 1.04, 0 on the lattice.
 ///
 /// The period is 256 along each axis, and nothing is left of it from 2^24 on, where a float has no fraction. Within
-/// 6e-7 of exact arithmetic. Never -0. NaN or infinite coordinates give NaN.
+/// 4e-7 of exact arithmetic. Never -0. NaN or infinite coordinates give NaN.
 pub fn noise(p: Vec3) -> f32 {
     let corner = p.floor();
     let (ix, iy, iz) = (lattice(corner.x), lattice(corner.y), lattice(corner.z));

@@ -48,7 +48,9 @@ fn at(table: &[u16; 256], i: u32) -> u32 {
 /// [`super::fade`], wide.
 #[inline(always)]
 pub(super) fn fade<S: Simd, F: SimdFloat<S, Element = f32>>(t: F) -> F {
-    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+    let d = t - 0.5;
+    let q = d * d;
+    d * (q * (q * 6.0 - 5.0) + 1.875) + 0.5
 }
 
 /// [`super::lerp`], wide.
