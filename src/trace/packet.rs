@@ -280,7 +280,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     let shiny = lit & glint.simd_gt(zero) & surface.specular.simd_gt(zero);
                     let mut shine = zero;
                     if shiny.any_true() {
-                        let power = math::powf(simd, glint, surface.exponent);
+                        let power = math::exp2(simd, math::log2(simd, glint) * surface.exponent);
                         shine = shiny.select(power * surface.specular * seen, zero);
                     }
                     let amount = lit.select(cos_light * seen, zero);
@@ -529,7 +529,7 @@ fn sky<S: Simd>(simd: S, world: &World, d: V3<S>) -> V3<S> {
     if exponent == 0.0 {
         return base;
     }
-    let glow = math::powf(simd, d.dot1(towards).max(F::<S>::splat(simd, 1e-6)), F::<S>::splat(simd, exponent));
+    let glow = math::powf(simd, d.dot1(towards).max(F::<S>::splat(simd, 1e-6)), exponent);
     base + V3::splat(simd, color) * Lane(glow)
 }
 
