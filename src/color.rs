@@ -2,7 +2,7 @@
 //!
 //! The scalar functions are the truth, in f64; [`encode`] is what a frame uses.
 
-use crate::math::powf;
+use crate::math::{exp2_within, log2};
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
 
@@ -67,22 +67,30 @@ fn dither(x: u32, y: u32, channel: u32) -> f32 {
     (turns >> 16) as f32 * (1.0 / 65536.0)
 }
 
-/// `scale c^exponent - offset`, but `toe c` up to `toe_end`: a transfer function times 255.
+/// A transfer function times 255, `scale c^exponent - offset` but `toe c` up to `toe_end`, and what is added to it.
+///
+/// Numbers for both rather than a branch: the code is there once, and the loop has none.
 struct Curve {
     exponent: f32,
     scale: f32,
     offset: f32,
     toe: f32,
     toe_end: f32,
+    /// Added before truncation: `round + dither d` for a dither of `d`, 0 to 2^16 - 1.
+    round: f32,
+    dither: f32,
 }
 
-const GAMMA22: Curve = Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0 };
+const GAMMA22: Curve =
+    Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0, round: 0.5, dither: 0.0 };
 const SRGB: Curve = Curve {
     exponent: 1.0 / 2.4,
     scale: 255.0 * 1.055,
     offset: 255.0 * 0.055,
     toe: 255.0 * 12.92,
     toe_end: 0.003_130_8,
+    round: 0.0,
+    dither: 1.0 / 65536.0,
 };
 
 /// Pixels that are encoded at a time.
@@ -93,7 +101,12 @@ const BLOCK: usize = 16;
 ///
 /// Panics where a channel is shorter than `out`.
 #[simd]
+#[allow(clippy::too_many_arguments)] // Three channels and where they lie.
 pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
+    let curve = match transfer {
+        Transfer::Gamma22 => GAMMA22,
+        Transfer::Srgb => SRGB,
+    };
     let pixels = out.len();
     let (r, r_rest) = r[..pixels].as_chunks::<BLOCK>();
     let (g, g_rest) = g[..pixels].as_chunks::<BLOCK>();
@@ -102,7 +115,7 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
     let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
     let mut i = 0;
     while i < out.len() {
-        encode_block(simd, transfer, turns, &r[i], &g[i], &b[i], &mut out[i]);
+        encode_block(simd, &curve, turns, &r[i], &g[i], &b[i], &mut out[i]);
         turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
         i += 1;
     }
@@ -112,7 +125,7 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
         last_g[..rest.len()].copy_from_slice(g_rest);
         last_b[..rest.len()].copy_from_slice(b_rest);
         let mut last = [0; BLOCK];
-        encode_block(simd, transfer, turns, &last_r, &last_g, &last_b, &mut last);
+        encode_block(simd, &curve, turns, &last_r, &last_g, &last_b, &mut last);
         rest.copy_from_slice(&last[..rest.len()]);
     }
 }
@@ -121,7 +134,7 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
 #[inline(always)]
 fn encode_block<S: Simd>(
     simd: S,
-    transfer: Transfer,
+    curve: &Curve,
     turns: u32,
     r: &[f32; BLOCK],
     g: &[f32; BLOCK],
@@ -140,9 +153,14 @@ fn encode_block<S: Simd>(
     let mut i = 0;
     while i < BLOCK / S::f32s::LEN {
         let turns = load::<S, S::u32s>(simd, &LANES, i) + turns;
-        let red = channel(simd, transfer, load(simd, r, i), turns);
-        let green = channel(simd, transfer, load(simd, g, i), turns + STEP_CHANNEL);
-        let blue = channel(simd, transfer, load(simd, b, i), turns + STEP_CHANNEL.wrapping_mul(2));
+        // Each step for all three: the processor works on several chains of operations that wait for themselves.
+        let (r, g, b) = (limit(simd, load(simd, r, i)), limit(simd, load(simd, g, i)), limit(simd, load(simd, b, i)));
+        let (p, q, s) = (log2(simd, r), log2(simd, g), log2(simd, b));
+        let (p, q, s) = (p * curve.exponent, q * curve.exponent, s * curve.exponent);
+        let (p, q, s) = (exp2_within(simd, p), exp2_within(simd, q), exp2_within(simd, s));
+        let red = code::<S>(curve, r, p, turns);
+        let green = code::<S>(curve, g, q, turns + STEP_CHANNEL);
+        let blue = code::<S>(curve, b, s, turns + STEP_CHANNEL.wrapping_mul(2));
         let pixels = (red << 16) | (green << 8) | blue;
         match S::f32s::LEN {
             4 => pixels.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
@@ -163,18 +181,19 @@ fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> 
     }
 }
 
-/// The codes of one channel of linear light.
+/// Linear light from the least normal number, which stands for black and for NaN, to 1.
 #[inline(always)]
-fn channel<S: Simd>(simd: S, transfer: Transfer, linear: S::f32s, turns: S::u32s) -> S::u32s {
-    let (zero, one) = (S::f32s::splat(simd, 0.0), S::f32s::splat(simd, 1.0));
+fn limit<S: Simd>(simd: S, linear: S::f32s) -> S::f32s {
     // Comparisons, as the minimum of a NaN is not the same everywhere.
-    let c = linear.simd_gt(zero).select(linear, zero);
-    let c = c.simd_lt(one).select(c, one);
-    let (curve, threshold) = match transfer {
-        Transfer::Gamma22 => (GAMMA22, S::f32s::splat(simd, 0.5)),
-        Transfer::Srgb => (SRGB, (turns >> 16).bitcast::<S::i32s>().to_float::<S::f32s>() * (1.0 / 65536.0)),
-    };
-    let value = powf(simd, c, curve.exponent) * curve.scale - curve.offset;
-    let value = c.simd_le(curve.toe_end).select(c * curve.toe, value);
-    (value + threshold).to_int::<S::i32s>().bitcast()
+    let (black, white) = (S::f32s::splat(simd, f32::MIN_POSITIVE), S::f32s::splat(simd, 1.0));
+    let c = linear.simd_gt(black).select(linear, black);
+    c.simd_lt(white).select(c, white)
+}
+
+/// The codes of one channel of linear light `c` whose power has been taken.
+#[inline(always)]
+fn code<S: Simd>(curve: &Curve, c: S::f32s, power: S::f32s, turns: S::u32s) -> S::u32s {
+    let value = c.simd_le(curve.toe_end).select(c * curve.toe, power * curve.scale - curve.offset);
+    let dither = (turns >> 16).bitcast::<S::i32s>().to_float::<S::f32s>() * curve.dither + curve.round;
+    (value + dither).to_int::<S::i32s>().bitcast()
 }

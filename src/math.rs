@@ -10,8 +10,13 @@ use fearless_simd::{Simd, prelude::*};
 ///
 /// The polynomial is Cephes' `exp2f` (Moshier, 1992) on -1/2..1/2.
 #[inline(always)]
-pub fn exp2<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
-    let x = x.max(-126.0).min(127.0);
+pub fn exp2<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
+    exp2_within(simd, x.max(-126.0).min(127.0))
+}
+
+/// [`exp2`] for -126 <= `x` <= 127 only.
+#[inline(always)]
+pub fn exp2_within<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     let whole = (x + 0.5).floor();
     let f = x - whole;
     // In pairs rather than Horner's chain, here and in `log2`: waiting for each other's results took a third longer.

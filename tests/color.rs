@@ -36,9 +36,9 @@ fn srgb_agrees_with_published_values() {
         // The table's last place, and the rounding of the code to f32, which the curve's slope multiplies by 2.4.
         assert!((srgb_decode(code as f32 / 255.0) - linear as f32).abs() < 5e-9 + 2e-7 * linear as f32, "{code}");
     }
-    assert!((srgb_encode(0.5) - 0.735_356_98).abs() < 1e-7);
-    assert!((srgb_encode(0.18) - 0.461_356_13).abs() < 1e-7);
-    assert!((gamma22_encode(0.5) - 0.729_740_05).abs() < 1e-7);
+    assert!((srgb_encode(0.5) - 0.735_357).abs() < 1e-7);
+    assert!((srgb_encode(0.18) - 0.461_356_1).abs() < 1e-7);
+    assert!((gamma22_encode(0.5) - 0.729_740_1).abs() < 1e-7);
     assert_eq!((srgb_encode(0.0), srgb_encode(1.0)), (0.0, 1.0));
     assert_eq!((srgb_decode(0.0), srgb_decode(1.0)), (0.0, 1.0));
 }

@@ -4,8 +4,8 @@ use super::PERMUTATION;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::{Avx2, f32x8, u32x8};
-use fearless_simd::{Level, Simd, prelude::*};
+use fearless_simd::{Avx2, Level, f32x8, u32x8};
+use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
 
 /// Points of a block: the bytes of one AVX-512 register.
