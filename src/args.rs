@@ -116,13 +116,13 @@ impl Args {
                 Arg::Long(name) => name.to_owned(),
             };
             match name.as_str() {
-                "size" => args.size = size(&value(&mut parser, "WxH")?)?,
-                "threads" => args.threads = threads(&value(&mut parser, "a number")?)?,
-                "at" => at = Some(seconds(&name, &value(&mut parser, "seconds")?)?),
-                "from" => from = Some(seconds(&name, &value(&mut parser, "seconds")?)?),
-                "to" => to = Some(seconds(&name, &value(&mut parser, "seconds")?)?),
-                "fps" => args.fps = rate(&value(&mut parser, "a number")?)?,
-                "quality" => (args.quality_name, args.quality) = quality(&value(&mut parser, "a name")?)?,
+                "size" => args.size = size(&value(&mut parser, &name, "WxH")?)?,
+                "threads" => args.threads = threads(&value(&mut parser, &name, "a number")?)?,
+                "at" => at = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
+                "from" => from = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
+                "to" => to = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
+                "fps" => args.fps = rate(&value(&mut parser, &name, "a number")?)?,
+                "quality" => (args.quality_name, args.quality) = quality(&value(&mut parser, &name, "a name")?)?,
                 "capture" => capture = Some(path(&mut parser)?),
                 "bench" => bench = true,
                 "json" => json = true,
@@ -198,20 +198,20 @@ fn explain(error: Error) -> String {
 }
 
 /// The value of the option just read. Another option in its place is a forgotten value, not a strange one.
-fn os_value(parser: &mut Parser, what: &str) -> Result<OsString, String> {
+fn os_value(parser: &mut Parser, name: &str, what: &str) -> Result<OsString, String> {
     let value = parser.value().map_err(explain)?;
     if value.is_empty() || value.as_encoded_bytes().starts_with(b"--") {
-        return Err(format!("an option needs {what}, not '{}'", value.display()));
+        return Err(format!("--{name} needs {what}, not '{}'", value.display()));
     }
     Ok(value)
 }
 
-fn value(parser: &mut Parser, what: &str) -> Result<String, String> {
-    Ok(os_value(parser, what)?.to_string_lossy().into_owned())
+fn value(parser: &mut Parser, name: &str, what: &str) -> Result<String, String> {
+    Ok(os_value(parser, name, what)?.to_string_lossy().into_owned())
 }
 
 fn path(parser: &mut Parser) -> Result<Option<PathBuf>, String> {
-    let value = os_value(parser, "a directory or -")?;
+    let value = os_value(parser, "capture", "a directory or -")?;
     Ok((value != "-").then(|| value.into()))
 }
 
