@@ -1,4 +1,6 @@
 //! Runs the executable and judges how it ends.
+// Each test file uses its part of this.
+#![allow(dead_code)]
 
 use std::process::{Command, Output};
 
