@@ -1,0 +1,12 @@
+//! Memory for frames, refused with a word where there is not enough.
+
+use paprsek::tile::Frame;
+
+/// A black frame; an error where there is no memory for it.
+pub fn frame(size: (usize, usize)) -> Result<Frame, String> {
+    let (width, height) = size;
+    let mut pixels = Vec::new();
+    pixels.try_reserve_exact(width * height).map_err(|_| format!("no memory for a frame of {width}x{height}"))?;
+    pixels.resize(width * height, 0);
+    Ok(Frame { width, height, pixels })
+}

@@ -1,0 +1,119 @@
+//! Decimal numbers in and out.
+//!
+//! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and
+//! code for it. A time on a command line and a figure in a table need neither.
+
+/// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
+///
+/// Up to 18 digits and 22 places the result is the nearest `f64` but for one case in billions: digits and power of
+/// ten are exact there (Clinger, PLDI 1990), and the remainder of the division is too. So a time that was printed
+/// with all its digits comes back as it was. Past that it may be off by some last places.
+pub fn decimal(text: &str) -> Option<f64> {
+    let (digits, exponent) = match text.split_once(['e', 'E']) {
+        Some((digits, exponent)) => (digits, exponent.parse::<i32>().ok()?),
+        None => (text, 0),
+    };
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    if whole.is_empty() && fraction.is_empty() {
+        return None;
+    }
+    let (mut mantissa, mut scale) = (0u64, exponent);
+    for (i, byte) in whole.bytes().chain(fraction.bytes()).enumerate() {
+        if !byte.is_ascii_digit() {
+            return None;
+        }
+        // Digits past the eighteenth cannot change the value any more, only its power of ten.
+        let kept = mantissa < 10u64.pow(18);
+        if kept {
+            mantissa = mantissa * 10 + u64::from(byte - b'0');
+        }
+        scale = scale.saturating_add(i32::from(!kept) - i32::from(i >= whole.len()));
+    }
+    if mantissa == 0 {
+        return Some(0.0);
+    }
+    let power = (0..scale.unsigned_abs().min(400)).fold(1.0, |power: f64, _| power * 10.0);
+    let head = mantissa as f64;
+    // What 53 bits do not hold of the digits: exact as well.
+    let tail = (mantissa as i64).wrapping_sub(head as i64) as f64;
+    let value = if scale < 0 {
+        let quotient = head / power;
+        quotient + ((-quotient).mul_add(power, head) + tail) / power
+    } else {
+        head * power
+    };
+    // The power may overflow where the value does not: far below the smallest time that means anything.
+    let value = if scale < 0 && power.is_infinite() { 0.0 } else { value };
+    value.is_finite().then_some(value)
+}
+
+/// A figure with three decimals; negative values print as zero.
+pub fn fixed(value: f64) -> String {
+    let thousandths = (value * 1000.0 + 0.5) as u64;
+    format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_the_nearest_double() {
+        for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "1e3", "1E-3", "12.5e+2", "007"] {
+            assert_eq!(decimal(text).map(f64::to_bits), text.parse::<f64>().ok().map(f64::to_bits), "{text}");
+        }
+    }
+
+    #[test]
+    fn printed_times_come_back() {
+        for number in 1..100_000 {
+            let time = f64::from(number) / 30.0;
+            assert_eq!(decimal(&time.to_string()), Some(time));
+        }
+        assert_eq!(decimal("0.30000000000000004"), Some(0.1 + 0.2));
+    }
+
+    #[test]
+    fn long_decimals_are_within_some_last_places() {
+        for text in ["123456789012345678901234567890", "0.000000000000000000000012345678901234567"] {
+            let (ours, exact) = (decimal(text).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
+            assert!((ours - exact).abs() <= 8.0 * exact * f64::EPSILON, "{text}: {ours:e} {exact:e}");
+        }
+        assert_eq!(decimal("0e999"), Some(0.0));
+        assert_eq!(decimal("1e-999999999"), Some(0.0));
+    }
+
+    #[test]
+    fn everything_else_is_refused() {
+        for text in [
+            "",
+            ".",
+            "-1",
+            "+1",
+            "-0",
+            "nan",
+            "NaN",
+            "inf",
+            "infinity",
+            "1e400",
+            "1e",
+            "e5",
+            "1.2.3",
+            "1s",
+            " 1",
+            "0x1",
+            "1e99999999999",
+            "१",
+        ] {
+            assert_eq!(decimal(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn figures_have_three_decimals() {
+        assert_eq!(fixed(0.0), "0.000");
+        assert_eq!(fixed(1.0005), "1.001");
+        assert_eq!(fixed(59.9999), "60.000");
+        assert_eq!(fixed(-3.0), "0.000");
+    }
+}

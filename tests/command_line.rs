@@ -1,0 +1,281 @@
+//! The command line: what is refused and how, and what the files and figures look like.
+
+mod program;
+
+use program::{fails, paprsek, succeeds};
+use paprsek::quality::Quality;
+use paprsek::scenes;
+use serde_json::Value;
+use std::fs::{self, File, OpenOptions};
+use std::io::Read;
+use std::path::Path;
+use std::process::{Output, Stdio};
+
+fn run(words: &[&str]) -> Output {
+    paprsek().args(words).output().unwrap()
+}
+
+/// Captures into a new directory, and gives its files in order.
+#[track_caller]
+fn capture(words: &[&str]) -> Vec<(String, Vec<u8>)> {
+    let directory = tempfile::tempdir().unwrap();
+    succeeds(paprsek().args(words).arg("--capture").arg(directory.path()).output().unwrap());
+    files(directory.path())
+}
+
+fn files(directory: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files: Vec<_> = fs::read_dir(directory)
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn bad_usage_is_one_line_and_exit_2() {
+    let lines: &[&str] = &[
+        "nosuchscene",
+        "spheres spheres",
+        "--nosuchoption",
+        "--stereo",
+        "-x",
+        "-1",
+        "--bench=1",
+        "--size",
+        "--size 0x0",
+        "--size 0x5",
+        "--size 5x0",
+        "--size 16385x1",
+        "--size 1x16385",
+        "--size 16384x16384",
+        "--size 8193x8192",
+        "--size 99999999999999999999x9",
+        "--size 18446744073709551617x1",
+        "--size axb",
+        "--size 7",
+        "--size 7x",
+        "--size x7",
+        "--size 7x3x2",
+        "--size -7x3",
+        "--size +7x3",
+        "--size 7.0x3",
+        "--size 7X3",
+        "--threads",
+        "--threads 0",
+        "--threads -1",
+        "--threads 1025",
+        "--threads 1.5",
+        "--threads two",
+        "--threads +2",
+        "--at",
+        "--at -1",
+        "--at NaN",
+        "--at nan",
+        "--at inf",
+        "--at -inf",
+        "--at 1e999",
+        "--at soon",
+        "--at 1s",
+        "--at --bench",
+        "--from -0.5",
+        "--from NaN",
+        "--to inf",
+        "--to -1",
+        "--from 5 --to 4",
+        "--from 1e9",
+        "--at 1 --from 0",
+        "--at 1 --to 2",
+        "--at 1 --from 0 --to 2",
+        "--fps 0",
+        "--fps -30",
+        "--fps inf",
+        "--fps NaN",
+        "--fps 1001",
+        "--fps fast",
+        "--capture . --fps 1000 --to 1e6",
+        "--json",
+        "--json --at 1",
+        "--bench --capture .",
+        "--capture",
+        "--capture --at 1",
+        "--quality",
+        "--quality best",
+        "--quality DEFAULT",
+    ];
+    for line in lines {
+        let output = run(&line.split(' ').collect::<Vec<_>>());
+        let said = fails(&output, 2);
+        assert!(output.stdout.is_empty(), "{line}: {said}");
+    }
+    for words in [&["--size", ""][..], &["--at", ""], &["--capture", ""], &[""], &["two\nlines"], &["--at", "1\r2"]] {
+        fails(&run(words), 2);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn arguments_need_not_be_unicode() {
+    use std::os::unix::ffi::OsStrExt;
+    let word = std::ffi::OsStr::from_bytes(b"\xff\xfe");
+    fails(&paprsek().arg(word).output().unwrap(), 2);
+    fails(&paprsek().arg("--size").arg(word).output().unwrap(), 2);
+}
+
+#[test]
+fn an_unknown_name_is_answered_with_the_known_ones() {
+    let said = fails(&run(&["nosuchscene"]), 2);
+    assert!(scenes::all().iter().all(|scene| said.contains(scene.name)), "{said}");
+    let said = fails(&run(&["--quality", "best"]), 2);
+    assert!(Quality::NAMES.iter().all(|name| said.contains(name)), "{said}");
+}
+
+#[test]
+fn help_version_and_list_are_answered() {
+    let help = String::from_utf8(succeeds(run(&["--help"]))).unwrap();
+    for option in
+        ["--size", "--threads", "--at", "--from", "--to", "--fps", "--bench", "--json", "--capture", "--quality"]
+    {
+        assert!(help.contains(option), "{option}");
+    }
+    let version = String::from_utf8(succeeds(run(&["--version"]))).unwrap();
+    assert_eq!(version, concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n"));
+    let list = String::from_utf8(succeeds(run(&["--list"]))).unwrap();
+    let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
+}
+
+#[test]
+fn every_size_gives_a_whole_picture() {
+    for (width, height) in [(1, 1), (7, 3), (16384, 1), (1, 16384), (64, 65)] {
+        let files = capture(&["--at", "2", "--size", &format!("{width}x{height}")]);
+        let header = format!("P6\n{width} {height}\n255\n");
+        assert_eq!(files.len(), 1);
+        assert_eq!(files[0].0, "frame-000000.ppm");
+        assert!(files[0].1.starts_with(header.as_bytes()));
+        assert_eq!(files[0].1.len(), header.len() + 3 * width * height);
+    }
+}
+
+#[test]
+fn an_instant_is_the_same_frame_as_in_a_run() {
+    let run = capture(&["spheres", "--from", "1", "--to", "1.5", "--fps", "10", "--size", "64x36"]);
+    let names: Vec<_> = run.iter().map(|file| file.0.as_str()).collect();
+    assert_eq!(
+        names,
+        ["frame-000000.ppm", "frame-000001.ppm", "frame-000002.ppm", "frame-000003.ppm", "frame-000004.ppm"]
+    );
+    let alone = capture(&["spheres", "--at", "1.3", "--size", "64x36"]);
+    assert_eq!(run[3].1, alone[0].1);
+    assert_ne!(run[2].1, run[3].1);
+}
+
+#[test]
+fn threads_do_not_change_a_byte() {
+    for quality in Quality::NAMES {
+        let words = ["spheres", "--to", "0.1", "--size", "97x55", "--quality", quality, "--threads"];
+        let one = capture(&[&words[..], &["1"]].concat());
+        assert_eq!(one.len(), 3);
+        assert_eq!(one, capture(&[&words[..], &["2"]].concat()));
+    }
+}
+
+#[test]
+fn a_stream_is_the_files_in_a_row() {
+    let words = ["--to", "0.2", "--fps", "20", "--size", "33x9"];
+    let stream = succeeds(run(&[&words[..], &["--capture", "-"]].concat()));
+    assert_eq!(stream, capture(&words).into_iter().flat_map(|file| file.1).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_capture_makes_its_directories_and_replaces_its_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let deep = directory.path().join("a/b");
+    for at in ["1", "2"] {
+        let mut command = paprsek();
+        succeeds(command.args(["--size", "16x9", "--at", at, "--capture"]).arg(&deep).output().unwrap());
+    }
+    assert_eq!(files(&deep), capture(&["--size", "16x9", "--at", "2"]));
+}
+
+#[test]
+fn a_directory_that_cannot_be_written_is_said() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("file");
+    File::create(&file).unwrap();
+    for target in [&file, &file.join("below"), Path::new("/proc/paprsek"), Path::new("/proc")] {
+        let output = paprsek().args(["--at", "1", "--size", "8x8", "--capture"]).arg(target).output().unwrap();
+        fails(&output, 1);
+    }
+    assert_eq!(files(directory.path()), [("file".to_string(), Vec::new())]);
+}
+
+#[test]
+fn a_frame_that_cannot_be_put_in_place_leaves_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    let taken = directory.path().join("frame-000000.ppm");
+    fs::create_dir(&taken).unwrap();
+    let output = paprsek().args(["--at", "1", "--size", "8x8", "--capture"]).arg(directory.path()).output().unwrap();
+    fails(&output, 1);
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_is_said() {
+    for words in
+        [&["--capture", "-", "--at", "1"][..], &["--list"], &["--help"], &["--version"], &["--bench", "--size", "8x8"]]
+    {
+        let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
+        fails(&paprsek().args(words).stdout(full).output().unwrap(), 1);
+    }
+    // Nowhere to say it: the exit code is what is left.
+    let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = paprsek().arg("--nosuchoption").stderr(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn a_closed_pipe_is_said() {
+    for words in [&["--capture", "-", "--size", "640x360"][..], &["--bench", "--size", "8x8"]] {
+        let mut command = paprsek();
+        let mut child = command.args(words).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut head = [0; 40];
+        child.stdout.take().unwrap().read_exact(&mut head).unwrap();
+        fails(&child.wait_with_output().unwrap(), 1);
+    }
+}
+
+#[test]
+fn a_benchmark_prints_one_object_a_line() {
+    let words = ["spheres", "--bench", "--json", "--threads", "2", "--size", "64x36", "--quality", "fast"];
+    let lines = String::from_utf8(succeeds(run(&words))).unwrap();
+    assert_eq!(lines.lines().count(), 1);
+    let row: Value = serde_json::from_str(&lines).unwrap();
+    let text = |key: &str| row[key].as_str().unwrap_or_else(|| panic!("{key} in {row}")).to_owned();
+    let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} in {row}"));
+    assert_eq!((text("scene"), text("quality")), ("spheres".into(), "fast".into()));
+    assert_eq!((number("width"), number("height"), number("threads")), (64.0, 36.0, 2.0));
+    assert!(!text("simd").is_empty() && number("frames") >= 1.0 && number("samples") > 0.0);
+    assert!(number("fps_p1") > 0.0 && number("fps_p1") <= number("fps_median"), "{row}");
+    // The milliseconds are rounded to three places.
+    assert!((1000.0 / number("fps_median") - number("ms_median")).abs() < 0.001, "{row}");
+}
+
+#[test]
+fn without_a_scene_every_scene_is_timed() {
+    let lines = String::from_utf8(succeeds(run(&["--bench", "--json", "--at", "2", "--size", "8x8"]))).unwrap();
+    let rows: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let names: Vec<_> = rows.iter().filter_map(|row| row["scene"].as_str()).collect();
+    assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
+}
+
+#[test]
+fn without_a_display_or_a_terminal_the_benchmark_runs() {
+    let output = run(&["spheres", "--size", "16x9"]);
+    let said = fails(&output, 0);
+    assert!(said.contains("no display"), "{said}");
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(table.lines().any(|line| line.starts_with("spheres ")), "{table}");
+}

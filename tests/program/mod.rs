@@ -1,0 +1,29 @@
+//! Runs the executable and judges how it ends.
+// Each test file uses its part of this.
+#![allow(dead_code)]
+
+use std::process::{Command, Output};
+
+/// The executable, without a display.
+pub fn paprsek() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_paprsek"));
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    command
+}
+
+/// Asserts the exit code and one line of the program's own on stderr, and gives the line.
+#[track_caller]
+pub fn fails(output: &Output, code: i32) -> String {
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{said}");
+    assert!(said.starts_with("paprsek: ") && said.ends_with('\n') && said.lines().count() == 1, "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+/// Asserts success and silence on stderr, and gives stdout.
+#[track_caller]
+pub fn succeeds(output: Output) -> Vec<u8> {
+    assert_eq!((output.status.code(), &*String::from_utf8_lossy(&output.stderr)), (Some(0), ""));
+    output.stdout
+}

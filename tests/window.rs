@@ -1,0 +1,235 @@
+//! The window, on a display of the test's own.
+#![cfg(all(target_os = "linux", feature = "x11"))]
+
+mod program;
+
+use program::{fails, paprsek, succeeds};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::os::unix::net::UnixStream;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// What these tests need, as Debian calls it.
+const PACKAGES: &str = "install xvfb, xdotool and imagemagick, or set PAPRSEK_SKIP_WINDOW=1";
+/// Longest wait for anything but the end.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// Esc ends at once: within this, on a loaded machine.
+const AT_ONCE: Duration = Duration::from_secs(1);
+
+/// A virtual display; it ends with the test.
+struct Display(Child, String);
+
+impl Display {
+    /// `None` where the tests of windows are to be skipped.
+    fn open() -> Option<Display> {
+        if std::env::var_os("PAPRSEK_SKIP_WINDOW").is_some() {
+            return None;
+        }
+        let mut xvfb = Command::new("Xvfb");
+        xvfb.args(["-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"]);
+        let mut child = xvfb.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect(PACKAGES);
+        let mut number = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        assert!(!number.trim().is_empty(), "Xvfb does not start");
+        Some(Display(child, format!(":{}", number.trim())))
+    }
+
+    /// Plays on this display, and waits until the window shows something.
+    fn play(&self, words: &[&str]) -> Child {
+        let mut command = paprsek();
+        command.args(["--size", "320x180"]).args(words).env("DISPLAY", &self.1);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let began = Instant::now();
+        while self.colours() < 3 {
+            assert!(child.try_wait().unwrap().is_none(), "ended before it showed anything");
+            assert!(began.elapsed() < PATIENCE, "nothing to see");
+            sleep(Duration::from_millis(50));
+        }
+        child
+    }
+
+    /// How many colours are on the screen.
+    fn colours(&self) -> usize {
+        let pixels = self.picture();
+        let mut colours: Vec<_> = pixels.chunks_exact(3).collect();
+        colours.sort();
+        colours.dedup();
+        colours.len()
+    }
+
+    /// The screen as bytes.
+    fn picture(&self) -> Vec<u8> {
+        let mut import = Command::new("import");
+        let output = import.args(["-window", "root", "-depth", "8", "rgb:-"]).env("DISPLAY", &self.1).output();
+        output.expect(PACKAGES).stdout
+    }
+
+    fn xdotool(&self, words: &[&str]) -> String {
+        let output = Command::new("xdotool").args(words).env("DISPLAY", &self.1).output().expect(PACKAGES);
+        assert!(output.status.success(), "xdotool {words:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap().trim().to_owned()
+    }
+
+    fn window(&self) -> String {
+        self.xdotool(&["search", "--name", "^Paprsek$"])
+    }
+
+    /// Closes the window as a window manager does: with a message that asks it to close.
+    fn ask_to_close(&self) {
+        let server = UnixStream::connect(format!("/tmp/.X11-unix/X{}", &self.1[1..])).unwrap();
+        (&server).write_all(&[b'l', 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]).unwrap();
+        let mut head = [0; 8];
+        (&server).read_exact(&mut head).unwrap();
+        assert_eq!(head[0], 1, "the display refuses");
+        let mut rest = vec![0; 4 * usize::from(u16::from_le_bytes([head[6], head[7]]))];
+        (&server).read_exact(&mut rest).unwrap();
+        let atom = |name: &[u8]| {
+            let length = name.len() as u16;
+            let words = 2 + length.div_ceil(4);
+            let mut request = [&[16, 0][..], &words.to_le_bytes(), &length.to_le_bytes(), &[0, 0], name].concat();
+            request.resize(4 * usize::from(words), 0);
+            (&server).write_all(&request).unwrap();
+            let mut reply = [0; 32];
+            (&server).read_exact(&mut reply).unwrap();
+            <[u8; 4]>::try_from(&reply[8..12]).unwrap()
+        };
+        let (protocols, delete) = (atom(b"WM_PROTOCOLS"), atom(b"WM_DELETE_WINDOW"));
+        let window = self.window().parse::<u32>().unwrap().to_le_bytes();
+        // SendEvent of a ClientMessage (33) of 32-bit words, to this window alone.
+        let event = [&[33, 32, 0, 0][..], &window, &protocols, &delete, &[0; 16]].concat();
+        (&server).write_all(&[&[25, 0, 11, 0][..], &window, &[0; 4], &event].concat()).unwrap();
+        // The answer to any request says that the message went out.
+        atom(b"WM_PROTOCOLS");
+    }
+
+    fn kill(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+/// Waits for the end, but not for ever.
+fn ending(mut child: Child, patience: Duration) -> Output {
+    let began = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if began.elapsed() > patience {
+            let _ = child.kill();
+            panic!("still playing after {patience:?}");
+        }
+        sleep(Duration::from_millis(5));
+    }
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn esc_ends_at_once() {
+    let Some(display) = Display::open() else { return };
+    let child = display.play(&["spheres"]);
+    display.xdotool(&["key", "Escape"]);
+    assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+}
+
+#[test]
+fn esc_ends_in_the_middle_of_a_slow_frame() {
+    let Some(display) = Display::open() else { return };
+    let mut command = paprsek();
+    command.args(["spheres", "--size", "3840x2160", "--quality", "reference"]).env("DISPLAY", &display.1);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let began = Instant::now();
+    // xdotool reports a search that finds nothing as a failure.
+    while !Command::new("xdotool")
+        .args(["search", "--onlyvisible", "--name", "^Paprsek$"])
+        .env("DISPLAY", &display.1)
+        .output()
+        .expect(PACKAGES)
+        .status
+        .success()
+    {
+        assert!(began.elapsed() < PATIENCE, "no window");
+        sleep(Duration::from_millis(20));
+    }
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
+
+#[test]
+fn closing_ends_well() {
+    let Some(display) = Display::open() else { return };
+    let child = display.play(&[]);
+    display.ask_to_close();
+    assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+    let child = display.play(&[]);
+    display.xdotool(&["windowclose", &display.window()]);
+    assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+}
+
+#[test]
+fn a_lost_display_is_said_in_one_line() {
+    let Some(mut display) = Display::open() else { return };
+    let child = display.play(&[]);
+    display.kill();
+    let said = fails(&ending(child, PATIENCE), 1);
+    assert!(said.contains("display"), "{said}");
+}
+
+#[test]
+fn a_range_ends_by_itself() {
+    let Some(display) = Display::open() else { return };
+    let began = Instant::now();
+    let child = display.play(&["--from", "1", "--to", "3"]);
+    assert!(succeeds(ending(child, PATIENCE)).is_empty());
+    assert!(began.elapsed() >= Duration::from_secs(2));
+}
+
+#[test]
+fn a_still_stays_and_keys_move_it() {
+    let Some(display) = Display::open() else { return };
+    let child = display.play(&["spheres", "--at", "2"]);
+    let still = display.picture();
+    sleep(Duration::from_millis(500));
+    assert!(display.picture() == still, "a still moves");
+    // A tap is over before the next frame; it counts all the same.
+    display.xdotool(&["key", "--delay", "0", "Right"]);
+    let began = Instant::now();
+    while display.picture() == still {
+        assert!(began.elapsed() < PATIENCE, "the arrow key does nothing");
+    }
+    display.xdotool(&["key", "--delay", "0", "Left"]);
+    while display.picture() != still {
+        assert!(began.elapsed() < PATIENCE, "the way back is another");
+    }
+    display.xdotool(&["key", "space"]);
+    while display.picture() == still {
+        assert!(began.elapsed() < PATIENCE, "the space bar does nothing");
+    }
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
+
+#[test]
+fn a_window_keeps_the_aspect_when_resized() {
+    let Some(display) = Display::open() else { return };
+    let child = display.play(&["--at", "2"]);
+    display.xdotool(&["windowsize", "--sync", &display.window(), "320", "300"]);
+    sleep(Duration::from_millis(500));
+    let picture = display.picture();
+    let window = display.xdotool(&["getwindowgeometry", "--shell", &display.window()]);
+    let side = |name: &str| -> usize {
+        window.lines().find_map(|line| line.strip_prefix(name)).and_then(|text| text.parse().ok()).unwrap()
+    };
+    let lit = |y: usize| {
+        let row = 3 * (640 * (side("Y=") + y) + side("X="));
+        picture[row..row + 3 * 320].iter().any(|byte| *byte > 0)
+    };
+    // 320x180 in the middle of 320x300: bars of 60 rows.
+    assert!(!lit(30) && lit(150) && !lit(270));
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
