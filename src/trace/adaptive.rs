@@ -9,15 +9,17 @@
 //! * The test of contributions is an estimate of the interpolation's own error, at the centre where it is largest,
 //!   rather than the difference of the corners: a smooth gradient is no reason to split. The centre is no extra cost
 //!   where the square is cut, being a corner of its parts.
+//! * An edge that enters a square between two corners is followed: where the border of a square meets samples of its
+//!   neighbours that have another chain, the square is cut after all.
 //! * Squares that a small object or shadow may touch are cut in any case ([`super::guard`]).
 //! * With anti-aliasing corners lie on the corners of pixels, so that a pixel is a square like any other; without, on
 //!   the centres of pixels, so that a corner is a pixel.
 
 use super::deferred::Deferred;
+use super::fill::{self, Ramps};
 use super::guard::Guard;
 use super::lanes::F;
-use super::packet::{self, Context, HIT, NUMBERS, PLAIN, Sample};
-use crate::noise::BLOCK;
+use super::packet::{self, Context, HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
 use crate::quality::Quality;
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
@@ -25,20 +27,18 @@ use fearless_simd_macros::simd;
 
 /// Most lattice points along a tile's edge: quarter pixels, both ends.
 const LATTICE: usize = Tile::SIZE * 4 + 1;
+/// Sizes of squares from 16 pixels down to a quarter.
+const LEVELS: usize = 7;
 
-/// What a thread keeps from tile to tile; only memory, never values.
-#[derive(Default)]
-pub struct Scratch {
-    /// For each lattice point the generation that traced it and its sample.
-    lattice: Vec<(u32, u32)>,
-    generation: u32,
-    samples: Vec<Sample>,
-    xs: Vec<f32>,
-    ys: Vec<f32>,
-    cells: Vec<(u16, u16)>,
-    parts: Vec<(u16, u16)>,
-    edges: Vec<(u16, u16)>,
-    deferred: Deferred,
+/// A square of the lattice: its top left corner and its edge, lattice steps.
+#[derive(Clone, Copy)]
+pub struct Square {
+    /// Left.
+    pub x: usize,
+    /// Top.
+    pub y: usize,
+    /// Edge.
+    pub size: usize,
 }
 
 /// What the renderer of one tile reads.
@@ -54,30 +54,76 @@ pub struct Job<'a> {
     pub quality: &'a Quality,
 }
 
-impl Scratch {
-    /// The sample at a lattice point, asked for if it is not there yet.
+impl Job<'_> {
+    /// Lattice steps of a pixel.
     #[inline(always)]
-    fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) -> u32 {
+    pub fn unit(&self) -> usize {
+        1 << self.quality.subpixel
+    }
+}
+
+/// What a thread keeps from tile to tile; only memory, never values.
+#[derive(Default)]
+pub struct Scratch {
+    grid: Grid,
+    /// Squares to look at, by level.
+    work: [Vec<(u16, u16)>; LEVELS],
+    /// Squares whose corners agree.
+    whole: Vec<Square>,
+    /// Pixels that are traced themselves, and those that an edge runs through.
+    pixels: Vec<(u16, u16)>,
+    edges: Vec<(u16, u16)>,
+    deferred: Deferred,
+    ramps: Ramps,
+}
+
+/// The samples of a tile, on a lattice of pixels or parts of pixels.
+#[derive(Default)]
+pub struct Grid {
+    /// For each lattice point the generation that traced it and its sample.
+    lattice: Vec<(u32, u32)>,
+    generation: u32,
+    samples: Vec<Sample>,
+    xs: Vec<f32>,
+    ys: Vec<f32>,
+}
+
+impl Grid {
+    /// Forgets the last tile.
+    fn begin(&mut self) {
+        self.lattice.resize(LATTICE * LATTICE, (0, 0));
+        self.generation = self.generation.wrapping_add(1).max(1);
+        self.samples.clear();
+    }
+
+    /// Asks for the sample at a lattice point, if it is not there yet.
+    #[inline(always)]
+    fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) {
         let entry = &mut self.lattice[y * LATTICE + x];
         if entry.0 != self.generation {
             *entry = (self.generation, (self.samples.len() + self.xs.len()) as u32);
-            let (step, offset) = lattice_step(job.quality);
+            let (step, offset) = if job.quality.subpixel == 0 { (1.0, 0.5) } else { (1.0 / job.unit() as f32, 0.0) };
             self.xs.push(tile.x as f32 + x as f32 * step + offset);
             self.ys.push(tile.y as f32 + y as f32 * step + offset);
         }
-        entry.1
     }
 
     /// The sample at a lattice point that has been traced.
     #[inline(always)]
-    fn at(&self, x: usize, y: usize) -> &Sample {
+    pub fn at(&self, x: usize, y: usize) -> &Sample {
         &self.samples[self.lattice[y * LATTICE + x].1 as usize]
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
     #[inline(always)]
-    fn corners(&self, x: usize, y: usize, size: usize) -> [&Sample; 4] {
+    pub fn corners(&self, Square { x, y, size }: Square) -> [&Sample; 4] {
         [self.at(x, y), self.at(x + size, y), self.at(x, y + size), self.at(x + size, y + size)]
+    }
+
+    /// The sample in the middle of a square.
+    #[inline(always)]
+    pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
+        self.at(x + size / 2, y + size / 2)
     }
 
     /// Traces all that was asked for.
@@ -87,175 +133,204 @@ impl Scratch {
         self.xs.clear();
         self.ys.clear();
     }
-}
 
-/// Pixels between lattice points, and from the pixel's corner to the first.
-#[inline(always)]
-fn lattice_step(quality: &Quality) -> (f32, f32) {
-    if quality.subpixel == 0 { (1.0, 0.5) } else { (1.0 / (1 << quality.subpixel) as f32, 0.0) }
+    /// Does a sample between the ends of a line of lattice points have another chain?
+    ///
+    /// Lines are cut in the middle: where the middle has not been traced, nothing between it and the ends has.
+    fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, chain: u32) -> bool {
+        let half = length / 2;
+        if half == 0 {
+            return false;
+        }
+        let middle = (x + dx * half, y + dy * half);
+        if self.lattice[middle.1 * LATTICE + middle.0].0 != self.generation {
+            return false;
+        }
+        self.at(middle.0, middle.1).chain != chain
+            || self.crossed((x, y), (dx, dy), half, chain)
+            || self.crossed(middle, (dx, dy), half, chain)
+    }
+
+    /// Does an edge enter a square from a neighbour?
+    #[inline(always)]
+    fn entered(&self, Square { x, y, size }: Square) -> bool {
+        let chain = self.at(x, y).chain;
+        self.crossed((x, y), (1, 0), size, chain)
+            || self.crossed((x, y), (0, 1), size, chain)
+            || self.crossed((x, y + size), (1, 0), size, chain)
+            || self.crossed((x + size, y), (0, 1), size, chain)
+    }
 }
 
 /// Draws a tile; returns the number of eye rays.
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-    scratch.samples.clear();
-    scratch.deferred.begin(job.context.world.objects.len());
+    scratch.grid.begin();
+    scratch.deferred.begin(job.context.world.objects.len(), job.quality.subpixel > 0);
+    tile.clear();
     if job.quality.cell > 1 {
-        scratch.lattice.resize(LATTICE * LATTICE, (0, 0));
-        scratch.generation = scratch.generation.wrapping_add(1).max(1);
         subdivide(simd, job, tile, scratch);
+        paint(simd, job, tile, scratch);
     } else {
         every_pixel(simd, job, tile, scratch);
     }
-    let Scratch { deferred, .. } = scratch;
+    let Scratch { grid, deferred, .. } = scratch;
     deferred.finish(simd, job.context.world, tile);
-    scratch.samples.len() as u64
+    grid.samples.len() as u64
 }
 
 /// The exact limit: `grid` x `grid` samples in every pixel.
 #[simd]
 fn every_pixel<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
-    let grid = job.quality.grid;
-    let share = 1.0 / (grid * grid) as f32;
-    tile.clear();
+    let Scratch { grid, deferred, .. } = scratch;
+    let across = job.quality.grid;
+    let share = 1.0 / (across * across) as f32;
+    let step = 1.0 / across as f32;
     for y in 0..tile.height {
-        let first = scratch.samples.len();
         for x in 0..tile.width {
-            for j in 0..grid {
-                for i in 0..grid {
-                    scratch.xs.push((tile.x + x) as f32 + (i as f32 + 0.5) / grid as f32);
-                    scratch.ys.push((tile.y + y) as f32 + (j as f32 + 0.5) / grid as f32);
-                }
+            for n in 0..across * across {
+                grid.xs.push((tile.x + x) as f32 + ((n % across) as f32 + 0.5) * step);
+                grid.ys.push((tile.y + y) as f32 + ((n / across) as f32 + 0.5) * step);
             }
         }
-        scratch.trace(simd, job);
-        let Scratch { samples, deferred, .. } = scratch;
-        for (n, sample) in samples[first..].iter().enumerate() {
-            let pixel = y * Tile::SIZE + n / (grid * grid);
-            resolve(simd, job, tile, deferred, pixel, sample, share);
+        let first = grid.samples.len();
+        grid.trace(simd, job);
+        for (n, sample) in grid.samples[first..].iter().enumerate() {
+            let pixel = y * Tile::SIZE + n / (across * across);
+            fill::add(simd, job, tile, deferred, pixel, sample, share, &[0.0; REMEMBERED]);
         }
     }
 }
 
-/// Adds `share` of a sample to a pixel.
-#[inline(always)]
-fn resolve<S: Simd>(
-    simd: S,
-    job: &Job,
-    tile: &mut Tile,
-    deferred: &mut Deferred,
-    pixel: usize,
-    sample: &Sample,
-    share: f32,
-) {
-    let [red, green, blue, closeness, ..] = sample.numbers;
-    tile.red[pixel] += red * share;
-    tile.green[pixel] += green * share;
-    tile.blue[pixel] += blue * share;
-    tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
-    tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
-    deferred.push(simd, job.context.world, tile, pixel as u16, sample, share);
-}
-
-/// Cuts the tile into squares, from the coarsest to the finest.
+/// Cuts the tile into squares whose corners agree, pixels, and pixels that an edge runs through.
 #[simd]
 fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
-    let unit = 1 << job.quality.subpixel;
+    let Scratch { grid, work, whole, pixels, edges, .. } = scratch;
+    let unit = job.unit();
     let coarsest = job.quality.cell * unit;
-    scratch.cells.clear();
-    scratch.edges.clear();
-    for y in (0..tile.height * unit).step_by(coarsest) {
-        for x in (0..tile.width * unit).step_by(coarsest) {
-            scratch.cells.push((x as u16, y as u16));
+    let end = ((tile.width * unit) as u16, (tile.height * unit) as u16);
+    whole.clear();
+    pixels.clear();
+    edges.clear();
+    for y in (0..end.1).step_by(coarsest) {
+        for x in (0..end.0).step_by(coarsest) {
+            work[0].push((x, y));
         }
     }
-    tile.clear();
-    let end = ((tile.width * unit) as u16, (tile.height * unit) as u16);
-    let mut size = coarsest;
-    while !scratch.cells.is_empty() {
-        let cells = std::mem::take(&mut scratch.cells);
-        let half = size / 2;
-        for &(x, y) in &cells {
-            let (x, y) = (x as usize, y as usize);
-            scratch.want(job, tile, x, y);
-            if size == 1 && unit == 1 {
-                continue;
-            }
-            scratch.want(job, tile, x + size, y);
-            scratch.want(job, tile, x, y + size);
-            scratch.want(job, tile, x + size, y + size);
-            if size >= unit.max(2) {
-                scratch.want(job, tile, x + half, y + half);
-            }
-        }
-        scratch.trace(simd, job);
-        for &(x, y) in &cells {
-            let (cx, cy) = (x as usize, y as usize);
-            if size < unit {
-                // Inside of a pixel: the weights are found when all of its parts are there.
-                if size > 1 && !same_chain(scratch.corners(cx, cy, size)) {
-                    split(&mut scratch.parts, x, y, half, end);
+    loop {
+        let mut size = coarsest;
+        let mut level = 0;
+        while size > 0 {
+            let squares = std::mem::take(&mut work[level]);
+            for &(x, y) in &squares {
+                let (x, y) = (x as usize, y as usize);
+                grid.want(job, tile, x, y);
+                if size == 1 && unit == 1 {
+                    continue;
                 }
-                continue;
+                grid.want(job, tile, x + size, y);
+                grid.want(job, tile, x, y + size);
+                grid.want(job, tile, x + size, y + size);
+                if size >= unit.max(2) {
+                    grid.want(job, tile, x + size / 2, y + size / 2);
+                }
             }
-            if size == 1 {
-                let Scratch { samples, deferred, lattice, .. } = scratch;
-                let sample = &samples[lattice[cy * LATTICE + cx].1 as usize];
-                resolve(simd, job, tile, deferred, cy * Tile::SIZE + cx, sample, 1.0);
-                continue;
+            grid.trace(simd, job);
+            for &(x, y) in &squares {
+                let square = Square { x: x as usize, y: y as usize, size };
+                let agree = if size < unit {
+                    size == 1 || same_chain(grid.corners(square))
+                } else {
+                    size <= unit * job.guard.finest(tile.x + square.x / unit, tile.y + square.y / unit)
+                        && size > 1
+                        && agree(simd, job, grid.corners(square), grid.centre(square))
+                };
+                if size < unit && agree {
+                    continue;
+                }
+                if size == 1 {
+                    pixels.push((x, y));
+                } else if agree {
+                    whole.push(square);
+                } else {
+                    if size == unit {
+                        edges.push((x, y));
+                    }
+                    split(&mut work[level + 1], square, end);
+                }
             }
-            let finest = job.guard.finest(tile.x + cx / unit, tile.y + cy / unit);
-            let agree = size <= finest * unit
-                && agree(simd, job, scratch.corners(cx, cy, size), scratch.at(cx + half, cy + half));
-            if !agree && size == unit {
-                scratch.edges.push((x, y));
-                split(&mut scratch.parts, x, y, half, end);
-            } else if !agree {
-                split(&mut scratch.parts, x, y, half, end);
-            } else if size == unit {
-                let Scratch { samples, deferred, lattice, .. } = scratch;
-                let centre = &samples[lattice[(cy + half) * LATTICE + cx + half].1 as usize];
-                resolve(simd, job, tile, deferred, cy / unit * Tile::SIZE + cx / unit, centre, 1.0);
-            } else {
-                let [a, b, c, d] = scratch.corners(cx, cy, size);
-                let corners = [*a, *b, *c, *d];
-                let offset = if unit == 1 { 0.0 } else { 0.5 };
-                interpolate(simd, job, tile, &mut scratch.deferred, &corners, cx / unit, cy / unit, size / unit, offset);
-            }
+            work[level] = squares;
+            work[level].clear();
+            level += 1;
+            size /= 2;
         }
-        scratch.cells = cells;
-        scratch.cells.clear();
-        std::mem::swap(&mut scratch.cells, &mut scratch.parts);
-        size = half;
-        if size == 0 {
+        let mut at = 0;
+        let mut done = true;
+        while at < whole.len() {
+            let square = whole[at];
+            if !grid.entered(square) {
+                at += 1;
+                continue;
+            }
+            done = false;
+            whole.swap_remove(at);
+            if square.size == unit {
+                edges.push((square.x as u16, square.y as u16));
+            }
+            split(&mut work[(coarsest / square.size).trailing_zeros() as usize + 1], square, end);
+        }
+        if done {
             break;
         }
     }
-    let edges = std::mem::take(&mut scratch.edges);
-    let mut groups = Groups::default();
-    for &(x, y) in &edges {
-        groups.count = 0;
-        weigh(scratch, x as usize, y as usize, unit, 1.0, &mut groups);
-        let pixel = y as usize / unit * Tile::SIZE + x as usize / unit;
-        for group in &groups.list[..groups.count] {
-            let mut mean = group.sum;
-            let k = 1.0 / group.weight;
-            for number in &mut mean.numbers {
-                *number *= k;
-            }
-            resolve(simd, job, tile, &mut scratch.deferred, pixel, &mean, group.weight);
-        }
-    }
-    scratch.edges = edges;
 }
 
 /// The four parts of a square, without those that lie beyond the picture's end.
 #[inline(always)]
-fn split(parts: &mut Vec<(u16, u16)>, x: u16, y: u16, half: usize, end: (u16, u16)) {
-    let (right, below) = (x + half as u16, y + half as u16);
-    for (x, y) in [(x, y), (right, y), (x, below), (right, below)] {
+fn split(parts: &mut Vec<(u16, u16)>, Square { x, y, size }: Square, end: (u16, u16)) {
+    let (x, y, half) = (x as u16, y as u16, (size / 2) as u16);
+    for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
         if x < end.0 && y < end.1 {
             parts.push((x, y));
+        }
+    }
+}
+
+/// Gives every pixel its light.
+#[simd]
+fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
+    let Scratch { grid, whole, pixels, edges, deferred, ramps, .. } = scratch;
+    let unit = job.unit();
+    ramps.prepare(job.quality.subpixel > 0);
+    for &square in whole.iter() {
+        if square.size == unit {
+            let pixel = square.y / unit * Tile::SIZE + square.x / unit;
+            let footprint = fill::footprints(grid.corners(square));
+            fill::add(simd, job, tile, deferred, pixel, grid.centre(square), 1.0, &footprint);
+        } else {
+            fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
+        }
+    }
+    for &(x, y) in pixels.iter() {
+        let pixel = y as usize * Tile::SIZE + x as usize;
+        let sample = grid.at(x as usize, y as usize);
+        fill::add(simd, job, tile, deferred, pixel, sample, 1.0, &[0.0; REMEMBERED]);
+    }
+    let mut groups = Groups::default();
+    for &(x, y) in edges.iter() {
+        let (x, y) = (x as usize, y as usize);
+        groups.count = 0;
+        let half = unit / 2;
+        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+            weigh(grid, Square { x, y, size: half }, 0.25, &mut groups);
+        }
+        for group in &mut groups.list[..groups.count] {
+            let k = 1.0 / group.weight;
+            for number in &mut group.sum.numbers {
+                *number *= k;
+            }
+            let pixel = y / unit * Tile::SIZE + x / unit;
+            fill::add(simd, job, tile, deferred, pixel, &group.sum, group.weight, &[0.0; REMEMBERED]);
         }
     }
 }
@@ -304,90 +379,6 @@ fn distance(a: &[f32], b: &[f32]) -> f32 {
     (a[0] - b[0]).abs().max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs())
 }
 
-/// Fills a square of `size` pixels from its corners.
-#[simd]
-#[allow(clippy::too_many_arguments)]
-fn interpolate<S: Simd>(
-    simd: S,
-    job: &Job,
-    tile: &mut Tile,
-    deferred: &mut Deferred,
-    corners: &[Sample; 4],
-    x: usize,
-    y: usize,
-    size: usize,
-    offset: f32,
-) {
-    let area = size * size;
-    let shift = size.trailing_zeros();
-    let step = 1.0 / size as f32;
-    let solid = corners[0].closeness() > 0.0;
-    // A block is as many whole rows as fit; lanes beyond the square are computed and not used.
-    for start in (0..area).step_by(BLOCK) {
-        let count = BLOCK.min(area - start);
-        let mut us = [0.0; BLOCK];
-        let mut vs = [0.0; BLOCK];
-        let mut pixels = [0u16; BLOCK];
-        for i in 0..count {
-            let (column, row) = ((start + i) & (size - 1), (start + i) >> shift);
-            us[i] = (column as f32 + offset) * step;
-            vs[i] = (row as f32 + offset) * step;
-            pixels[i] = ((y + row) * Tile::SIZE + x + column) as u16;
-        }
-        let mut block = [[0.0; BLOCK]; HIT];
-        let rows = count >> shift;
-        for k in 0..PLAIN {
-            bilinear(simd, corners, k, &us, &vs, count, &mut block[k]);
-        }
-        let [red, green, blue, closeness, ..] = &block;
-        for row in 0..rows {
-            let from = row * size..(row + 1) * size;
-            let to = pixels[from.start] as usize;
-            let to = to..to + size;
-            tile.red[to.clone()].copy_from_slice(&red[from.clone()]);
-            tile.green[to.clone()].copy_from_slice(&green[from.clone()]);
-            tile.blue[to.clone()].copy_from_slice(&blue[from.clone()]);
-            tile.closeness[to.clone()].copy_from_slice(&closeness[from]);
-            tile.coverage[to].fill(if solid { 1.0 } else { 0.0 });
-        }
-        for n in 0..corners[0].count as usize {
-            for k in 0..HIT {
-                bilinear(simd, corners, PLAIN + HIT * n + k, &us, &vs, count, &mut block[k]);
-            }
-            for i in (0..count).step_by(F::<S>::LEN) {
-                let range = i..i + F::<S>::LEN;
-                let k = F::<S>::splat(simd, 1.0) / F::<S>::from_slice(simd, &block[6][range.clone()]);
-                for axis in 3..6 {
-                    let point = &mut block[axis][range.clone()];
-                    (F::<S>::from_slice(simd, point) * k).store_slice(point);
-                }
-            }
-            deferred.push_run(simd, job.context.world, tile, corners[0].object[n], &pixels[..count], &block);
-        }
-    }
-}
-
-/// Bilinear interpolation of number `k` at the first `count` places, rounded up to full lanes.
-#[inline(always)]
-fn bilinear<S: Simd>(
-    simd: S,
-    corners: &[Sample; 4],
-    k: usize,
-    us: &[f32; BLOCK],
-    vs: &[f32; BLOCK],
-    count: usize,
-    out: &mut [f32; BLOCK],
-) {
-    let [a, b, c, d] = [corners[0].numbers[k], corners[1].numbers[k], corners[2].numbers[k], corners[3].numbers[k]];
-    let (du, dv, duv) = (b - a, c - a, d - c - b + a);
-    for i in (0..count).step_by(F::<S>::LEN) {
-        let range = i..i + F::<S>::LEN;
-        let (u, v) = (F::<S>::from_slice(simd, &us[range.clone()]), F::<S>::from_slice(simd, &vs[range.clone()]));
-        let value = u * (v * duv + du) + (v * dv + a);
-        value.store_slice(&mut out[range]);
-    }
-}
-
 /// The surfaces seen through one pixel, each with its share of the area.
 struct Groups {
     count: usize,
@@ -425,20 +416,20 @@ impl Groups {
     }
 }
 
-/// Gives the samples in a square their weights: a quarter to each corner of every part that is not cut further.
-fn weigh(scratch: &Scratch, x: usize, y: usize, size: usize, weight: f32, groups: &mut Groups) {
-    let unit_cut = size > 1 && (groups.count == 0 && weight == 1.0 || !same_chain(scratch.corners(x, y, size)));
-    if unit_cut {
+/// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
+fn weigh(grid: &Grid, square: Square, weight: f32, groups: &mut Groups) {
+    let Square { x, y, size } = square;
+    if size > 1 && !same_chain(grid.corners(square)) {
         let half = size / 2;
-        for (dx, dy) in [(0, 0), (half, 0), (0, half), (half, half)] {
-            weigh(scratch, x + dx, y + dy, half, weight * 0.25, groups);
+        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+            weigh(grid, Square { x, y, size: half }, weight * 0.25, groups);
         }
         return;
     }
-    for corner in scratch.corners(x, y, size) {
+    for corner in grid.corners(square) {
         groups.add(corner, weight * 0.25);
     }
 }
 
-// Pixels of a tile are numbered in 16 bits, and the numbers of a sample come in full lanes of any width.
-const _: () = assert!(Tile::AREA <= 1 << 16 && NUMBERS % 16 == 0);
+// The numbers of a sample come in full lanes of any width.
+const _: () = assert!(NUMBERS % 16 == 0);

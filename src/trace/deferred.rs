@@ -4,7 +4,7 @@
 //! and noise always runs on full blocks, however broken the picture is.
 
 use super::lanes::F;
-use super::packet::{HIT, PLAIN, Sample};
+use super::packet::{HIT, PLAIN, REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use super::world::World;
 use crate::noise::BLOCK;
@@ -19,24 +19,39 @@ struct Queue {
     pixel: [u16; BLOCK],
     gain: Block3,
     point: Block3,
+    footprint: [f32; BLOCK],
 }
 
 /// All waiting hits of a tile.
 #[derive(Default)]
 pub struct Deferred {
     queues: Vec<Queue>,
+    /// Are textures averaged over their footprint?
+    filter: bool,
 }
 
 impl Deferred {
     /// Ready for a world of that many objects.
-    pub fn begin(&mut self, objects: usize) {
-        let empty = Queue { count: 0, pixel: [0; BLOCK], gain: [[0.0; BLOCK]; 3], point: [[0.0; BLOCK]; 3] };
+    pub fn begin(&mut self, objects: usize, filter: bool) {
+        let black = [[0.0; BLOCK]; 3];
+        let empty = Queue { count: 0, pixel: [0; BLOCK], gain: black, point: black, footprint: [0.0; BLOCK] };
         self.queues.resize(objects, empty);
+        self.filter = filter;
     }
 
     /// Adds `share` of the textured hits of one sample of a pixel.
     #[inline(always)]
-    pub fn push<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile, pixel: u16, sample: &Sample, share: f32) {
+    #[allow(clippy::too_many_arguments)]
+    pub fn push<S: Simd>(
+        &mut self,
+        simd: S,
+        world: &World,
+        tile: &mut Tile,
+        pixel: u16,
+        sample: &Sample,
+        share: f32,
+        footprint: &[f32; REMEMBERED],
+    ) {
         for n in 0..sample.count as usize {
             let object = sample.object[n];
             let hit = &sample.numbers[PLAIN + HIT * n..][..HIT];
@@ -44,19 +59,21 @@ impl Deferred {
             let at = queue.count & (BLOCK - 1);
             let k = 1.0 / hit[6];
             queue.pixel[at] = pixel;
+            queue.footprint[at] = footprint[n];
             for axis in 0..3 {
                 queue.gain[axis][at] = hit[axis] * share;
                 queue.point[axis][at] = hit[3 + axis] * k;
             }
             queue.count += 1;
             if queue.count == BLOCK {
-                flush(simd, world, queue, object, tile);
+                flush(simd, world, queue, object, self.filter, tile);
             }
         }
     }
 
     /// Adds a hit of one object for each of `pixels`: gain (3), point (3), and its closeness, which is not needed here.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     pub fn push_run<S: Simd>(
         &mut self,
         simd: S,
@@ -65,12 +82,14 @@ impl Deferred {
         object: u32,
         pixels: &[u16],
         hits: &[[f32; BLOCK]; HIT],
+        footprint: &[f32; BLOCK],
     ) {
         let queue = &mut self.queues[object as usize];
         let mut done = 0;
         while done < pixels.len() {
             let (at, n) = (queue.count, (BLOCK - queue.count).min(pixels.len() - done));
             queue.pixel[at..at + n].copy_from_slice(&pixels[done..done + n]);
+            queue.footprint[at..at + n].copy_from_slice(&footprint[done..done + n]);
             for axis in 0..3 {
                 queue.gain[axis][at..at + n].copy_from_slice(&hits[axis][done..done + n]);
                 queue.point[axis][at..at + n].copy_from_slice(&hits[3 + axis][done..done + n]);
@@ -78,7 +97,7 @@ impl Deferred {
             queue.count += n;
             done += n;
             if queue.count == BLOCK {
-                flush(simd, world, queue, object, tile);
+                flush(simd, world, queue, object, self.filter, tile);
             }
         }
     }
@@ -87,7 +106,7 @@ impl Deferred {
     pub fn finish<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile) {
         for (object, queue) in self.queues.iter_mut().enumerate() {
             if queue.count > 0 {
-                flush(simd, world, queue, object as u32, tile);
+                flush(simd, world, queue, object as u32, self.filter, tile);
             }
         }
     }
@@ -95,9 +114,13 @@ impl Deferred {
 
 /// Evaluates a queue's texture and adds the light to its pixels.
 #[simd]
-fn flush<S: Simd>(simd: S, world: &World, queue: &mut Queue, object: u32, tile: &mut Tile) {
+fn flush<S: Simd>(simd: S, world: &World, queue: &mut Queue, object: u32, filter: bool, tile: &mut Tile) {
     let mut color = [[0.0; BLOCK]; 3];
-    texture::shade(simd, &world.objects[object as usize].material.albedo, &queue.point, &mut color);
+    // What stands behind the last hit is left over from others and must not decide anything.
+    let last = queue.footprint[0];
+    queue.footprint[queue.count..].fill(last);
+    let footprint = filter.then_some(&queue.footprint);
+    texture::shade(simd, &world.objects[object as usize].material.albedo, &queue.point, footprint, &mut color);
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
         for i in (0..BLOCK).step_by(F::<S>::LEN) {
             let range = i..i + F::<S>::LEN;

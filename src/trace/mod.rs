@@ -1,10 +1,11 @@
 //! The Whitted ray tracer: shapes, materials and lights; packets; and the adaptive corner grid.
 //!
 //! One flow: [`world`] (what is there) -> [`guard`] (what must not be missed) -> [`adaptive`] (which rays) ->
-//! [`packet`] (what they see) -> [`deferred`] (what colour that is). [`scalar`] is the plain truth beside the packets.
+//! [`packet`] (what they see) -> [`fill`] (which pixels that is) -> [`deferred`] (what colour that is). [`scalar`] is the plain truth beside the packets.
 
 pub mod adaptive;
 pub mod deferred;
+pub mod fill;
 pub mod guard;
 pub mod lanes;
 pub mod packet;
