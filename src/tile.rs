@@ -61,6 +61,20 @@ impl Tile {
     /// Pixels.
     pub const AREA: usize = Tile::SIZE * Tile::SIZE;
 
+    /// The tile of a picture of `width` x `height` pixels in that column and row of tiles.
+    pub fn at(column: usize, row: usize, width: usize, height: usize) -> Tile {
+        let mut tile = Tile::new();
+        tile.place(column, row, width, height);
+        tile
+    }
+
+    /// Moves the tile over the picture.
+    fn place(&mut self, column: usize, row: usize, width: usize, height: usize) {
+        (self.x, self.y) = (column * Tile::SIZE, row * Tile::SIZE);
+        self.width = Tile::SIZE.min(width - self.x);
+        self.height = Tile::SIZE.min(height - self.y);
+    }
+
     fn new() -> Tile {
         let plane = || Box::new([0.0; Tile::AREA]);
         let (red, green, blue, closeness, coverage) = (plane(), plane(), plane(), plane(), plane());
@@ -79,6 +93,11 @@ impl Tile {
 pub trait Layer: Sync {
     /// Draws the tile's part of the layer over what is there; returns what that took.
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
+
+    /// Where eye rays are traced in a tile, pixels from the picture's top left; none for layers that trace none.
+    fn positions(&self, _level: Level, _tile: &mut Tile) -> Vec<(f32, f32)> {
+        Vec::new()
+    }
 }
 
 /// A scene at one instant, ready to be drawn.
@@ -118,6 +137,11 @@ impl Renderer {
         self.pool.current_num_threads()
     }
 
+    /// The SIMD level in use.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
     /// The SIMD level in use, as the benchmark names it: `avx512`, `avx2`, `sse4.2`, `sse2`, `neon`, `scalar`.
     pub fn simd(&self) -> &'static str {
         match self.level {
@@ -146,9 +170,7 @@ impl Renderer {
             let mut tile = Tile::new();
             let mut samples = 0;
             for column in 0..columns {
-                (tile.x, tile.y) = (column * Tile::SIZE, row * Tile::SIZE);
-                tile.width = Tile::SIZE.min(width - tile.x);
-                tile.height = Tile::SIZE.min(height - tile.y);
+                tile.place(column, row, width, height);
                 for layer in &picture.layers {
                     samples += layer.draw(level, &mut tile).samples;
                 }

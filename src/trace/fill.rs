@@ -149,16 +149,27 @@ pub fn interpolate<S: Simd>(
         while row < ramp.count {
             let to = first + ramp.pixel[row] as usize;
             // Added, not set: a queue of textures may have been emptied into these pixels already.
-            for i in 0..size {
-                tile.red[to + i] += plain[0][row + i];
-                tile.green[to + i] += plain[1][row + i];
-                tile.blue[to + i] += plain[2][row + i];
-                tile.closeness[to + i] = plain[3][row + i];
-                tile.coverage[to + i] = solid;
+            match size {
+                2 => add_row::<2>(tile, to, &plain, row, solid),
+                4 => add_row::<4>(tile, to, &plain, row, solid),
+                8 => add_row::<8>(tile, to, &plain, row, solid),
+                _ => add_row::<16>(tile, to, &plain, row, solid),
             }
             row += size;
         }
     }
+}
+
+/// Adds a row of `N` pixels, from place `from` of a block, to the tile at pixel `to`.
+#[inline(always)]
+fn add_row<const N: usize>(tile: &mut Tile, to: usize, plain: &[[f32; BLOCK]; PLAIN], from: usize, solid: f32) {
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.closeness];
+    for (plane, values) in planes.into_iter().zip(plain) {
+        for (sum, value) in plane[to..to + N].iter_mut().zip(&values[from..from + N]) {
+            *sum += value;
+        }
+    }
+    tile.coverage[to..to + N].fill(solid);
 }
 
 /// Bilinear interpolation of number `k` over a ramp.

@@ -23,13 +23,14 @@ use guard::Guard;
 use glam::Vec3;
 use packet::{Context, Limits, View};
 use std::cell::RefCell;
+use texture::Variation;
 use world::World;
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.
 pub struct Traced {
     world: World,
     means: Vec<Vec3>,
-    roughness: Vec<f32>,
+    variation: Vec<Variation>,
     view: View,
     guard: Guard,
     quality: Quality,
@@ -41,8 +42,8 @@ impl Traced {
         let view = View::new(camera, width, height);
         let guard = Guard::new(&world, &view, width, height);
         let means = world.objects.iter().map(|o| o.material.albedo.mean()).collect();
-        let roughness = world.objects.iter().map(|o| o.material.albedo.roughness()).collect();
-        Traced { world, means, roughness, view, guard, quality }
+        let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
+        Traced { world, means, variation, view, guard, quality }
     }
 
     /// The objects that eye rays through a tile may meet: by the angle between the tile's middle and their bounds.
@@ -78,15 +79,20 @@ thread_local! {
 
 impl Layer for Traced {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let Traced { world, means, roughness, view, guard, quality } = self;
+        let Traced { world, means, variation, view, guard, quality } = self;
         let Quality { min_weight, min_detail, light_samples, .. } = *quality;
         let limits = Limits { min_weight, min_detail, light_samples };
         let samples = SCRATCH.with_borrow_mut(|(scratch, visible)| {
             self.visible(tile, visible);
             let context = Context { world, means, view, visible, limits };
-            let job = Job { context, roughness, guard, quality };
+            let job = Job { context, variation, guard, quality };
             dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch))
         });
         Stats { samples }
+    }
+
+    fn positions(&self, level: Level, tile: &mut Tile) -> Vec<(f32, f32)> {
+        self.draw(level, tile);
+        SCRATCH.with_borrow(|(scratch, _)| scratch.positions().collect())
     }
 }

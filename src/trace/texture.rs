@@ -43,6 +43,15 @@ pub enum Pattern {
     },
 }
 
+/// How a texture's colour changes, for the error of a displaced lookup.
+#[derive(Clone, Copy, Debug)]
+pub struct Variation {
+    /// At most, linear light.
+    pub contrast: f32,
+    /// Typically, linear light a metre.
+    pub slope: f32,
+}
+
 /// From the field to a colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Palette {
@@ -95,8 +104,8 @@ impl Texture {
         })
     }
 
-    /// How fast the colour changes, typically: linear light a metre. For the error of a displaced lookup.
-    pub fn roughness(&self) -> f32 {
+    /// How the colour changes.
+    pub fn variation(&self) -> Variation {
         // The gradient of fbm with n octaves is about n/2 times that of noise, whose typical size is 1.
         let field = match self.pattern {
             Pattern::Plain => 0.0,
@@ -110,7 +119,8 @@ impl Texture {
             Palette::Mix(a, b) => (b - a).abs().max_element(),
             Palette::Ramp(c) => (0..3).map(|i| (c[i + 1] - c[i]).abs().max_element() * 3.0).fold(0.0, f32::max),
         };
-        field * contrast * self.turn.x_axis.length().max(self.turn.y_axis.length())
+        let zoom = self.turn.x_axis.length().max(self.turn.y_axis.length());
+        Variation { contrast, slope: field * contrast * zoom }
     }
 
     /// The colour at a point: the truth that [`shade`] is tested against.

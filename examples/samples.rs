@@ -1,0 +1,45 @@
+//! Writes a frame with a white dot wherever an eye ray was traced, as in the thesis, and says what share of the pixels
+//! that is.
+//!
+//! `cargo run --release --example samples -- [SCENE [SECONDS [QUALITY [FILE.png]]]]`
+
+use paprsek::quality::Quality;
+use paprsek::scenes::{self, Shot};
+use paprsek::tile::{Frame, Renderer, Tile};
+use std::error::Error;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let argument = |n: usize, default: &str| arguments.get(n).map_or(default, String::as_str).to_owned();
+    let scene = scenes::named(&argument(0, "spheres")).ok_or("no such scene")?;
+    let time: f64 = argument(1, "2").parse()?;
+    let quality = Quality::named(&argument(2, "fast")).ok_or("no such quality")?;
+    let file = argument(3, "samples.png");
+
+    let mut renderer = Renderer::new(0)?;
+    let mut frame = Frame::new(1280, 720);
+    let stats = renderer.render(&scene, time, &quality, &mut frame);
+    let Frame { width, height, pixels } = &mut frame;
+    let picture = scene.picture(&Shot { time, width: *width, height: *height, quality });
+    // Darker, so that the dots show.
+    for pixel in pixels.iter_mut() {
+        *pixel = (*pixel >> 1) & 0x7f7f7f;
+    }
+    for row in 0..height.div_ceil(Tile::SIZE) {
+        for column in 0..width.div_ceil(Tile::SIZE) {
+            let mut tile = Tile::at(column, row, *width, *height);
+            for layer in &picture.layers {
+                for (x, y) in layer.positions(renderer.level(), &mut tile) {
+                    if (x as usize) < *width && (y as usize) < *height {
+                        pixels[y as usize * *width + x as usize] = 0xffffff;
+                    }
+                }
+            }
+        }
+    }
+    let rgb = pixels.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
+    image::RgbImage::from_raw(*width as u32, *height as u32, rgb).ok_or("size")?.save(&file)?;
+    let share = stats.samples as f64 / (*width * *height) as f64;
+    println!("{}: {:.1} % of the pixels traced, 1 in {:.1}: {file}", scene.name, 100.0 * share, 1.0 / share);
+    Ok(())
+}
