@@ -2,6 +2,7 @@
 //!
 //! One straight flow: time -> scene -> layers -> tiles in parallel -> `0RGB` pixels. See `ARCHITECTURE.md`.
 
+pub mod block;
 pub mod camera;
 pub mod color;
 pub mod math;

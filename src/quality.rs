@@ -21,11 +21,20 @@ pub struct Quality {
 
 impl Quality {
     /// Every shortcut, one sample a pixel.
-    pub const FAST: Quality = Quality { cell: 8, threshold: 0.02, min_weight: 1.0 / 64.0, min_detail: 1.0 / 16.0, subpixel: 0, grid: 1, light_samples: 16 };
+    pub const FAST: Quality = Quality {
+        cell: 8,
+        threshold: 0.02,
+        min_weight: 1.0 / 64.0,
+        min_detail: 1.0 / 16.0,
+        subpixel: 0,
+        grid: 1,
+        light_samples: 16,
+    };
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality { subpixel: 1, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
-    pub const EXACT: Quality = Quality { cell: 1, threshold: 0.0, min_weight: 0.0, min_detail: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
+    pub const EXACT: Quality =
+        Quality { cell: 1, threshold: 0.0, min_weight: 0.0, min_detail: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 

@@ -2,9 +2,9 @@
 
 mod program;
 
-use program::{fails, paprsek, succeeds};
 use paprsek::quality::Quality;
 use paprsek::scenes;
+use program::{fails, paprsek, succeeds};
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::Read;

@@ -3,7 +3,8 @@
 //! A table of 256 bytes is four registers and a lookup for all 64 points two permutations (`vpermi2b`) and a blend.
 //! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
 
-use super::wide::{BLOCK, fade, lerp, load, store};
+use super::wide::{fade, lerp};
+use crate::block::{BLOCK, load, store};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 

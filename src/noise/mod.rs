@@ -9,7 +9,7 @@
 mod avx512;
 mod wide;
 
-pub use wide::{BLOCK, fbm_block, noise_block, turbulence_block};
+pub use wide::{fbm_block, noise_block, turbulence_block};
 
 use glam::Vec3;
 

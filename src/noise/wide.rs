@@ -2,14 +2,12 @@
 
 use super::PERMUTATION;
 #[cfg(target_arch = "x86_64")]
-use core::arch::x86_64::*;
+use crate::block::{BLOCK, load, store};
 #[cfg(target_arch = "x86_64")]
+use core::arch::x86_64::*;
 use fearless_simd::{Avx2, Level, f32x8, u32x8};
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
-
-/// Points of a block: the bytes of one AVX-512 register.
-pub const BLOCK: usize = 64;
 
 /// Each entry of the permutation and, in the high byte, the next one.
 static HASHES: [u16; 256] = pairs(PERMUTATION);
@@ -136,28 +134,6 @@ fn noise64<S: Simd>(
         let top = face([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v, &component);
         store(lerp(w, bottom, top) + 0.0, out, i);
         i += 1;
-    }
-}
-
-/// Vector `i` of a block.
-///
-/// Arrays of a constant length, because the optimizer, asked for size, calls a function for each range of a slice.
-#[inline(always)]
-pub(super) fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
-    match V::LEN {
-        4 => V::from_slice(simd, &x.as_chunks::<4>().0[i]),
-        8 => V::from_slice(simd, &x.as_chunks::<8>().0[i]),
-        _ => V::from_slice(simd, &x.as_chunks::<16>().0[i]),
-    }
-}
-
-/// Writes vector `i` of a block.
-#[inline(always)]
-pub(super) fn store<S: Simd, V: SimdBase<S>>(value: V, out: &mut [V::Element; BLOCK], i: usize) {
-    match V::LEN {
-        4 => value.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
-        8 => value.store_slice(&mut out.as_chunks_mut::<8>().0[i]),
-        _ => value.store_slice(&mut out.as_chunks_mut::<16>().0[i]),
     }
 }
 

@@ -16,8 +16,12 @@ pub const SPHERES: Scene =
 pub const SPHERES_FLAT: Scene =
     Scene { name: "spheres-flat", about: "bench: the same in plain colours", duration: 20.0, picture: flat };
 /// With a glass ball.
-pub const SPHERES_GLASS: Scene =
-    Scene { name: "spheres-glass", about: "bench: plain colours, the middle one of glass", duration: 20.0, picture: glass };
+pub const SPHERES_GLASS: Scene = Scene {
+    name: "spheres-glass",
+    about: "bench: plain colours, the middle one of glass",
+    duration: 20.0,
+    picture: glass,
+};
 
 fn textured(shot: &Shot) -> Picture {
     shot.traced(world(shot.time, true, false), camera(shot.time), Transfer::Gamma22)

@@ -84,7 +84,9 @@ pub struct Grid {
     /// For each lattice point the generation that traced it and its sample.
     lattice: Vec<(u32, u32)>,
     generation: u32,
+    /// The first `count` are of this tile.
     samples: Vec<Sample>,
+    count: usize,
     /// Where the samples are, pixels of the picture; behind the last sample, where those lie that are asked for.
     xs: Vec<f32>,
     ys: Vec<f32>,
@@ -100,7 +102,7 @@ impl Grid {
 
     /// Forgets all samples.
     fn clear(&mut self) {
-        self.samples.clear();
+        self.count = 0;
         self.xs.clear();
         self.ys.clear();
     }
@@ -138,8 +140,12 @@ impl Grid {
     /// Traces all that was asked for.
     #[inline(always)]
     fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
-        let first = self.samples.len();
-        packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples);
+        let (first, end) = (self.count, self.xs.len());
+        if self.samples.len() < end {
+            self.samples.resize(end.next_power_of_two(), Sample::default());
+        }
+        packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
+        self.count = end;
     }
 
     /// Does a sample between the ends of a line of lattice points have another chain?
@@ -179,7 +185,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
     let count = if job.quality.cell > 1 {
         subdivide(simd, job, tile, scratch);
         paint(simd, job, tile, scratch);
-        scratch.grid.samples.len()
+        scratch.grid.count
     } else {
         every_pixel(simd, job, tile, scratch);
         tile.width * tile.height * job.quality.grid * job.quality.grid
@@ -211,7 +217,7 @@ fn every_pixel<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scrat
             }
         }
         grid.trace(simd, job);
-        for (n, sample) in grid.samples.iter().enumerate() {
+        for (n, sample) in grid.samples[..grid.count].iter().enumerate() {
             let pixel = y * Tile::SIZE + n / (across * across);
             fill::add(simd, job, tile, deferred, pixel, sample, share, &[0.0; REMEMBERED]);
         }
@@ -306,7 +312,13 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
 /// Where a corner is a pixel, squares of 4 are cut into their pixels at once: it takes no more rays than to try squares of
 /// 2 (whose middle is a fourth of what they could save), and is exact.
 #[inline(always)]
-fn cut(work: &mut [Vec<(u16, u16)>; LEVELS], level: usize, Square { x, y, size }: Square, unit: usize, end: (u16, u16)) {
+fn cut(
+    work: &mut [Vec<(u16, u16)>; LEVELS],
+    level: usize,
+    Square { x, y, size }: Square,
+    unit: usize,
+    end: (u16, u16),
+) {
     let levels = if unit == 1 && size == 4 { 2 } else { 1 };
     let part = size >> levels;
     for y in (y..y + size).step_by(part) {

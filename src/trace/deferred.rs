@@ -7,7 +7,7 @@ use super::lanes::F;
 use super::packet::{HIT, PLAIN, REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use super::world::World;
-use crate::noise::BLOCK;
+use crate::block::{BLOCK, load, store};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -122,11 +122,11 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut Queue, object: u32, filter
     let footprint = filter.then_some(&queue.footprint);
     texture::shade(simd, &world.objects[object as usize].material.albedo, &queue.point, footprint, &mut color);
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
-        for i in (0..BLOCK).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let light = F::<S>::from_slice(simd, &color[channel][range.clone()])
-                * F::<S>::from_slice(simd, &queue.gain[channel][range.clone()]);
-            light.store_slice(&mut color[channel][range]);
+        let mut i = 0;
+        while i < BLOCK / F::<S>::LEN {
+            let light = load::<S, F<S>>(simd, &color[channel], i) * load::<S, F<S>>(simd, &queue.gain[channel], i);
+            store(light, &mut color[channel], i);
+            i += 1;
         }
         for (&pixel, &light) in queue.pixel[..queue.count].iter().zip(&color[channel]) {
             plane[pixel as usize & (Tile::AREA - 1)] += light;

@@ -5,7 +5,7 @@ use super::deferred::Deferred;
 use super::lanes::{F, Lane, V3};
 use super::packet::{HIT, PLAIN, REMEMBERED, Sample};
 use super::texture;
-use crate::noise::BLOCK;
+use crate::block::{BLOCK, load, store};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -178,12 +178,10 @@ fn bilinear<S: Simd>(simd: S, corners: [&Sample; 4], k: usize, ramp: &Ramp, out:
     let [a, b, c, d] = [corners[0].numbers[k], corners[1].numbers[k], corners[2].numbers[k], corners[3].numbers[k]];
     let (du, dv, duv) = (b - a, c - a, d - c - b + a);
     let mut i = 0;
-    while i < ramp.count {
-        let range = i..i + F::<S>::LEN;
-        let (u, v) = (F::<S>::from_slice(simd, &ramp.u[range.clone()]), F::<S>::from_slice(simd, &ramp.v[range.clone()]));
-        let value = u * (v * duv + du) + (v * dv + a);
-        value.store_slice(&mut out[range]);
-        i += F::<S>::LEN;
+    while i * F::<S>::LEN < ramp.count {
+        let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+        store(u * (v * duv + du) + (v * dv + a), out, i);
+        i += 1;
     }
 }
 
@@ -200,22 +198,18 @@ fn project<S: Simd>(
     hits: &mut [[f32; BLOCK]; HIT],
     footprint: &mut [f32; BLOCK],
 ) {
-    let lanes = F::<S>::LEN;
     let step = 1.0 / size as f32;
     let mut i = 0;
-    while i < ramp.count {
-        let range = i..i + lanes;
-        let k = F::<S>::splat(simd, 1.0) / F::<S>::from_slice(simd, &hits[6][range.clone()]);
-        let point = V3::<S> {
-            x: F::<S>::from_slice(simd, &hits[3][range.clone()]),
-            y: F::<S>::from_slice(simd, &hits[4][range.clone()]),
-            z: F::<S>::from_slice(simd, &hits[5][range.clone()]),
-        } * Lane(k);
-        point.x.store_slice(&mut hits[3][range.clone()]);
-        point.y.store_slice(&mut hits[4][range.clone()]);
-        point.z.store_slice(&mut hits[5][range.clone()]);
+    while i * F::<S>::LEN < ramp.count {
+        let k = F::<S>::splat(simd, 1.0) / load::<S, F<S>>(simd, &hits[6], i);
+        let homogeneous =
+            V3::<S> { x: load(simd, &hits[3], i), y: load(simd, &hits[4], i), z: load(simd, &hits[5], i) };
+        let point = homogeneous * Lane(k);
+        store(point.x, &mut hits[3], i);
+        store(point.y, &mut hits[4], i);
+        store(point.z, &mut hits[5], i);
         if filter {
-            let (u, v) = (F::<S>::from_slice(simd, &ramp.u[range.clone()]), F::<S>::from_slice(simd, &ramp.v[range.clone()]));
+            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
             let at = PLAIN + HIT * n;
             let (wu, wv) = slopes(corners, at + 6, u, v);
             let (xu, xv) = slopes(corners, at + 3, u, v);
@@ -225,9 +219,9 @@ fn project<S: Simd>(
             let across = V3::<S> { x: xu, y: yu, z: zu } - point * Lane(wu);
             let down = V3::<S> { x: xv, y: yv, z: zv } - point * Lane(wv);
             let longest = across.dot(across).max(down.dot(down)).sqrt();
-            (longest * k.abs() * step).store_slice(&mut footprint[range]);
+            store(longest * k.abs() * step, footprint, i);
         }
-        i += lanes;
+        i += 1;
     }
 }
 
@@ -248,10 +242,9 @@ fn slopes<L: Copy + std::ops::Mul<f32, Output = L> + std::ops::Add<f32, Output =
 #[inline(always)]
 fn accumulate<S: Simd>(simd: S, a: &[f32; BLOCK], b: &[f32; BLOCK], sum: &mut [f32; BLOCK]) {
     let mut i = 0;
-    while i < BLOCK {
-        let range = i..i + F::<S>::LEN;
-        let product = F::<S>::from_slice(simd, &a[range.clone()]) * F::<S>::from_slice(simd, &b[range.clone()]);
-        (F::<S>::from_slice(simd, &sum[range.clone()]) + product).store_slice(&mut sum[range]);
-        i += F::<S>::LEN;
+    while i < BLOCK / F::<S>::LEN {
+        let product = load::<S, F<S>>(simd, a, i) * load::<S, F<S>>(simd, b, i);
+        store(load::<S, F<S>>(simd, sum, i) + product, sum, i);
+        i += 1;
     }
 }

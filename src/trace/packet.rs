@@ -85,9 +85,7 @@ impl View {
         let px = x * self.pixel - self.half.0;
         let py = -(y * self.pixel) + self.half.1;
         let c = &self.camera;
-        V3::splat(simd, c.forward)
-            + V3::splat(simd, c.right) * Lane(px)
-            + V3::splat(simd, c.up) * Lane(py)
+        V3::splat(simd, c.forward) + V3::splat(simd, c.right) * Lane(px) + V3::splat(simd, c.up) * Lane(py)
     }
 
     /// The unnormalised eye ray through one point of the picture.
@@ -177,9 +175,9 @@ struct Surface<S: Simd> {
     textured: M<S>,
 }
 
-/// Traces the eye rays through `xs`, `ys` (pixels) and appends a sample for each to `out`, in order.
+/// Traces the eye rays through `xs`, `ys` (pixels) into the samples `out`, in order. All are of the same length.
 #[simd]
-pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &mut Vec<Sample>) {
+pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &mut [Sample]) {
     let lanes = F::<S>::LEN;
     let mut stack = Vec::new();
     let mut px = [0.0; 64];
@@ -193,9 +191,7 @@ pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &
             py[lane] = ys[at + lane.min(count - 1)];
         }
         let (x, y) = (F::<S>::from_slice(simd, &px[..lanes]), F::<S>::from_slice(simd, &py[..lanes]));
-        let first = out.len();
-        out.resize(first + count, Sample::default());
-        packet(simd, context, context.view.rays(simd, x, y), &mut out[first..], &mut stack);
+        packet(simd, context, context.view.rays(simd, x, y), &mut out[at..at + count], &mut stack);
         at += count;
     }
 }
@@ -207,6 +203,10 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     let eye = context.view.camera.eye;
     let zero = F::<S>::splat(simd, 0.0);
     let one = F::<S>::splat(simd, 1.0);
+    for sample in out.iter_mut() {
+        // Numbers beyond `used` may stay what they were.
+        (sample.count, sample.numbers[0], sample.numbers[1], sample.numbers[2]) = (0, 0.0, 0.0, 0.0);
+    }
     let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
     let step = ray.dot(ray).sqrt();
     let mut chain = U::<S>::splat(simd, 0);
@@ -291,7 +291,8 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     let half = lit & seen.simd_lt(one);
                     let code = half.select(
                         U::<S>::splat(simd, 3),
-                        bright.select(U::<S>::splat(simd, 2), lit.select(U::<S>::splat(simd, 1), U::<S>::splat(simd, 0))),
+                        bright
+                            .select(U::<S>::splat(simd, 2), lit.select(U::<S>::splat(simd, 1), U::<S>::splat(simd, 0))),
                     );
                     state = state | (code << (2 * index as u32));
                 }

@@ -161,8 +161,7 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     let inside = direction.dot(outward) > 0.0;
     let normal = if inside { -outward } else { outward };
     let cosine = -direction.dot(normal);
-    let mirrored =
-        Ray { origin: point, direction: direction + normal * (2.0 * cosine), from: Some((index, false)) };
+    let mirrored = Ray { origin: point, direction: direction + normal * (2.0 * cosine), from: Some((index, false)) };
 
     if material.is_glass() {
         let eta = if inside { material.ior } else { 1.0 / material.ior };

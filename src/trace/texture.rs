@@ -1,8 +1,9 @@
 //! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
 
 use super::lanes::{F, V3};
+use crate::block::{BLOCK, load, store};
 use crate::math;
-use crate::noise::{self, BLOCK};
+use crate::noise;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
@@ -82,11 +83,7 @@ impl Texture {
 
     /// A pattern in world space, `scale` units of texture a metre.
     pub const fn new(pattern: Pattern, palette: Palette, scale: f32) -> Texture {
-        let turn = Mat3::from_cols(
-            Vec3::new(scale, 0.0, 0.0),
-            Vec3::new(0.0, scale, 0.0),
-            Vec3::new(0.0, 0.0, scale),
-        );
+        let turn = Mat3::from_cols(Vec3::new(scale, 0.0, 0.0), Vec3::new(0.0, scale, 0.0), Vec3::new(0.0, 0.0, scale));
         Texture { pattern, palette, turn, origin: Vec3::ZERO }
     }
 
@@ -146,7 +143,9 @@ impl Texture {
     fn paint(&self, s: f32) -> Vec3 {
         match self.palette {
             Palette::Mix(a, b) => a + (b - a) * s,
-            Palette::Ramp(c) => (0..3).fold(c[0], |sum, i| sum + (c[i + 1] - c[i]) * (3.0 * s - i as f32).clamp(0.0, 1.0)),
+            Palette::Ramp(c) => {
+                (0..3).fold(c[0], |sum, i| sum + (c[i + 1] - c[i]) * (3.0 * s - i as f32).clamp(0.0, 1.0))
+            }
         }
     }
 }
@@ -170,19 +169,18 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
         Pattern::Marble { scale, .. } => 1.0 / scale,
         _ => 1.0,
     };
-    let lanes = F::<S>::LEN;
     let mut foot = [0.0; BLOCK];
     let zoom = texture.turn.x_axis.length() * pre;
     let mut i = 0;
-    while i < BLOCK {
+    while i < BLOCK / F::<S>::LEN {
         let p = load3(simd, points, i).sub1(texture.origin);
         for axis in 0..3 {
-            (p.dot1(texture.turn.row(axis)) * pre).store_slice(&mut local[axis][i..i + lanes]);
+            store(p.dot1(texture.turn.row(axis)) * pre, &mut local[axis], i);
         }
         if let Some(footprint) = footprint {
-            (F::<S>::from_slice(simd, &footprint[i..i + lanes]) * zoom).store_slice(&mut foot[i..i + lanes]);
+            store(load::<S, F<S>>(simd, &footprint, i) * zoom, &mut foot, i);
         }
-        i += lanes;
+        i += 1;
     }
     let mut field = [0.0; BLOCK];
     let mut lost = [0.0; BLOCK];
@@ -201,11 +199,11 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
         }
     }
     let mut i = 0;
-    while i < BLOCK {
+    while i < BLOCK / F::<S>::LEN {
         let p = load3(simd, &local, i);
-        let n = F::<S>::from_slice(simd, &field[i..i + lanes]);
-        let w = F::<S>::from_slice(simd, &foot[i..i + lanes]);
-        let lost = F::<S>::from_slice(simd, &lost[i..i + lanes]);
+        let n = load::<S, F<S>>(simd, &field, i);
+        let w = load::<S, F<S>>(simd, &foot, i);
+        let lost = load::<S, F<S>>(simd, &lost, i);
         let s = match texture.pattern {
             Pattern::Plain | Pattern::Turbulence { .. } => n,
             Pattern::Checker if footprint.is_some() => {
@@ -249,9 +247,9 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
                     sum
                 }
             };
-            color.store_slice(&mut out[channel][i..i + lanes]);
+            store(color, &mut out[channel], i);
         }
-        i += lanes;
+        i += 1;
     }
 }
 
@@ -268,7 +266,6 @@ fn octaves_in<S: Simd>(
 ) {
     /// Mean of |noise|.
     const MEAN: f32 = 0.21;
-    let lanes = F::<S>::LEN;
     let one = F::<S>::splat(simd, 1.0);
     let mut least = f32::INFINITY;
     for &w in foot {
@@ -282,19 +279,19 @@ fn octaves_in<S: Simd>(
             noise::noise_block(simd, &p[0], &p[1], &p[2], &mut n);
         }
         let mut i = 0;
-        while i < BLOCK {
-            let w = F::<S>::from_slice(simd, &foot[i..i + lanes]) * frequency;
+        while i < BLOCK / F::<S>::LEN {
+            let w = load::<S, F<S>>(simd, &foot, i) * frequency;
             let keep = one / (w * w * 0.3 + 1.0);
             let gone = one - keep;
-            let n = F::<S>::from_slice(simd, &n[i..i + lanes]);
+            let n = load::<S, F<S>>(simd, &n, i);
             let n = if absolute { n.abs() * keep + gone * MEAN } else { n * keep };
-            (F::<S>::from_slice(simd, &field[i..i + lanes]) + n * amplitude).store_slice(&mut field[i..i + lanes]);
+            store(load::<S, F<S>>(simd, field, i) + n * amplitude, field, i);
             let variance = gone * (amplitude * amplitude * SIGMA * SIGMA);
-            (F::<S>::from_slice(simd, &lost[i..i + lanes]) + variance).store_slice(&mut lost[i..i + lanes]);
+            store(load::<S, F<S>>(simd, lost, i) + variance, lost, i);
             for axis in &mut p {
-                (F::<S>::from_slice(simd, &axis[i..i + lanes]) * 2.0).store_slice(&mut axis[i..i + lanes]);
+                store(load::<S, F<S>>(simd, axis, i) * 2.0, axis, i);
             }
-            i += lanes;
+            i += 1;
         }
         amplitude *= 0.5;
         frequency *= 2.0;
@@ -315,9 +312,8 @@ fn damping<S: Simd>(simd: S, variance: F<S>) -> F<S> {
     math::exp2(simd, variance * (-0.5 * std::f32::consts::LOG2_E))
 }
 
-/// Lanes `i..` of a block.
+/// Vector `i` of a block.
 #[inline(always)]
 fn load3<S: Simd>(simd: S, block: &Block3, i: usize) -> V3<S> {
-    let lane = |axis: usize| F::<S>::from_slice(simd, &block[axis][i..i + F::<S>::LEN]);
-    V3 { x: lane(0), y: lane(1), z: lane(2) }
+    V3 { x: load(simd, &block[0], i), y: load(simd, &block[1], i), z: load(simd, &block[2], i) }
 }
