@@ -53,6 +53,8 @@ pub struct Tile {
     pub closeness: Box<[f32; Tile::AREA]>,
     /// Share of the pixel that solids cover.
     pub coverage: Box<[f32; Tile::AREA]>,
+    /// Will a later layer read `closeness` and `coverage`? Else they are not written.
+    pub solids_matter: bool,
 }
 
 impl Tile {
@@ -78,13 +80,17 @@ impl Tile {
     fn new() -> Tile {
         let plane = || Box::new([0.0; Tile::AREA]);
         let (red, green, blue, closeness, coverage) = (plane(), plane(), plane(), plane(), plane());
-        Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, closeness, coverage }
+        Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, closeness, coverage, solids_matter: true }
     }
 
     /// Black and empty.
     pub fn clear(&mut self) {
-        for plane in [&mut self.red, &mut self.green, &mut self.blue, &mut self.closeness, &mut self.coverage] {
+        for plane in [&mut self.red, &mut self.green, &mut self.blue] {
             plane.fill(0.0);
+        }
+        if self.solids_matter {
+            self.closeness.fill(0.0);
+            self.coverage.fill(0.0);
         }
     }
 }
@@ -171,7 +177,8 @@ impl Renderer {
             let mut samples = 0;
             for column in 0..columns {
                 tile.place(column, row, width, height);
-                for layer in &picture.layers {
+                for (index, layer) in picture.layers.iter().enumerate() {
+                    tile.solids_matter = index + 1 < picture.layers.len();
                     samples += layer.draw(level, &mut tile).samples;
                 }
                 dispatch!(level, simd => develop(simd, picture.transfer, &tile, width, pixels));

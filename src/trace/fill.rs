@@ -27,8 +27,10 @@ pub fn add<S: Simd>(
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
-    tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
-    tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
+    if tile.solids_matter {
+        tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
+        tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
+    }
     deferred.push(simd, job.context.world, tile, pixel as u16, sample, share, footprint);
 }
 
@@ -117,7 +119,7 @@ pub fn interpolate<S: Simd>(
     let solid = if corners[0].closeness() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];
-        for (k, plane) in plain.iter_mut().enumerate() {
+        for (k, plane) in plain.iter_mut().enumerate().take(if tile.solids_matter { PLAIN } else { 3 }) {
             bilinear(simd, corners, k, ramp, plane);
         }
         for n in 0..corners[0].count as usize {
@@ -163,13 +165,16 @@ pub fn interpolate<S: Simd>(
 /// Adds a row of `N` pixels, from place `from` of a block, to the tile at pixel `to`.
 #[inline(always)]
 fn add_row<const N: usize>(tile: &mut Tile, to: usize, plain: &[[f32; BLOCK]; PLAIN], from: usize, solid: f32) {
-    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.closeness];
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
     for (plane, values) in planes.into_iter().zip(plain) {
         for (sum, value) in plane[to..to + N].iter_mut().zip(&values[from..from + N]) {
             *sum += value;
         }
     }
-    tile.coverage[to..to + N].fill(solid);
+    if tile.solids_matter {
+        tile.closeness[to..to + N].copy_from_slice(&plain[3][from..from + N]);
+        tile.coverage[to..to + N].fill(solid);
+    }
 }
 
 /// Bilinear interpolation of number `k` over a ramp.

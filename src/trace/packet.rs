@@ -319,7 +319,12 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     let bend = eta * cosine - cos_through;
                     let refracted = direction * Lane(eta) + normal * Lane(bend);
                     let through = weight.mulv(surface.filter) * Lane(one - share);
-                    let active = glass & passes & through.max_element().simd_gt(least);
+                    let strong = through.max_element().simd_gt(least);
+                    let faint = glass & passes & !strong;
+                    if limits.min_weight > 0.0 && faint.any_true() {
+                        light = light + sky(simd, world, refracted).mulv(through).masked(simd, faint);
+                    }
+                    let active = glass & passes & strong;
                     if active.any_true() {
                         let (direction, weight, inward, path) = (refracted, through, !inside, path * 2 + 1);
                         stack.push(Node { active, direction, weight, inward, path, ..child });
@@ -327,7 +332,13 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     reflected = V3::select(glass, weight * Lane(share), reflected);
                     stays_inside = glass & inside;
                 }
-                let active = hit & reflected.max_element().simd_gt(least);
+                let strong = reflected.max_element().simd_gt(least);
+                let faint = hit & !strong;
+                if limits.min_weight > 0.0 && faint.any_true() {
+                    // What is too faint to be traced is guessed: half of the error of leaving it black.
+                    light = light + sky(simd, world, mirrored).mulv(reflected).masked(simd, faint);
+                }
+                let active = hit & strong;
                 if active.any_true() {
                     let (direction, weight, inward, path) = (mirrored, reflected, stays_inside, path * 2);
                     next = Some(Node { active, direction, weight, inward, path, ..child });
