@@ -108,15 +108,21 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (x1, y1) = (x - 1.0, y - 1.0);
-        let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
-        let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
-        let bottom = lerp(v, near, far);
+        // A floor on the lattice, y = 0 throughout: the far half has no weight. A third faster there.
+        let flat = y.simd_eq(0.0).all_true();
+        let mut bottom = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
+        if !flat {
+            let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
+            bottom = lerp(v, bottom, far);
+        }
 
         let z = z - 1.0;
         (aa, ba, ab, bb) = (aa >> 4, ba >> 4, ab >> 4, bb >> 4);
-        let near = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
-        let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
-        let top = lerp(v, near, far);
+        let mut top = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
+        if !flat {
+            let far = lerp(u, gradient(simd, &tables, ab, x, y1, z), gradient(simd, &tables, bb, x1, y1, z));
+            top = lerp(v, top, far);
+        }
         (aa, ba, ab, bb) = (aa >> 4, ba >> 4, ab >> 4, bb >> 4);
         store(lerp(w, bottom, top) + 0.0, out, g);
     }

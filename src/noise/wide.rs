@@ -150,6 +150,10 @@ fn face<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
 ) -> F {
     let (x1, y1) = (x - 1.0, y - 1.0);
     let near = lerp(u, gradient(aa, x, y, z, component), gradient(ba, x1, y, z, component));
+    // A floor on the lattice, y = 0 throughout: the far half has no weight.
+    if y.simd_eq(0.0).all_true() {
+        return near;
+    }
     let far = lerp(u, gradient(ab, x, y1, z, component), gradient(bb, x1, y1, z, component));
     lerp(v, near, far)
 }

@@ -4,7 +4,7 @@
 //! their colour it carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time.
 
 use super::lanes::{Bits, F, Lane, M, U, V3};
-use super::shape::FAR;
+use super::shape::{FAR, Shape};
 use super::texture::Pattern;
 use super::world::{Light, Source, World};
 use crate::camera::Camera;
@@ -242,9 +242,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         }
         let mut state = U::<S>::splat(simd, 0);
         if hit.any_true() {
-            let (t, surface) = resolve(simd, context, &node, object, hit);
-            let t = t.max(zero);
-            let point = origin + direction * Lane(t);
+            let (t, point, surface) = resolve(simd, context, &node, object, hit);
             let length = length + t;
             let closeness = step / length;
             if level == 1 {
@@ -394,12 +392,13 @@ fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
     object
 }
 
-/// Distance and surface of every lane's hit: once for each of the few bodies that a packet meets.
+/// Distance, point and surface of every lane's hit: once for each of the few bodies that a packet meets.
 #[inline(always)]
-fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, Surface<S>) {
+fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, V3<S>, Surface<S>) {
     let zero = F::<S>::splat(simd, 0.0);
     let black = V3::splat(simd, Vec3::ZERO);
     let mut t = zero;
+    let mut point = black;
     let mut s = Surface {
         normal: black,
         albedo: black,
@@ -420,8 +419,14 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
         let material = &body.material;
         let (t0, t1) = body.shape.span(simd, node.origin, node.direction);
         let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
-        t = here.select(outside.select(t0, t1), t);
-        let normal = body.shape.normal(simd, node.origin + node.direction * Lane(t));
+        t = here.select(outside.select(t0, t1).max(zero), t);
+        let mut at = node.origin + node.direction * Lane(t);
+        if let Shape::Plane { normal, offset } = body.shape {
+            // Back onto the plane, so that its texture is a slice at one height.
+            at = at - V3::splat(simd, normal) * Lane(at.dot1(normal) - offset);
+        }
+        point = V3::select(here, at, point);
+        let normal = body.shape.normal(simd, at);
         s.normal = V3::select(here, normal, s.normal);
         s.albedo = V3::select(here, V3::splat(simd, context.means[id as usize]), s.albedo);
         if material.albedo.pattern != Pattern::Plain {
@@ -436,7 +441,7 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
             s.ior = here.select(F::<S>::splat(simd, material.ior), s.ior);
         }
     }
-    (t, s)
+    (t, point, s)
 }
 
 /// Unit direction and distance to a light's centre.
