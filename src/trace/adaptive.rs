@@ -290,15 +290,13 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
         let mut done = true;
         while at < whole.len() {
             let square = whole[at];
-            if !grid.entered(square) {
+            // Pixels are not asked: half a pixel's edge is as near as they come.
+            if square.size == unit || !grid.entered(square) {
                 at += 1;
                 continue;
             }
             done = false;
             whole.swap_remove(at);
-            if square.size == unit {
-                edges.push((square.x as u16, square.y as u16));
-            }
             cut(work, (coarsest / square.size).trailing_zeros() as usize, square, unit, end);
         }
         if done {
@@ -353,17 +351,26 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
     let mut groups = Groups::default();
     for &(x, y) in edges.iter() {
         let (x, y) = (x as usize, y as usize);
-        groups.count = 0;
+        let pixel = (x, y);
+        let mut weights = Weights::default();
         let half = unit / 2;
         for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x, y, size: half }, 0.25, &mut groups);
+            weigh(grid, Square { x, y, size: half }, 0.25, pixel, &mut weights);
         }
+        groups.count = 0;
+        for (row, weights) in weights.iter().enumerate() {
+            for (column, &weight) in weights.iter().enumerate() {
+                if weight > 0.0 {
+                    groups.add(simd, grid.at(x + column, y + row), weight);
+                }
+            }
+        }
+        let pixel = y / unit * Tile::SIZE + x / unit;
         for group in &mut groups.list[..groups.count] {
             let k = 1.0 / group.weight;
             for number in &mut group.sum.numbers {
                 *number *= k;
             }
-            let pixel = y / unit * Tile::SIZE + x / unit;
             fill::add(simd, job, tile, deferred, pixel, &group.sum, group.weight, &[0.0; REMEMBERED]);
         }
     }
@@ -446,7 +453,8 @@ struct Group {
 
 impl Groups {
     /// Adds a sample to those of its chain.
-    fn add(&mut self, sample: &Sample, weight: f32) {
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, sample: &Sample, weight: f32) {
         let mut at = 0;
         while at < self.count && self.list[at].sum.chain != sample.chain {
             at += 1;
@@ -457,26 +465,33 @@ impl Groups {
             *group = Group { weight: 0.0, sum: Sample { numbers: [0.0; NUMBERS], ..*sample } };
         }
         group.weight += weight;
-        for k in 0..sample.used() {
-            group.sum.numbers[k] += sample.numbers[k] * weight;
+        for i in (0..sample.used()).step_by(F::<S>::LEN) {
+            let range = i..i + F::<S>::LEN;
+            let sum = F::<S>::from_slice(simd, &group.sum.numbers[range.clone()]);
+            let number = F::<S>::from_slice(simd, &sample.numbers[range.clone()]);
+            (sum + number * weight).store_slice(&mut group.sum.numbers[range]);
         }
     }
 }
 
+/// Weights of the lattice points of a pixel, up to quarters.
+type Weights = [[f32; 5]; 5];
+
 /// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
-fn weigh(grid: &Grid, square: Square, weight: f32, groups: &mut Groups) {
+fn weigh(grid: &Grid, square: Square, weight: f32, pixel: (usize, usize), weights: &mut Weights) {
     let Square { x, y, size } = square;
     if size > 1 && !same_chain(grid.corners(square)) {
         let half = size / 2;
         for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x, y, size: half }, weight * 0.25, groups);
+            weigh(grid, Square { x, y, size: half }, weight * 0.25, pixel, weights);
         }
         return;
     }
-    for corner in grid.corners(square) {
-        groups.add(corner, weight * 0.25);
+    let (column, row) = (x - pixel.0, y - pixel.1);
+    for (column, row) in [(column, row), (column + size, row), (column, row + size), (column + size, row + size)] {
+        weights[row][column] += weight * 0.25;
     }
 }
 
 // The numbers of a sample come in full lanes of any width.
-const _: () = assert!(NUMBERS % 16 == 0);
+const _: () = assert!(NUMBERS.is_multiple_of(16));

@@ -232,7 +232,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                 None => break,
             },
         };
-        let Node { active, origin, direction, weight, length, level, path, .. } = node;
+        let Node { active, direction, weight, length, level, path, .. } = node;
         let object = if level == 1 { first_seen(simd, context, &node) } else { nearest(simd, world, &node) };
         let detailed = weight.max_element().simd_gt(F::<S>::splat(simd, limits.min_detail));
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
