@@ -312,7 +312,7 @@ fn blocks_and_zeros() {
         for axis in 0..3 {
             let half = [1.0, 2.0, 3.0][axis];
             for (other, side) in [(1, 2.0), (0, 1.0), (2, 3.0)].into_iter().filter(|(other, _)| *other != axis) {
-                for at in [0.0, -0.0, 0.5, 1.0, -1.0] {
+                for at in [0.0f32, -0.0, 0.5, 1.0, -1.0] {
                     // From inside, from the face it leaves by, from the face it enters by, from far.
                     for start in [0.0, half, -half, -1000.0, 1000.0] {
                         let mut o = Vec3::ZERO;
@@ -320,7 +320,7 @@ fn blocks_and_zeros() {
                         o[other] = at * side;
                         for (name, found) in spans(&Case { shape: block, o, d: along[axis] }) {
                             let truth = (-half - start, half - start);
-                            if (at as f32).abs() < 1.0 {
+                            if at.abs() < 1.0 {
                                 assert_eq!(found, Some(truth), "{name} from {o} along {axis}");
                             } else if let Some((t0, t1)) = found {
                                 // Within a face a line may be inside or not, and may leave it where it starts.
