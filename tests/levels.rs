@@ -97,7 +97,7 @@ fn odd_sizes_are_filled() {
                 for (level_name, level) in common::levels() {
                     let mut found = Frame::new(size.0, size.1);
                     // No scene is of this colour.
-                    found.pixels.fill(0xff_0000_00);
+                    found.pixels.fill(0xff00_0000);
                     Renderer::new(2).unwrap().at_level(level).render(&scene(name), 2.0, &quality, &mut found);
                     assert!(found.pixels.iter().all(|p| p >> 24 == 0), "{name} {size:?}: pixels left out");
                     let truth = first.get_or_insert_with(|| found.clone());

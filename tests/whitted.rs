@@ -459,3 +459,36 @@ fn packets_see_what_single_rays_see() {
         world.objects[index].casts_shadow = kept;
     }
 }
+
+#[test]
+fn tiles_leave_nothing_out() {
+    // Eye rays look only among the bodies that a tile may show: wide views, bodies near and far, the eye inside some.
+    let mut random = Random(3);
+    let mut rims = 0;
+    for round in 0..40 {
+        let color = |random: &mut Random| vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
+        let mut bodies = vec![];
+        for _ in 0..30 {
+            let center = random.direction() * random.log(0.1, 30.0) as f32;
+            let size = random.log(0.05, 2.0) as f32;
+            let (axis, turn) = (random.direction(), random.turn());
+            let shape = match (random.unit() * 3.0) as u32 {
+                0 => ball(center, size),
+                1 => Shape::Block { center, half: size * vec3(1.0, 0.1, 3.0), turn },
+                _ => Shape::Cylinder { center, axis, half: 4.0 * size, radius: 0.3 * size },
+            };
+            bodies.push((shape, Material::matt(Texture::plain(color(&mut random)))));
+        }
+        let mut world = furnace(bodies, 1);
+        world.ambient = Vec3::ONE;
+        let fov = [0.3, 1.0, 2.0, 2.8][round % 4];
+        let camera = Camera::look_at(Vec3::ZERO, random.direction(), fov, random.range(-3.0, 3.0) as f32);
+        let size = (150, 100);
+        let truth = plain(&world, camera, size).codes();
+        let found = traced(&world, camera, size, Quality::EXACT, common::levels()[0].1).codes();
+        let off = found.gaps(&truth).iter().filter(|g| **g > 1).count();
+        assert!(off <= RIMS, "view {round}: {off} pixels");
+        rims += off;
+    }
+    println!("tiles: {rims} pixels of 40 pictures");
+}
