@@ -199,6 +199,11 @@ fn glass_balls_disappear_in_a_furnace() {
 }
 
 #[test]
+fn glass_balls_disappear_at_every_depth() {
+    furnaces(&[4, 5, 6, 9, 16]);
+}
+
+#[test]
 fn bodies_of_equal_index_are_invisible() {
     // Nothing is reflected and nothing bent: every pixel is the sky, whatever the shape, also seen from inside.
     let turn = Mat3::from_rotation_x(0.7) * Mat3::from_rotation_y(0.4);
@@ -251,6 +256,13 @@ fn packet_furnaces(level: u32) {
 fn packets_obey_the_furnace_too() {
     packet_furnaces(2);
     packet_furnaces(3);
+}
+
+#[test]
+fn packets_obey_the_furnace_at_every_depth() {
+    packet_furnaces(4);
+    packet_furnaces(6);
+    packet_furnaces(16);
 }
 
 #[test]
