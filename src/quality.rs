@@ -25,7 +25,7 @@ impl Quality {
         cell: 8,
         threshold: 0.02,
         min_weight: 1.0 / 64.0,
-        min_detail: 1.0 / 16.0,
+        min_detail: 1.0 / 8.0,
         subpixel: 0,
         grid: 1,
         light_samples: 16,

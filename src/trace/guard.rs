@@ -1,17 +1,25 @@
-//! Small objects, small shadows: squares of the corner grid that must be cut, whatever their corners say.
+//! Small things: squares of the corner grid that must be cut, whatever their corners say.
 //!
 //! A body whose picture is smaller than a square can hide between its corners, and the rim of a larger one can bulge
 //! into a square between two of them by up to its sagitta `size^2 / (8 radius)`. Both are excluded by cutting the
-//! squares under the body's picture to `sqrt(2 radius)` pixels, where the sagitta is a quarter of a pixel. The same
-//! holds for a body's shadow, found by following the light's ray through its centre, and for its mirror image in a plane.
+//! squares under the body's picture to `sqrt(radius)` pixels, where the sagitta is an eighth of a pixel. The same holds
+//! for what else a body shows: its shadow, found by following the light's ray through it; its image in a mirror, flat or
+//! round; and the highlights on round and flat bodies, which are the lights' own images.
+//!
+//! Not guarded: images in the sides of blocks and cylinders, and images of images.
 
 use super::packet::View;
+use super::scalar;
 use super::shape::Shape;
-use super::world::{Source, World};
+use super::world::{Light, Object, Source, World};
 use glam::Vec3;
 
 /// Edge of the blocks that the guard distinguishes, pixels.
 const BLOCK: usize = 8;
+/// Most balls that stand for one long body.
+const MOST_BALLS: f32 = 64.0;
+/// Highlights are guarded up to where they have fallen to this.
+const SKIRT: f32 = 0.125;
 
 /// For each block of the picture the largest square that may be interpolated there.
 pub struct Guard {
@@ -24,35 +32,23 @@ impl Guard {
     pub fn new(world: &World, view: &View, width: usize, height: usize) -> Guard {
         let (columns, rows) = (width.div_ceil(BLOCK), height.div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
-        let eye = view.camera().eye;
         for (index, body) in world.objects.iter().enumerate() {
-            let (center, radius) = body.shape.bound();
-            if !radius.is_finite() {
-                continue;
-            }
-            guard.protect(view, center, radius);
-            for mirror in &world.objects {
-                if let Shape::Plane { normal, offset } = mirror.shape
-                    && mirror.material.reflectance.max_element() > 0.0
-                    && normal.dot(eye) > offset
-                {
-                    guard.protect(view, center - normal * (2.0 * (normal.dot(center) - offset)), radius);
-                }
-            }
-            if !body.casts_shadow {
-                continue;
-            }
             for light in &world.lights {
-                let (from, direction) = match light.source {
-                    Source::Point(p) => (p, (center - p).normalize_or(Vec3::NEG_Y)),
-                    Source::Directional(d) => (center, -d),
-                };
-                if let Some((point, slant)) = receiver(world, index, center, direction) {
-                    let grown = match light.source {
-                        Source::Point(_) => (point - from).length() / (center - from).length().max(1e-6),
-                        Source::Directional(_) => 1.0,
-                    };
-                    guard.protect(view, point, radius * grown * slant);
+                guard.highlight(view, body, light);
+            }
+            for (center, radius) in balls(&body.shape) {
+                guard.protect(view, center, radius);
+                for (other, mirror) in world.objects.iter().enumerate() {
+                    if other != index
+                        && let Some((image, radius)) = reflected(view.camera().eye, mirror, center, radius)
+                    {
+                        guard.protect(view, image, radius);
+                    }
+                }
+                if body.casts_shadow {
+                    for light in &world.lights {
+                        guard.shadow(world, view, index, light, center, radius);
+                    }
                 }
             }
         }
@@ -65,35 +61,135 @@ impl Guard {
         self.finest[(y / BLOCK) * self.columns + x / BLOCK] as usize
     }
 
+    /// Cuts the squares under the shadow of a ball that is part of the body `caster`.
+    fn shadow(&mut self, world: &World, view: &View, caster: usize, light: &Light, center: Vec3, radius: f32) {
+        let aim = match light.source {
+            Source::Point(p) => (center - p).normalize_or(Vec3::NEG_Y),
+            Source::Directional(d) => -d,
+        };
+        // The middle of the shadow, and its rim where that falls on something else.
+        let (u, v) = aim.any_orthonormal_pair();
+        for offset in [Vec3::ZERO, u, -u, v, -v] {
+            let through = center + offset * radius;
+            let direction = match light.source {
+                Source::Point(p) => (through - p).normalize_or(aim),
+                Source::Directional(_) => aim,
+            };
+            let Some((index, t)) = scalar::nearest(world, through, direction, |i| i != caster) else { continue };
+            let point = through + direction * t;
+            let grown = match light.source {
+                Source::Point(p) => (point - p).length() / (through - p).length().max(1e-6),
+                Source::Directional(_) => 1.0,
+            };
+            // How much longer than wide it is there, at most 8.
+            let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
+            self.protect(view, point, radius * grown / slope.max(0.125));
+        }
+    }
+
+    /// Cuts the squares under a light's highlight on a body.
+    fn highlight(&mut self, view: &View, body: &Object, light: &Light) {
+        let material = &body.material;
+        if material.specular == 0.0 {
+            return;
+        }
+        let source = match light.source {
+            Source::Point(p) => p,
+            Source::Directional(d) => view.camera().eye + d * 1e6,
+        };
+        let Some(point) = mirror_point(view.camera().eye, &body.shape, source) else { return };
+        // Half of the angle of the lobe: a normal turns the mirrored ray twice.
+        let angle = 0.5 * SKIRT.powf(1.0 / material.exponent.max(1.0)).acos();
+        let radius = match body.shape {
+            Shape::Sphere { radius, .. } => radius * angle,
+            _ => 2.0 * angle * point.distance(view.camera().eye),
+        };
+        self.protect(view, point, radius);
+    }
+
     /// Cuts the squares under the picture of a ball.
     fn protect(&mut self, view: &View, center: Vec3, radius: f32) {
         let Some((x, y, metre)) = view.project(center) else { return };
         let pixels = radius * metre;
-        let finest = (2.0 * pixels).sqrt().max(1.0);
-        if finest >= BLOCK as f32 {
-            return;
-        }
-        let finest = 1 << finest.log2() as u32;
-        let rows = self.finest.len() / self.columns.max(1);
-        let range = |c: f32, end: usize| {
-            let block = |v: f32| (v / BLOCK as f32).floor().clamp(-1.0, end as f32);
-            let (low, high) = (block(c - pixels - 1.0), block(c + pixels + 1.0));
-            (low.max(0.0) as usize, (high + 1.0).clamp(0.0, end as f32) as usize)
-        };
-        let ((x0, x1), (y0, y1)) = (range(x, self.columns), range(y, rows));
-        for row in y0..y1 {
-            for block in &mut self.finest[row * self.columns..][x0.min(x1)..x1] {
-                *block = (*block).min(finest);
+        let finest = pixels.sqrt().max(1.0);
+        // Written so that a picture that is not a number is left alone.
+        if finest < BLOCK as f32 && x.is_finite() && y.is_finite() {
+            let finest = 1 << finest.log2() as u32;
+            let rows = self.finest.len() / self.columns.max(1);
+            let ((x0, x1), (y0, y1)) = (blocks(x, pixels, self.columns), blocks(y, pixels, rows));
+            for row in y0..y1 {
+                for block in &mut self.finest[row * self.columns..][x0..x1] {
+                    *block = (*block).min(finest);
+                }
             }
         }
     }
 }
 
-/// Where the centre of a body's shadow falls, and how much longer than wide it is there (at most 8).
-fn receiver(world: &World, caster: usize, from: Vec3, direction: Vec3) -> Option<(Vec3, f32)> {
-    use super::scalar;
-    let (index, t) = scalar::nearest(world, from, direction, |i| i != caster)?;
-    let point = from + direction * t;
-    let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
-    Some((point, 1.0 / slope.max(0.125)))
+/// The blocks, up to `end`, that a ball's picture may touch along one axis.
+fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
+    let block = |pixel: f32| (pixel / BLOCK as f32).floor().clamp(-1.0, end as f32);
+    let (low, high) = (block(at - radius - 1.0), block(at + radius + 1.0) + 1.0);
+    let low = low.max(0.0) as usize;
+    (low, (high.clamp(0.0, end as f32) as usize).max(low))
+}
+
+/// Balls that cover a body and are no wider than it, except for plates; none for planes and globes.
+fn balls(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
+    let (center, axis, half, radius) = match *shape {
+        Shape::Sphere { center, radius } => (center, Vec3::ZERO, 0.0, radius),
+        Shape::Cylinder { center, axis, half, radius } => (center, axis, half, radius),
+        Shape::Block { center, half, turn } => {
+            let long = half.max_position();
+            let mut across = half;
+            across[long] = 0.0;
+            (center, turn.row(long), half[long], across.length())
+        }
+        Shape::Plane { .. } | Shape::Globe { .. } => (Vec3::ZERO, Vec3::ZERO, 0.0, 0.0),
+    };
+    let count = if radius > 0.0 { (half / radius).ceil().clamp(1.0, MOST_BALLS) } else { 0.0 };
+    let radius = radius.max(half / count.max(1.0));
+    (0..count as u32).map(move |n| (center + axis * half * ((2 * n + 1) as f32 / count - 1.0), radius))
+}
+
+/// Where on a body the eye sees a point mirrored; none where it cannot or the body has no simple answer.
+fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
+    match *shape {
+        Shape::Plane { normal, offset } => {
+            let (above, height) = (normal.dot(eye) - offset, normal.dot(target) - offset);
+            (above > 0.0 && height > 0.0)
+                .then(|| eye + (target - normal * (2.0 * height) - eye) * (above / (above + height)))
+        }
+        Shape::Sphere { center, radius } => {
+            // Alhazen's problem: there the normal halves the angle. Each round quarters the error, or better.
+            let mut normal = (eye - center).try_normalize()?;
+            for _ in 0..6 {
+                let point = center + normal * radius;
+                let to_eye = (eye - point).try_normalize()?;
+                normal = (to_eye + (target - point).try_normalize()?).try_normalize()?;
+            }
+            (normal.dot(target - center) > radius).then_some(center + normal * radius)
+        }
+        _ => None,
+    }
+}
+
+/// The image of a ball in a mirror: a point that appears where it does, and a radius as large as it looks there.
+fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(Vec3, f32)> {
+    let material = &mirror.material;
+    if material.reflectance.max_element() == 0.0 && material.fresnel == 0.0 && !material.is_glass() {
+        return None;
+    }
+    match mirror.shape {
+        Shape::Plane { normal, offset } if normal.dot(eye) > offset => {
+            Some((center - normal * (2.0 * (normal.dot(center) - offset)), radius))
+        }
+        Shape::Sphere { radius: curvature, .. } => {
+            let point = mirror_point(eye, &mirror.shape, center)?;
+            // A convex mirror of focal length R/2 makes images smaller by (R/2) / (distance + R/2).
+            let focal = 0.5 * curvature;
+            Some((point, radius * focal / (point.distance(center) + focal)))
+        }
+        _ => None,
+    }
 }

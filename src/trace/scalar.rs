@@ -15,7 +15,7 @@ pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
             let m = q + d * b;
             let disc = radius * radius - m.dot(m);
             let far = b + disc.max(0.0).sqrt().copysign(b);
-            let near = (q.length() - radius) * (q.length() + radius) / far;
+            let near = (q.dot(q) - radius * radius) / far;
             (disc > 0.0).then(|| (far.min(near), far.max(near)))?
         }
         Shape::Plane { normal, offset } => {
@@ -72,9 +72,9 @@ impl Shape {
     /// Unit outward normal at a point of the surface.
     pub fn normal_at(&self, p: Vec3) -> Vec3 {
         match *self {
-            Shape::Sphere { center, radius } => (p - center) / radius,
+            Shape::Sphere { center, .. } => (p - center).normalize(),
             Shape::Plane { normal, .. } => normal,
-            Shape::Globe { touch, normal, radius } => (p - touch) / radius + normal,
+            Shape::Globe { touch, normal, radius } => ((p - touch) / radius + normal).normalize(),
             Shape::Block { center, half, turn } => {
                 let q = turn * (p - center);
                 let axis = (q / half).abs().max_position();
@@ -84,7 +84,7 @@ impl Shape {
                 let q = p - center;
                 let h = q.dot(axis);
                 let round = q - axis * h;
-                if h.abs() / half >= round.length() / radius { axis * h.signum() } else { round / radius }
+                if h.abs() / half >= round.length() / radius { axis * h.signum() } else { round.normalize() }
             }
         }
     }
