@@ -36,7 +36,7 @@ impl Guard {
             for light in &world.lights {
                 guard.highlight(view, body, light);
             }
-            for (center, radius) in balls(&body.shape) {
+            for (center, radius) in balls(&body.shape).chain(tips(&body.shape)) {
                 guard.protect(view, center, radius);
                 for (other, mirror) in world.objects.iter().enumerate() {
                     if other != index
@@ -67,9 +67,13 @@ impl Guard {
             Source::Point(p) => (center - p).normalize_or(Vec3::NEG_Y),
             Source::Directional(d) => -d,
         };
-        // The middle of the shadow, and its rim where that falls on something else.
+        // The middle of the shadow; and, where that is small, its rim, which may fall on something else.
         let (u, v) = aim.any_orthonormal_pair();
+        let mut small = true;
         for offset in [Vec3::ZERO, u, -u, v, -v] {
+            if !small || radius == 0.0 && offset != Vec3::ZERO {
+                break;
+            }
             let through = center + offset * radius;
             let direction = match light.source {
                 Source::Point(p) => (through - p).normalize_or(aim),
@@ -83,7 +87,7 @@ impl Guard {
             };
             // How much longer than wide it is there, at most 8.
             let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
-            self.protect(view, point, radius * grown / slope.max(0.125));
+            small = self.protect(view, point, radius * grown / slope.max(0.125));
         }
     }
 
@@ -107,13 +111,14 @@ impl Guard {
         self.protect(view, point, radius);
     }
 
-    /// Cuts the squares under the picture of a ball.
-    fn protect(&mut self, view: &View, center: Vec3, radius: f32) {
-        let Some((x, y, metre)) = view.project(center) else { return };
+    /// Cuts the squares under the picture of a ball; is it small enough for that to be needed?
+    fn protect(&mut self, view: &View, center: Vec3, radius: f32) -> bool {
+        let Some((x, y, metre)) = view.project(center) else { return false };
         let pixels = radius * metre;
         let finest = pixels.sqrt().max(1.0);
         // Written so that a picture that is not a number is left alone.
-        if finest < BLOCK as f32 && x.is_finite() && y.is_finite() {
+        let small = finest < BLOCK as f32 && x.is_finite() && y.is_finite();
+        if small {
             let finest = 1 << finest.log2() as u32;
             let rows = self.finest.len() / self.columns.max(1);
             let ((x0, x1), (y0, y1)) = (blocks(x, pixels, self.columns), blocks(y, pixels, rows));
@@ -123,6 +128,7 @@ impl Guard {
                 }
             }
         }
+        small
     }
 }
 
@@ -152,6 +158,17 @@ fn balls(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
     (0..count as u32).map(move |n| (center + axis * half * ((2 * n + 1) as f32 / count - 1.0), radius))
 }
 
+/// The corners of a block, as balls of no size: they reach into squares whose corners all lie outside.
+fn tips(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
+    let (center, half, turn) = match *shape {
+        Shape::Block { center, half, turn } => (center, half, turn.transpose()),
+        _ => (Vec3::ZERO, Vec3::ZERO, glam::Mat3::ZERO),
+    };
+    let signs = if half == Vec3::ZERO { 0..0 } else { 0..8 };
+    let sign = |bits: u32, axis: u32| if bits >> axis & 1 == 0 { -1.0 } else { 1.0 };
+    signs.map(move |n| (center + turn * (half * Vec3::new(sign(n, 0), sign(n, 1), sign(n, 2))), 0.0))
+}
+
 /// Where on a body the eye sees a point mirrored; none where it cannot or the body has no simple answer.
 fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
     match *shape {
@@ -163,7 +180,7 @@ fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
         Shape::Sphere { center, radius } => {
             // Alhazen's problem: there the normal halves the angle. Each round quarters the error, or better.
             let mut normal = (eye - center).try_normalize()?;
-            for _ in 0..6 {
+            for _ in 0..12 {
                 let point = center + normal * radius;
                 let to_eye = (eye - point).try_normalize()?;
                 normal = (to_eye + (target - point).try_normalize()?).try_normalize()?;
@@ -188,7 +205,8 @@ fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(V
             let point = mirror_point(eye, &mirror.shape, center)?;
             // A convex mirror of focal length R/2 makes images smaller by (R/2) / (distance + R/2).
             let focal = 0.5 * curvature;
-            Some((point, radius * focal / (point.distance(center) + focal)))
+            // Towards the rim images are drawn out: half as large again is enough for what can be seen of them.
+            Some((point, 1.5 * radius * focal / (point.distance(center) + focal)))
         }
         _ => None,
     }

@@ -23,9 +23,7 @@ pub struct Light {
 
 /// An empty tile.
 fn tile() -> Tile {
-    let plane = || Box::new([0.0; Tile::AREA]);
-    let (red, green, blue, closeness, coverage) = (plane(), plane(), plane(), plane(), plane());
-    Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, closeness, coverage }
+    Tile::at(0, 0, Tile::SIZE, Tile::SIZE)
 }
 
 /// What the renderer makes of a world, tile by tile.
