@@ -1,0 +1,310 @@
+//! The first part of the intro: a ray of light finds a ball of glass, and they see a day out together.
+//!
+//! Five shots, each with its own set, its own light and one camera move.
+
+use super::{Scene, Shot};
+use crate::camera::Camera;
+use crate::color::Transfer;
+use crate::tile::Picture;
+use crate::timeline::{self, Key, ease};
+use crate::trace::shape::Shape;
+use crate::trace::texture::{Palette, Pattern, Texture};
+use crate::trace::world::{Light, Material, Object, Sky, Source, World};
+use glam::{Mat3, Vec3, vec3};
+
+/// The part.
+pub const LUMEN: Scene = Scene { name: "lumen", about: "a ray of light: glass, marble, wood, mirrors", duration: END, picture };
+
+/// Seconds that the part takes.
+const END: f64 = 56.0;
+
+/// A set at an instant, and the camera's keys.
+#[derive(Clone, Copy, Debug)]
+pub struct Take {
+    /// The world, by seconds since the shot's start.
+    set: fn(f64) -> World,
+    /// Seconds since the shot's start; eye, target, vertical field of view in degrees.
+    camera: &'static [Key<7>],
+}
+
+/// The shots, by the second that each starts.
+pub const CUTS: &[(f64, Take)] = &[
+    (0.0, Take { set: door, camera: DOOR }),
+    (11.0, Take { set: table, camera: TABLE }),
+    (21.0, Take { set: columns, camera: COLUMNS }),
+    (33.0, Take { set: dance, camera: DANCE }),
+    (45.0, Take { set: sunset, camera: SUNSET }),
+];
+
+fn picture(shot: &Shot) -> Picture {
+    let (world, camera) = stage(shot.time);
+    shot.traced(world, camera, Transfer::Srgb)
+}
+
+/// What is seen at `time` seconds, and from where.
+pub fn stage(time: f64) -> (World, Camera) {
+    let (take, time) = timeline::cut(CUTS, END, time);
+    let [x, y, z, tx, ty, tz, fov] = timeline::sample(take.camera, time);
+    ((take.set)(time), Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0))
+}
+
+// Dawn: two doors open, and the first ray falls across a dark hall.
+
+const DOOR: &[Key<7>] = &[
+    (0.0, [2.7, 0.9, 9.6, 0.2, 1.7, 0.0, 42.0]),
+    (5.0, [2.0, 1.0, 8.6, 0.2, 1.7, 0.0, 42.0]),
+    (11.0, [0.5, 1.3, 6.8, 0.15, 1.8, 0.0, 40.0]),
+];
+
+/// Half of the gap between the doors, metres.
+const GAP: &[Key<1>] = &[(0.0, [0.07]), (1.0, [0.09]), (10.0, [2.5]), (11.0, [2.55])];
+
+fn door(time: f64) -> World {
+    let sun = vec3(-0.1, 0.12, -1.0).normalize();
+    let stone = MARBLE.painted([0.02, 0.03, 0.04], [0.16, 0.17, 0.19], 0.8);
+    let wall = matt(stone);
+    let mut objects = vec![
+        floor(Material { fresnel: 0.6, ..stone_floor(stone) }),
+        ball(vec3(1.7, 0.75, 3.6), 0.75, GLASS),
+        lamp(sun * 300.0, 8.0, vec3(60.0, 40.0, 16.0)),
+        block(vec3(0.0, 6.5, 6.0), vec3(9.0, 1.0, 9.0), wall),
+        block(vec3(0.0, 3.0, 15.0), vec3(9.0, 5.0, 1.0), wall),
+    ];
+    let [gap] = timeline::sample(GAP, time);
+    for side in [-1.0, 1.0] {
+        let leaf = vec3(side * (gap + 4.0), 2.8, 0.0);
+        let wood = WOOD.painted([0.05, 0.025, 0.012], [0.2, 0.1, 0.045], 1.6).on(leaf - vec3(side * 2.0, 0.0, 1.2), Mat3::IDENTITY);
+        objects.push(block(leaf, vec3(4.0, 2.9, 0.25), matt(wood)));
+        objects.push(block(vec3(side * 7.0, 3.0, 7.0), vec3(1.0, 4.0, 9.0), wall));
+        for z in [2.2, 5.6] {
+            objects.push(column(vec3(side * 3.7, 0.0, z), 5.6, 0.42, matt(stone)));
+        }
+    }
+    World {
+        objects,
+        lights: vec![
+            Light { source: Source::Directional(sun), color: vec3(1.9, 1.15, 0.5), radius: 0.0 },
+            Light { source: Source::Point(vec3(-2.0, 4.6, 10.0)), color: vec3(0.22, 0.36, 0.62), radius: 0.0 },
+        ],
+        ambient: vec3(0.10, 0.13, 0.2),
+        sky: Sky { horizon: vec3(0.62, 0.42, 0.34), zenith: vec3(0.1, 0.2, 0.45), glow: (sun, vec3(0.9, 0.45, 0.1), 20.0) },
+        max_level: 6,
+    }
+}
+
+// Morning: a table, close, through the ball.
+
+const TABLE: &[Key<7>] = &[
+    (0.0, [1.9, 1.15, 3.1, 0.15, 0.95, 0.0, 38.0]),
+    (5.0, [0.5, 1.0, 3.3, 0.25, 0.95, 0.0, 38.0]),
+    (10.0, [-1.1, 1.25, 3.3, 0.1, 0.9, 0.0, 38.0]),
+];
+
+fn table(time: f64) -> World {
+    let sun = vec3(-0.7, 0.5, -0.45).normalize();
+    let grain = WOOD.painted([0.16, 0.06, 0.02], [0.5, 0.26, 0.1], 2.5);
+    let top = Texture { origin: vec3(0.0, -1.1, 0.4), turn: grain.turn * Mat3::from_cols(vec3(0.0, 0.2, 0.0), Vec3::X, Vec3::Z), ..grain };
+    let mut objects = vec![
+        block(vec3(0.0, -0.2, 0.0), vec3(5.0, 0.2, 3.6), matt(top).polished(0.06, 0.3, 40.0)),
+        ball(vec3(-0.4, 1.0, 0.0), 1.0, GLASS),
+    ];
+    let balls = [
+        (RED, 0.42, -1.5, -3.6, 0.75),
+        (GREEN, 0.55, -2.6, 3.9, -0.6),
+        (WHITE, 0.3, 1.1, 3.0, -0.25),
+    ];
+    for (texture, radius, z, start, speed) in balls {
+        let way = start + speed * time as f32;
+        objects.push(rolling(vec3(way, radius, z), radius, way, texture));
+    }
+    World {
+        objects,
+        lights: vec![
+            Light { source: Source::Directional(sun), color: vec3(1.1, 0.95, 0.75), radius: 0.0 },
+            Light { source: Source::Point(vec3(3.0, 5.0, 4.0)), color: vec3(0.22, 0.28, 0.36), radius: 0.0 },
+        ],
+        ambient: vec3(0.1, 0.11, 0.13),
+        sky: Sky { horizon: vec3(0.8, 0.72, 0.55), zenith: vec3(0.05, 0.22, 0.35), glow: (sun, vec3(0.4, 0.3, 0.1), 6.0) },
+        max_level: 6,
+    }
+}
+
+// Noon and after: turning columns, and their shadows.
+
+const COLUMNS: &[Key<7>] = &[
+    (0.0, [3.4, 0.8, 5.0, 0.9, 1.9, -4.0, 48.0]),
+    (6.0, [2.7, 1.0, 1.0, 0.8, 1.9, -8.0, 48.0]),
+    (12.0, [1.9, 1.5, -3.6, 0.9, 1.8, -12.0, 48.0]),
+];
+
+fn columns(time: f64) -> World {
+    let sun = vec3(-0.75, 0.45, -0.4).normalize();
+    let stone = MARBLE.painted([0.26, 0.24, 0.22], [0.62, 0.56, 0.48], 0.35);
+    let mut objects = vec![floor(Material { fresnel: 1.0, ..stone_floor(stone) })];
+    for i in 0..7 {
+        let foot = vec3(0.0, 0.0, -3.2 * i as f32);
+        let angle = (if i % 2 == 0 { 0.5 } else { -0.5 }) * time as f32 + i as f32;
+        let turn = Mat3::from_rotation_y(angle);
+        let veins = MARBLE.painted(VEINS[i % 3].0, VEINS[i % 3].1, 2.2).on(foot, turn);
+        objects.push(column(foot, 5.4, 0.55, matt(veins).polished(0.05, 0.35, 40.0)));
+        objects.push(block(foot + vec3(0.0, 0.12, 0.0), vec3(0.75, 0.12, 0.75), matt(stone)));
+    }
+    objects.push(block(vec3(0.0, 5.9, -9.6), vec3(0.8, 0.5, 11.0), matt(stone)));
+    let way = -1.0 * time as f32;
+    let gold = Material { reflectance: vec3(0.75, 0.52, 0.25), ..matt(Texture::plain(vec3(0.3, 0.18, 0.06))).polished(0.0, 0.6, 60.0) };
+    objects.push(ball(vec3(2.4 + 0.3 * (0.5 * time as f32).sin(), 0.6, way - 1.6), 0.6, gold));
+    World {
+        objects,
+        lights: vec![Light { source: Source::Directional(sun), color: vec3(1.15, 1.0, 0.8), radius: 0.0 }],
+        ambient: vec3(0.2, 0.24, 0.32),
+        sky: Sky { horizon: vec3(0.72, 0.78, 0.8), zenith: vec3(0.04, 0.16, 0.5), glow: (sun, vec3(0.5, 0.4, 0.2), 8.0) },
+        max_level: 4,
+    }
+}
+
+// Evening: spheres dance on an inlaid floor, under a lamp.
+
+const DANCE: &[Key<7>] = &[
+    (0.0, [6.5, 4.6, 6.2, 0.0, 0.5, 0.0, 42.0]),
+    (4.0, [1.0, 2.9, 7.6, 0.0, 0.8, 0.0, 42.0]),
+    (8.0, [-4.0, 1.6, 5.6, 0.0, 1.0, 0.0, 42.0]),
+    (12.0, [-6.3, 1.3, 1.5, 0.0, 1.1, 0.0, 42.0]),
+];
+
+fn dance(time: f64) -> World {
+    let t = time as f32;
+    let turn = Mat3::from_rotation_y(0.12 * t);
+    let disc = |y: f32, radius: f32, texture: Texture| {
+        column(vec3(0.0, y - 0.4, 0.0), 0.4, radius, matt(texture.on(Vec3::ZERO, turn)).polished(0.14, 0.3, 50.0))
+    };
+    let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.05, 0.05, 0.06), vec3(0.55, 0.5, 0.42)), 1.6);
+    let mut objects = vec![
+        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.16, 0.22, 0.24], 1.0)),
+        disc(-0.02, 4.0, WOOD.painted([0.16, 0.06, 0.02], [0.42, 0.2, 0.08], 2.5)),
+        disc(0.0, 2.6, checker),
+        ball(vec3(0.0, 1.5 + 0.12 * (1.1 * t).sin(), 0.0), 0.9, GLASS),
+    ];
+    for i in 0..9 {
+        let (ring, k) = (i % 3, i as f32);
+        let (radius, speed, size) = [(1.9, 0.55, 0.3), (3.2, -0.4, 0.42), (4.5, 0.28, 0.34)][ring];
+        let angle = k * 2.2 + speed * t;
+        let height = size + 0.5 * (1.3 * t + k * 1.7).sin().abs();
+        let center = vec3(radius * angle.cos(), height, radius * angle.sin());
+        let texture = [RED, WHITE, GREEN][(i / 3 + ring) % 3].on(center, Mat3::from_rotation_x(t + k));
+        objects.push(ball(center, size, matt(texture).polished(0.15 + 0.25 * (i % 2) as f32, 0.5, 50.0)));
+    }
+    World {
+        objects,
+        lights: vec![
+            Light { source: Source::Point(vec3(1.5, 5.5, -2.0)), color: vec3(1.2, 0.95, 0.65), radius: 0.5 },
+            Light { source: Source::Directional(vec3(-0.6, 0.3, -0.7).normalize()), color: vec3(0.1, 0.2, 0.42), radius: 0.0 },
+        ],
+        ambient: vec3(0.07, 0.08, 0.12),
+        sky: Sky { horizon: vec3(0.03, 0.05, 0.11), zenith: vec3(0.02, 0.02, 0.05), glow: (vec3(-0.6, 0.1, -0.8).normalize(), vec3(0.12, 0.1, 0.2), 4.0) },
+        max_level: 5,
+    }
+}
+
+// Sunset: the ball on the water, and the sun in it.
+
+const SUNSET: &[Key<7>] = &[
+    (0.0, [-0.9, 0.9, 3.4, 0.1, 1.0, 0.0, 40.0]),
+    (5.0, [-0.3, 1.3, 5.2, 0.5, 1.3, 0.0, 40.0]),
+    (11.0, [0.6, 2.3, 8.6, 0.9, 1.8, 0.0, 40.0]),
+];
+
+fn sunset(time: f64) -> World {
+    let day = 1.0 - ease(0.0, 11.5, time);
+    let sun = vec3(-0.06, -0.02 + 0.15 * day, -1.0).normalize();
+    let deep = Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(vec3(0.0, 0.01, 0.03), vec3(0.05, 0.1, 0.14)), 0.4);
+    let mut objects = vec![
+        Object {
+            shape: Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 220.0 },
+            material: Material { fresnel: 1.0, ..matt(deep).polished(0.05, 0.0, 1.0) },
+            casts_shadow: false,
+        },
+        ball(vec3(-0.5, 0.9, 0.0), 1.0, GLASS),
+        lamp(sun * 300.0, 14.0, vec3(8.0, 5.0, 2.0)),
+    ];
+    for (i, (x, z, height)) in [(3.2, -3.0, 4.0), (4.2, -7.0, 5.2), (5.2, -11.0, 3.0), (-5.5, -9.0, 4.4), (-6.8, -14.0, 5.4)].into_iter().enumerate() {
+        let foot = vec3(x, -0.5, z);
+        let veins = MARBLE.painted(VEINS[i % 3].0, VEINS[i % 3].1, 2.2).on(foot, Mat3::IDENTITY);
+        objects.push(column(foot, height, 0.55, matt(veins)));
+    }
+    let red = vec3(1.0, 0.45, 0.12) * (0.25 + 0.75 * day);
+    World {
+        objects,
+        lights: vec![Light { source: Source::Directional(sun), color: red * 1.2, radius: 0.0 }],
+        ambient: vec3(0.12, 0.12, 0.2),
+        sky: Sky {
+            horizon: vec3(0.12, 0.1, 0.2) + vec3(0.65, 0.25, 0.05) * day,
+            zenith: vec3(0.03, 0.05, 0.16),
+            glow: (sun, red, 18.0),
+        },
+        max_level: 6,
+    }
+}
+
+// What the sets are made of.
+
+const GLASS: Material = Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) };
+/// Layers along x, folded.
+const MARBLE: Texture = Texture::new(Pattern::Marble { warp: 7.0, scale: 3.5, octaves: 3 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
+/// Rings around y.
+const WOOD: Texture = Texture::new(Pattern::Wood { warp: 1.1, octaves: 2 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
+/// Dark and light of the columns' marbles.
+const VEINS: [([f32; 3], [f32; 3]); 3] = [
+    ([0.12, 0.1, 0.1], [0.8, 0.74, 0.66]),
+    ([0.1, 0.13, 0.12], [0.5, 0.6, 0.52]),
+    ([0.2, 0.06, 0.04], [0.75, 0.5, 0.4]),
+];
+const RED: Texture = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.15, 0.0, 0.0), vec3(0.9, 0.2, 0.08)), 4.0);
+const GREEN: Texture = Texture::new(Pattern::Marble { warp: 6.0, scale: 3.0, octaves: 3 }, Palette::Mix(vec3(0.01, 0.08, 0.07), vec3(0.2, 0.55, 0.42)), 7.0);
+const WHITE: Texture = Texture::new(Pattern::Turbulence { octaves: 4 }, Palette::Mix(vec3(0.9, 0.86, 0.78), vec3(0.1, 0.15, 0.4)), 3.0);
+
+impl Texture {
+    /// The same in other colours, `scale` times finer.
+    fn painted(self, dark: [f32; 3], light: [f32; 3], scale: f32) -> Texture {
+        Texture { palette: Palette::Mix(dark.into(), light.into()), turn: self.turn * scale, ..self }
+    }
+}
+
+fn matt(texture: Texture) -> Material {
+    Material::matt(texture).polished(0.0, 0.12, 24.0)
+}
+
+fn stone_floor(texture: Texture) -> Material {
+    matt(texture).polished(0.06, 0.2, 40.0)
+}
+
+fn solid(shape: Shape, material: Material) -> Object {
+    Object { shape, material, casts_shadow: true }
+}
+
+fn floor(material: Material) -> Object {
+    Object { casts_shadow: false, ..solid(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material) }
+}
+
+fn ball(center: Vec3, radius: f32, material: Material) -> Object {
+    solid(Shape::Sphere { center, radius }, material)
+}
+
+/// A ball that has rolled `way` metres along x.
+fn rolling(center: Vec3, radius: f32, way: f32, texture: Texture) -> Object {
+    ball(center, radius, matt(texture.on(center, Mat3::from_rotation_z(way / radius))).polished(0.12, 0.5, 60.0))
+}
+
+/// A ball that shines by itself: brighter than white in the faintest light.
+fn lamp(center: Vec3, radius: f32, color: Vec3) -> Object {
+    Object { casts_shadow: false, ..ball(center, radius, Material::matt(Texture::plain(color))) }
+}
+
+fn block(center: Vec3, half: Vec3, material: Material) -> Object {
+    solid(Shape::Block { center, half, turn: Mat3::IDENTITY }, material)
+}
+
+/// An upright cylinder on `foot`.
+fn column(foot: Vec3, height: f32, radius: f32, material: Material) -> Object {
+    let center = foot + Vec3::Y * (height * 0.5);
+    solid(Shape::Cylinder { center, axis: Vec3::Y, half: height * 0.5, radius }, material)
+}
