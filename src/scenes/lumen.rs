@@ -51,43 +51,40 @@ pub fn stage(time: f64) -> (World, Camera) {
 // Dawn: two doors open, and the first ray falls across a dark hall.
 
 const DOOR: &[Key<7>] = &[
-    (0.0, [2.7, 0.9, 9.6, 0.2, 1.7, 0.0, 42.0]),
-    (5.0, [2.0, 1.0, 8.6, 0.2, 1.7, 0.0, 42.0]),
-    (11.0, [0.5, 1.3, 6.8, 0.15, 1.8, 0.0, 40.0]),
+    (0.0, [2.7, 0.8, 9.6, 0.3, 1.7, 0.0, 42.0]),
+    (5.0, [2.1, 0.9, 8.9, 0.3, 1.7, 0.0, 42.0]),
+    (11.0, [0.7, 1.2, 7.4, 0.3, 1.7, 0.0, 40.0]),
 ];
 
 /// Half of the gap between the doors, metres.
-const GAP: &[Key<1>] = &[(0.0, [0.07]), (1.0, [0.09]), (10.0, [2.5]), (11.0, [2.55])];
+const GAP: &[Key<1>] = &[(0.0, [0.05]), (1.0, [0.07]), (6.0, [0.6]), (11.0, [1.5])];
 
 fn door(time: f64) -> World {
-    let sun = vec3(-0.1, 0.12, -1.0).normalize();
-    let stone = MARBLE.painted([0.02, 0.03, 0.04], [0.16, 0.17, 0.19], 0.8);
+    let sun = vec3(-0.1, 0.14, -1.0).normalize();
+    let stone = MARBLE.painted([0.06, 0.06, 0.06], [0.3, 0.29, 0.27], 0.9);
     let wall = matt(stone);
     let mut objects = vec![
-        floor(Material { fresnel: 0.6, ..stone_floor(stone) }),
-        ball(vec3(1.7, 0.75, 3.6), 0.75, GLASS),
-        lamp(sun * 300.0, 8.0, vec3(60.0, 40.0, 16.0)),
+        floor(stone_floor(stone, 0.4)),
+        ball(vec3(1.75, 0.75, 3.6), 0.75, GLASS),
+        lamp(sun * 300.0, 8.0, vec3(25.0, 16.0, 5.0)),
         block(vec3(0.0, 6.5, 6.0), vec3(9.0, 1.0, 9.0), wall),
         block(vec3(0.0, 3.0, 15.0), vec3(9.0, 5.0, 1.0), wall),
     ];
     let [gap] = timeline::sample(GAP, time);
     for side in [-1.0, 1.0] {
         let leaf = vec3(side * (gap + 4.0), 2.8, 0.0);
-        let wood = WOOD.painted([0.05, 0.025, 0.012], [0.2, 0.1, 0.045], 1.6).on(leaf - vec3(side * 2.0, 0.0, 1.2), Mat3::IDENTITY);
+        let wood = rings([0.03, 0.014, 0.008], [0.16, 0.075, 0.03], 3.0, 0.2).on(leaf - vec3(side * 1.5, 0.0, 1.0), Mat3::IDENTITY);
         objects.push(block(leaf, vec3(4.0, 2.9, 0.25), matt(wood)));
         objects.push(block(vec3(side * 7.0, 3.0, 7.0), vec3(1.0, 4.0, 9.0), wall));
         for z in [2.2, 5.6] {
-            objects.push(column(vec3(side * 3.7, 0.0, z), 5.6, 0.42, matt(stone)));
+            objects.push(column(vec3(side * 3.7, 0.0, z), 5.6, 0.42, wall));
         }
     }
     World {
         objects,
-        lights: vec![
-            Light { source: Source::Directional(sun), color: vec3(1.9, 1.15, 0.5), radius: 0.0 },
-            Light { source: Source::Point(vec3(-2.0, 4.6, 10.0)), color: vec3(0.22, 0.36, 0.62), radius: 0.0 },
-        ],
-        ambient: vec3(0.10, 0.13, 0.2),
-        sky: Sky { horizon: vec3(0.62, 0.42, 0.34), zenith: vec3(0.1, 0.2, 0.45), glow: (sun, vec3(0.9, 0.45, 0.1), 20.0) },
+        lights: vec![sunlight(sun, vec3(5.0, 2.8, 1.1)), Light { source: Source::Point(vec3(-2.0, 4.6, 10.0)), color: vec3(0.1, 0.15, 0.26), radius: 0.0 }],
+        ambient: vec3(0.06, 0.085, 0.15),
+        sky: Sky { horizon: vec3(0.5, 0.27, 0.2), zenith: vec3(0.1, 0.2, 0.45), glow: (sun, vec3(0.45, 0.32, 0.12), 24.0) },
         max_level: 6,
     }
 }
@@ -95,36 +92,35 @@ fn door(time: f64) -> World {
 // Morning: a table, close, through the ball.
 
 const TABLE: &[Key<7>] = &[
-    (0.0, [1.9, 1.15, 3.1, 0.15, 0.95, 0.0, 38.0]),
-    (5.0, [0.5, 1.0, 3.3, 0.25, 0.95, 0.0, 38.0]),
-    (10.0, [-1.1, 1.25, 3.3, 0.1, 0.9, 0.0, 38.0]),
+    (0.0, [1.9, 1.15, 3.3, 0.25, 0.95, 0.0, 38.0]),
+    (5.0, [0.5, 1.0, 3.5, 0.35, 0.95, 0.0, 38.0]),
+    (10.0, [-1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 38.0]),
 ];
 
 fn table(time: f64) -> World {
-    let sun = vec3(-0.7, 0.5, -0.45).normalize();
-    let grain = WOOD.painted([0.16, 0.06, 0.02], [0.5, 0.26, 0.1], 2.5);
-    let top = Texture { origin: vec3(0.0, -1.1, 0.4), turn: grain.turn * Mat3::from_cols(vec3(0.0, 0.2, 0.0), Vec3::X, Vec3::Z), ..grain };
+    let sun = vec3(-0.75, 0.5, 0.1).normalize();
+    let grain = rings([0.1, 0.04, 0.015], [0.34, 0.17, 0.065], 2.5, 1.0);
+    let along = Mat3::from_cols(vec3(0.0, 0.2, 0.0), Vec3::X, Vec3::Z);
+    let top = Texture { origin: vec3(0.0, -1.1, 0.4), turn: grain.turn * along, ..grain };
     let mut objects = vec![
-        block(vec3(0.0, -0.2, 0.0), vec3(5.0, 0.2, 3.6), matt(top).polished(0.06, 0.3, 40.0)),
+        block(vec3(0.0, -0.2, 0.0), vec3(6.0, 0.2, 4.5), matt(top).polished(0.05, 0.3, 40.0)),
         ball(vec3(-0.4, 1.0, 0.0), 1.0, GLASS),
     ];
-    let balls = [
-        (RED, 0.42, -1.5, -3.6, 0.75),
-        (GREEN, 0.55, -2.6, 3.9, -0.6),
-        (WHITE, 0.3, 1.1, 3.0, -0.25),
-    ];
-    for (texture, radius, z, start, speed) in balls {
+    for i in 0..7 {
+        let k = i as f32;
+        let foot = vec3(1.25 * k - 3.75, 0.0, -3.6);
+        let height = 1.5 + 0.9 * (k * 0.7 + 0.5 * time as f32).sin();
+        objects.push(column(foot, height, 0.34, marbled(i, foot, 0.3 * k)));
+    }
+    for (texture, radius, z, start, speed) in [(RED, 0.42, -1.5, -3.6, 0.75), (GREEN, 0.5, -2.5, 3.6, -0.6), (WHITE, 0.3, 1.1, 3.0, -0.25)] {
         let way = start + speed * time as f32;
         objects.push(rolling(vec3(way, radius, z), radius, way, texture));
     }
     World {
         objects,
-        lights: vec![
-            Light { source: Source::Directional(sun), color: vec3(1.1, 0.95, 0.75), radius: 0.0 },
-            Light { source: Source::Point(vec3(3.0, 5.0, 4.0)), color: vec3(0.22, 0.28, 0.36), radius: 0.0 },
-        ],
-        ambient: vec3(0.1, 0.11, 0.13),
-        sky: Sky { horizon: vec3(0.8, 0.72, 0.55), zenith: vec3(0.05, 0.22, 0.35), glow: (sun, vec3(0.4, 0.3, 0.1), 6.0) },
+        lights: vec![sunlight(sun, vec3(1.15, 0.95, 0.7)), Light { source: Source::Point(vec3(3.0, 5.0, 4.0)), color: vec3(0.16, 0.22, 0.3), radius: 0.0 }],
+        ambient: vec3(0.1, 0.12, 0.14),
+        sky: Sky { horizon: vec3(0.2, 0.36, 0.4), zenith: vec3(0.02, 0.06, 0.12), glow: (vec3(-0.5, 0.3, -0.8).normalize(), vec3(0.5, 0.4, 0.2), 8.0) },
         max_level: 6,
     }
 }
@@ -132,32 +128,32 @@ fn table(time: f64) -> World {
 // Noon and after: turning columns, and their shadows.
 
 const COLUMNS: &[Key<7>] = &[
-    (0.0, [3.4, 0.8, 5.0, 0.9, 1.9, -4.0, 48.0]),
-    (6.0, [2.7, 1.0, 1.0, 0.8, 1.9, -8.0, 48.0]),
-    (12.0, [1.9, 1.5, -3.6, 0.9, 1.8, -12.0, 48.0]),
+    (0.0, [1.5, 0.7, 5.8, -0.4, 1.7, -4.0, 48.0]),
+    (6.0, [0.7, 1.3, 1.2, -0.5, 1.6, -9.0, 48.0]),
+    (12.0, [-0.9, 2.0, -3.6, 0.3, 1.5, -14.0, 48.0]),
 ];
 
 fn columns(time: f64) -> World {
-    let sun = vec3(-0.75, 0.45, -0.4).normalize();
-    let stone = MARBLE.painted([0.26, 0.24, 0.22], [0.62, 0.56, 0.48], 0.35);
-    let mut objects = vec![floor(Material { fresnel: 1.0, ..stone_floor(stone) })];
-    for i in 0..7 {
-        let foot = vec3(0.0, 0.0, -3.2 * i as f32);
-        let angle = (if i % 2 == 0 { 0.5 } else { -0.5 }) * time as f32 + i as f32;
-        let turn = Mat3::from_rotation_y(angle);
-        let veins = MARBLE.painted(VEINS[i % 3].0, VEINS[i % 3].1, 2.2).on(foot, turn);
-        objects.push(column(foot, 5.4, 0.55, matt(veins).polished(0.05, 0.35, 40.0)));
-        objects.push(block(foot + vec3(0.0, 0.12, 0.0), vec3(0.75, 0.12, 0.75), matt(stone)));
+    let sun = vec3(0.8, 0.55, -0.3).normalize();
+    let stone = MARBLE.painted([0.12, 0.085, 0.06], [0.36, 0.27, 0.19], 0.6);
+    let mut objects = vec![floor(stone_floor(stone, 0.6))];
+    for i in 0..6 {
+        for side in [-2.6, 2.6] {
+            let foot = vec3(side, 0.0, 1.0 - 3.4 * i as f32);
+            objects.push(column(foot, 5.4, 0.55, marbled(i, foot, side * 0.2 * time as f32 + i as f32)));
+        }
     }
-    objects.push(block(vec3(0.0, 5.9, -9.6), vec3(0.8, 0.5, 11.0), matt(stone)));
+    for side in [-2.6, 2.6] {
+        objects.push(block(vec3(side, 5.8, -7.5), vec3(0.7, 0.4, 10.0), matt(stone)));
+    }
     let way = -1.0 * time as f32;
     let gold = Material { reflectance: vec3(0.75, 0.52, 0.25), ..matt(Texture::plain(vec3(0.3, 0.18, 0.06))).polished(0.0, 0.6, 60.0) };
-    objects.push(ball(vec3(2.4 + 0.3 * (0.5 * time as f32).sin(), 0.6, way - 1.6), 0.6, gold));
+    objects.push(ball(vec3(-1.2 * (0.42 * time as f32).cos(), 0.6, way), 0.6, gold));
     World {
         objects,
-        lights: vec![Light { source: Source::Directional(sun), color: vec3(1.15, 1.0, 0.8), radius: 0.0 }],
-        ambient: vec3(0.2, 0.24, 0.32),
-        sky: Sky { horizon: vec3(0.72, 0.78, 0.8), zenith: vec3(0.04, 0.16, 0.5), glow: (sun, vec3(0.5, 0.4, 0.2), 8.0) },
+        lights: vec![sunlight(sun, vec3(1.7, 1.25, 0.8))],
+        ambient: vec3(0.14, 0.19, 0.28),
+        sky: Sky { horizon: vec3(0.4, 0.5, 0.58), zenith: vec3(0.01, 0.08, 0.35), glow: (sun, vec3(0.5, 0.35, 0.15), 6.0) },
         max_level: 4,
     }
 }
@@ -165,29 +161,33 @@ fn columns(time: f64) -> World {
 // Evening: spheres dance on an inlaid floor, under a lamp.
 
 const DANCE: &[Key<7>] = &[
-    (0.0, [6.5, 4.6, 6.2, 0.0, 0.5, 0.0, 42.0]),
-    (4.0, [1.0, 2.9, 7.6, 0.0, 0.8, 0.0, 42.0]),
-    (8.0, [-4.0, 1.6, 5.6, 0.0, 1.0, 0.0, 42.0]),
-    (12.0, [-6.3, 1.3, 1.5, 0.0, 1.1, 0.0, 42.0]),
+    (0.0, [6.5, 4.6, 6.2, 0.0, 0.6, 0.0, 42.0]),
+    (4.0, [1.0, 2.9, 7.6, 0.0, 0.9, 0.0, 42.0]),
+    (8.0, [-4.0, 1.8, 5.8, 0.0, 1.1, 0.0, 42.0]),
+    (12.0, [-6.5, 1.3, 2.0, 0.0, 1.2, 0.0, 42.0]),
 ];
 
 fn dance(time: f64) -> World {
     let t = time as f32;
     let turn = Mat3::from_rotation_y(0.12 * t);
     let disc = |y: f32, radius: f32, texture: Texture| {
-        column(vec3(0.0, y - 0.4, 0.0), 0.4, radius, matt(texture.on(Vec3::ZERO, turn)).polished(0.14, 0.3, 50.0))
+        let material = matt(texture.on(Vec3::ZERO, turn)).polished(0.14, 0.3, 50.0);
+        Object { casts_shadow: false, ..column(vec3(0.0, y - 0.4, 0.0), 0.4, radius, material) }
     };
     let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.05, 0.05, 0.06), vec3(0.55, 0.5, 0.42)), 1.6);
+    let moon = vec3(0.62, 0.13, -0.75).normalize();
+    let craters = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(1.0, 1.2, 1.4), vec3(7.0, 7.5, 7.0)), 0.25);
     let mut objects = vec![
-        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.16, 0.22, 0.24], 1.0)),
-        disc(-0.02, 4.0, WOOD.painted([0.16, 0.06, 0.02], [0.42, 0.2, 0.08], 2.5)),
+        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 3.0)),
+        disc(-0.02, 4.0, rings([0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3)),
         disc(0.0, 2.6, checker),
         ball(vec3(0.0, 1.5 + 0.12 * (1.1 * t).sin(), 0.0), 0.9, GLASS),
+        ball(moon * 90.0, 6.0, Material::matt(craters)),
     ];
     for i in 0..9 {
         let (ring, k) = (i % 3, i as f32);
         let (radius, speed, size) = [(1.9, 0.55, 0.3), (3.2, -0.4, 0.42), (4.5, 0.28, 0.34)][ring];
-        let angle = k * 2.2 + speed * t;
+        let angle = (i / 3) as f32 * 2.0944 + ring as f32 + speed * t;
         let height = size + 0.5 * (1.3 * t + k * 1.7).sin().abs();
         let center = vec3(radius * angle.cos(), height, radius * angle.sin());
         let texture = [RED, WHITE, GREEN][(i / 3 + ring) % 3].on(center, Mat3::from_rotation_x(t + k));
@@ -196,11 +196,11 @@ fn dance(time: f64) -> World {
     World {
         objects,
         lights: vec![
-            Light { source: Source::Point(vec3(1.5, 5.5, -2.0)), color: vec3(1.2, 0.95, 0.65), radius: 0.5 },
-            Light { source: Source::Directional(vec3(-0.6, 0.3, -0.7).normalize()), color: vec3(0.1, 0.2, 0.42), radius: 0.0 },
+            Light { source: Source::Point(vec3(1.5, 5.5, -2.0)), color: vec3(1.2, 0.95, 0.65), radius: 0.4 },
+            sunlight(moon, vec3(0.1, 0.2, 0.42)),
         ],
         ambient: vec3(0.07, 0.08, 0.12),
-        sky: Sky { horizon: vec3(0.03, 0.05, 0.11), zenith: vec3(0.02, 0.02, 0.05), glow: (vec3(-0.6, 0.1, -0.8).normalize(), vec3(0.12, 0.1, 0.2), 4.0) },
+        sky: Sky { horizon: vec3(0.03, 0.05, 0.11), zenith: vec3(0.02, 0.02, 0.05), glow: (moon, vec3(0.16, 0.18, 0.3), 6.0) },
         max_level: 5,
     }
 }
@@ -208,15 +208,17 @@ fn dance(time: f64) -> World {
 // Sunset: the ball on the water, and the sun in it.
 
 const SUNSET: &[Key<7>] = &[
-    (0.0, [-0.9, 0.9, 3.4, 0.1, 1.0, 0.0, 40.0]),
-    (5.0, [-0.3, 1.3, 5.2, 0.5, 1.3, 0.0, 40.0]),
-    (11.0, [0.6, 2.3, 8.6, 0.9, 1.8, 0.0, 40.0]),
+    (0.0, [-1.4, 0.9, 3.4, 0.3, 1.05, 0.0, 40.0]),
+    (5.0, [-0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 40.0]),
+    (11.0, [0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 40.0]),
 ];
 
 fn sunset(time: f64) -> World {
-    let day = 1.0 - ease(0.0, 11.5, time);
-    let sun = vec3(-0.06, -0.02 + 0.15 * day, -1.0).normalize();
+    let day = 1.0 - ease(-2.0, 13.0, time);
+    let sun = vec3(0.12, -0.16 + 0.28 * day, -1.0).normalize();
+    let ambient = vec3(0.1, 0.11, 0.2);
     let deep = Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(vec3(0.0, 0.01, 0.03), vec3(0.05, 0.1, 0.14)), 0.4);
+    let stone = matt(MARBLE.painted(VEINS[0].0, VEINS[0].1, 1.5));
     let mut objects = vec![
         Object {
             shape: Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 220.0 },
@@ -224,21 +226,23 @@ fn sunset(time: f64) -> World {
             casts_shadow: false,
         },
         ball(vec3(-0.5, 0.9, 0.0), 1.0, GLASS),
-        lamp(sun * 300.0, 14.0, vec3(8.0, 5.0, 2.0)),
+        lamp(sun * 300.0, 12.0, vec3(25.0, 14.0, 3.0)),
+        block(vec3(3.3, 4.7, -14.0), vec3(3.0, 0.35, 0.6), stone),
     ];
-    for (i, (x, z, height)) in [(3.2, -3.0, 4.0), (4.2, -7.0, 5.2), (5.2, -11.0, 3.0), (-5.5, -9.0, 4.4), (-6.8, -14.0, 5.4)].into_iter().enumerate() {
-        let foot = vec3(x, -0.5, z);
-        let veins = MARBLE.painted(VEINS[i % 3].0, VEINS[i % 3].1, 2.2).on(foot, Mat3::IDENTITY);
-        objects.push(column(foot, height, 0.55, matt(veins)));
+    let cloud = |c: Vec3| c / ambient;
+    let deck = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(cloud(vec3(0.25, 0.1, 0.06) * day), cloud(vec3(0.05, 0.05, 0.12) + vec3(0.95, 0.42, 0.2) * day)), 0.05);
+    objects.push(Object { casts_shadow: false, ..solid(Shape::Plane { normal: Vec3::NEG_Y, offset: -25.0 }, Material { fresnel: 1.0, ..Material::matt(deck) }) });
+    for (x, z) in [(1.1, -14.0), (5.5, -14.0), (-5.2, -9.0), (-8.0, -17.0)] {
+        objects.push(column(vec3(x, -1.5, z), 6.0, 0.5, stone));
     }
-    let red = vec3(1.0, 0.45, 0.12) * (0.25 + 0.75 * day);
+    let red = vec3(1.0, 0.45, 0.12) * (0.2 + 0.8 * day);
     World {
         objects,
-        lights: vec![Light { source: Source::Directional(sun), color: red * 1.2, radius: 0.0 }],
-        ambient: vec3(0.12, 0.12, 0.2),
+        lights: vec![sunlight(sun, red * 1.2)],
+        ambient,
         sky: Sky {
-            horizon: vec3(0.12, 0.1, 0.2) + vec3(0.65, 0.25, 0.05) * day,
-            zenith: vec3(0.03, 0.05, 0.16),
+            horizon: vec3(0.12, 0.1, 0.2) + vec3(0.6, 0.22, 0.05) * day,
+            zenith: vec3(0.02, 0.05, 0.2),
             glow: (sun, red, 18.0),
         },
         max_level: 6,
@@ -250,13 +254,11 @@ fn sunset(time: f64) -> World {
 const GLASS: Material = Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) };
 /// Layers along x, folded.
 const MARBLE: Texture = Texture::new(Pattern::Marble { warp: 7.0, scale: 3.5, octaves: 3 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
-/// Rings around y.
-const WOOD: Texture = Texture::new(Pattern::Wood { warp: 1.1, octaves: 2 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
-/// Dark and light of the columns' marbles.
+/// Veins and ground of the columns' marbles.
 const VEINS: [([f32; 3], [f32; 3]); 3] = [
-    ([0.12, 0.1, 0.1], [0.8, 0.74, 0.66]),
-    ([0.1, 0.13, 0.12], [0.5, 0.6, 0.52]),
-    ([0.2, 0.06, 0.04], [0.75, 0.5, 0.4]),
+    ([0.16, 0.1, 0.07], [0.78, 0.7, 0.58]),
+    ([0.45, 0.5, 0.42], [0.05, 0.17, 0.15]),
+    ([0.75, 0.5, 0.4], [0.42, 0.1, 0.06]),
 ];
 const RED: Texture = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.15, 0.0, 0.0), vec3(0.9, 0.2, 0.08)), 4.0);
 const GREEN: Texture = Texture::new(Pattern::Marble { warp: 6.0, scale: 3.0, octaves: 3 }, Palette::Mix(vec3(0.01, 0.08, 0.07), vec3(0.2, 0.55, 0.42)), 7.0);
@@ -269,12 +271,32 @@ impl Texture {
     }
 }
 
+/// Wood: `scale` rings a metre around y, bent by `warp` rings. The last year's wood is as dark as the next one's.
+fn rings(dark: [f32; 3], light: [f32; 3], scale: f32, warp: f32) -> Texture {
+    let (dark, light) = (Vec3::from(dark), Vec3::from(light));
+    Texture::new(Pattern::Wood { warp, octaves: 2 }, Palette::Ramp([dark, light, dark.lerp(light, 0.6), dark]), scale)
+}
+
+/// The marble of column number `i` on `foot`, turned by `angle`.
+fn marbled(i: usize, foot: Vec3, angle: f32) -> Material {
+    let (vein, ground) = VEINS[i % VEINS.len()];
+    let (vein, ground) = (Vec3::from(vein), Vec3::from(ground));
+    let palette = Palette::Ramp([vein, ground, ground * 0.75, ground]);
+    let texture = Texture { palette, ..MARBLE.painted(vein.into(), ground.into(), 3.0) };
+    matt(texture.on(foot, Mat3::from_rotation_y(angle))).polished(0.0, 0.35, 40.0)
+}
+
+fn sunlight(sun: Vec3, color: Vec3) -> Light {
+    Light { source: Source::Directional(sun), color, radius: 0.0 }
+}
+
 fn matt(texture: Texture) -> Material {
     Material::matt(texture).polished(0.0, 0.12, 24.0)
 }
 
-fn stone_floor(texture: Texture) -> Material {
-    matt(texture).polished(0.06, 0.2, 40.0)
+/// Polished: far away it is a mirror of the sky, so that nothing shimmers at the horizon.
+fn stone_floor(texture: Texture, fresnel: f32) -> Material {
+    Material { fresnel, ..matt(texture).polished(0.06, 0.2, 40.0) }
 }
 
 fn solid(shape: Shape, material: Material) -> Object {
