@@ -57,7 +57,7 @@ const DOOR: &[Key<7>] = &[
 ];
 
 /// Half of the gap between the doors, metres.
-const GAP: &[Key<1>] = &[(0.0, [0.05]), (1.0, [0.07]), (6.0, [0.6]), (11.0, [1.5])];
+const GAP: &[Key<1>] = &[(0.0, [0.08]), (1.0, [0.1]), (6.0, [0.6]), (11.0, [1.5])];
 
 fn door(time: f64) -> World {
     let sun = vec3(-0.1, 0.14, -1.0).normalize();
@@ -103,16 +103,16 @@ fn table(time: f64) -> World {
     let along = Mat3::from_cols(vec3(0.0, 0.2, 0.0), Vec3::X, Vec3::Z);
     let top = Texture { origin: vec3(0.0, -1.1, 0.4), turn: grain.turn * along, ..grain };
     let mut objects = vec![
-        block(vec3(0.0, -0.2, 0.0), vec3(6.0, 0.2, 4.5), matt(top).polished(0.05, 0.3, 40.0)),
+        block(vec3(0.0, -0.2, -1.0), vec3(7.0, 0.2, 5.6), matt(top).polished(0.05, 0.3, 40.0)),
         ball(vec3(-0.4, 1.0, 0.0), 1.0, GLASS),
     ];
     for i in 0..7 {
         let k = i as f32;
-        let foot = vec3(1.25 * k - 3.75, 0.0, -3.6);
-        let height = 1.5 + 0.9 * (k * 0.7 + 0.5 * time as f32).sin();
-        objects.push(column(foot, height, 0.34, marbled(i, foot, 0.3 * k)));
+        let foot = vec3(1.6 * k - 4.6, 0.0, -5.4);
+        let height = 2.1 + 1.2 * (k * 0.7 + 0.5 * time as f32).sin();
+        objects.push(column(foot, height, 0.45, marbled(i, foot, 0.3 * k)));
     }
-    for (texture, radius, z, start, speed) in [(RED, 0.42, -1.5, -3.6, 0.75), (GREEN, 0.5, -2.5, 3.6, -0.6), (WHITE, 0.3, 1.1, 3.0, -0.25)] {
+    for (texture, radius, z, start, speed) in [(RED, 0.42, -1.5, -3.6, 0.75), (GREEN, 0.55, -3.7, 3.6, -0.6), (WHITE, 0.3, 1.1, 3.0, -0.25)] {
         let way = start + speed * time as f32;
         objects.push(rolling(vec3(way, radius, z), radius, way, texture));
     }
@@ -136,7 +136,7 @@ const COLUMNS: &[Key<7>] = &[
 fn columns(time: f64) -> World {
     let sun = vec3(0.8, 0.55, -0.3).normalize();
     let stone = MARBLE.painted([0.12, 0.085, 0.06], [0.36, 0.27, 0.19], 0.6);
-    let mut objects = vec![floor(stone_floor(stone, 0.6))];
+    let mut objects = vec![floor(stone_floor(stone, 0.9))];
     for i in 0..6 {
         for side in [-2.6, 2.6] {
             let foot = vec3(side, 0.0, 1.0 - 3.4 * i as f32);
@@ -153,7 +153,7 @@ fn columns(time: f64) -> World {
         objects,
         lights: vec![sunlight(sun, vec3(1.7, 1.25, 0.8))],
         ambient: vec3(0.14, 0.19, 0.28),
-        sky: Sky { horizon: vec3(0.4, 0.5, 0.58), zenith: vec3(0.01, 0.08, 0.35), glow: (sun, vec3(0.5, 0.35, 0.15), 6.0) },
+        sky: Sky { horizon: vec3(0.58, 0.52, 0.46), zenith: vec3(0.0, 0.08, 0.4), glow: (sun, vec3(0.5, 0.35, 0.15), 6.0) },
         max_level: 4,
     }
 }
@@ -161,10 +161,10 @@ fn columns(time: f64) -> World {
 // Evening: spheres dance on an inlaid floor, under a lamp.
 
 const DANCE: &[Key<7>] = &[
-    (0.0, [6.5, 4.6, 6.2, 0.0, 0.6, 0.0, 42.0]),
-    (4.0, [1.0, 2.9, 7.6, 0.0, 0.9, 0.0, 42.0]),
-    (8.0, [-4.0, 1.8, 5.8, 0.0, 1.1, 0.0, 42.0]),
-    (12.0, [-6.5, 1.3, 2.0, 0.0, 1.2, 0.0, 42.0]),
+    (0.0, [6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 42.0]),
+    (4.0, [1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 42.0]),
+    (8.0, [-4.0, 1.8, 5.8, 0.9, 1.1, 0.3, 42.0]),
+    (12.0, [-6.5, 1.3, 2.5, 0.4, 1.3, -1.0, 42.0]),
 ];
 
 fn dance(time: f64) -> World {
@@ -176,9 +176,9 @@ fn dance(time: f64) -> World {
     };
     let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.05, 0.05, 0.06), vec3(0.55, 0.5, 0.42)), 1.6);
     let moon = vec3(0.62, 0.13, -0.75).normalize();
-    let craters = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(1.0, 1.2, 1.4), vec3(7.0, 7.5, 7.0)), 0.25);
+    let craters = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.1, 0.15, 0.25), vec3(0.75, 0.85, 1.0)), 0.25);
     let mut objects = vec![
-        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 3.0)),
+        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0)),
         disc(-0.02, 4.0, rings([0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3)),
         disc(0.0, 2.6, checker),
         ball(vec3(0.0, 1.5 + 0.12 * (1.1 * t).sin(), 0.0), 0.9, GLASS),
@@ -201,7 +201,7 @@ fn dance(time: f64) -> World {
         ],
         ambient: vec3(0.07, 0.08, 0.12),
         sky: Sky { horizon: vec3(0.03, 0.05, 0.11), zenith: vec3(0.02, 0.02, 0.05), glow: (moon, vec3(0.16, 0.18, 0.3), 6.0) },
-        max_level: 5,
+        max_level: 4,
     }
 }
 
@@ -214,8 +214,8 @@ const SUNSET: &[Key<7>] = &[
 ];
 
 fn sunset(time: f64) -> World {
-    let day = 1.0 - ease(-2.0, 13.0, time);
-    let sun = vec3(0.12, -0.16 + 0.28 * day, -1.0).normalize();
+    let day = 1.0 - ease(-2.0, 14.0, time);
+    let sun = vec3(0.17, -0.14 + 0.26 * day, -1.0).normalize();
     let ambient = vec3(0.1, 0.11, 0.2);
     let deep = Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(vec3(0.0, 0.01, 0.03), vec3(0.05, 0.1, 0.14)), 0.4);
     let stone = matt(MARBLE.painted(VEINS[0].0, VEINS[0].1, 1.5));
@@ -226,7 +226,7 @@ fn sunset(time: f64) -> World {
             casts_shadow: false,
         },
         ball(vec3(-0.5, 0.9, 0.0), 1.0, GLASS),
-        lamp(sun * 300.0, 12.0, vec3(25.0, 14.0, 3.0)),
+        lamp(sun * 60.0, 2.4, vec3(25.0, 14.0, 3.0)),
         block(vec3(3.3, 4.7, -14.0), vec3(3.0, 0.35, 0.6), stone),
     ];
     let cloud = |c: Vec3| c / ambient;
@@ -256,9 +256,9 @@ const GLASS: Material = Material { specular: 0.8, exponent: 200.0, ..Material::g
 const MARBLE: Texture = Texture::new(Pattern::Marble { warp: 7.0, scale: 3.5, octaves: 3 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
 /// Veins and ground of the columns' marbles.
 const VEINS: [([f32; 3], [f32; 3]); 3] = [
-    ([0.16, 0.1, 0.07], [0.78, 0.7, 0.58]),
-    ([0.45, 0.5, 0.42], [0.05, 0.17, 0.15]),
-    ([0.75, 0.5, 0.4], [0.42, 0.1, 0.06]),
+    ([0.2, 0.13, 0.09], [0.74, 0.66, 0.54]),
+    ([0.62, 0.66, 0.58], [0.16, 0.27, 0.25]),
+    ([0.7, 0.52, 0.44], [0.44, 0.2, 0.14]),
 ];
 const RED: Texture = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.15, 0.0, 0.0), vec3(0.9, 0.2, 0.08)), 4.0);
 const GREEN: Texture = Texture::new(Pattern::Marble { warp: 6.0, scale: 3.0, octaves: 3 }, Palette::Mix(vec3(0.01, 0.08, 0.07), vec3(0.2, 0.55, 0.42)), 7.0);
@@ -282,7 +282,7 @@ fn marbled(i: usize, foot: Vec3, angle: f32) -> Material {
     let (vein, ground) = VEINS[i % VEINS.len()];
     let (vein, ground) = (Vec3::from(vein), Vec3::from(ground));
     let palette = Palette::Ramp([vein, ground, ground * 0.75, ground]);
-    let texture = Texture { palette, ..MARBLE.painted(vein.into(), ground.into(), 3.0) };
+    let texture = Texture { palette, ..MARBLE.painted([0.0; 3], [0.0; 3], 6.0) };
     matt(texture.on(foot, Mat3::from_rotation_y(angle))).polished(0.0, 0.35, 40.0)
 }
 
