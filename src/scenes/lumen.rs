@@ -163,8 +163,8 @@ fn columns(time: f64) -> World {
 const DANCE: &[Key<7>] = &[
     (0.0, [6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 42.0]),
     (4.0, [1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 42.0]),
-    (8.0, [-4.0, 1.8, 5.8, 0.9, 1.1, 0.3, 42.0]),
-    (12.0, [-6.5, 1.3, 2.5, 0.4, 1.3, -1.0, 42.0]),
+    (8.0, [-4.0, 1.8, 5.8, 0.9, 1.2, 0.5, 42.0]),
+    (12.0, [-6.6, 1.3, 2.3, 0.5, 1.4, 0.7, 42.0]),
 ];
 
 fn dance(time: f64) -> World {
@@ -174,8 +174,8 @@ fn dance(time: f64) -> World {
         let material = matt(texture.on(Vec3::ZERO, turn)).polished(0.14, 0.3, 50.0);
         Object { casts_shadow: false, ..column(vec3(0.0, y - 0.4, 0.0), 0.4, radius, material) }
     };
-    let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.05, 0.05, 0.06), vec3(0.55, 0.5, 0.42)), 1.6);
-    let moon = vec3(0.62, 0.13, -0.75).normalize();
+    let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.06, 0.06, 0.07), vec3(0.46, 0.42, 0.35)), 1.4);
+    let moon = vec3(0.99, 0.15, 0.07).normalize();
     let craters = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.1, 0.15, 0.25), vec3(0.75, 0.85, 1.0)), 0.25);
     let mut objects = vec![
         disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0)),
@@ -230,7 +230,7 @@ fn sunset(time: f64) -> World {
         block(vec3(3.3, 4.7, -14.0), vec3(3.0, 0.35, 0.6), stone),
     ];
     let cloud = |c: Vec3| c / ambient;
-    let deck = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(cloud(vec3(0.25, 0.1, 0.06) * day), cloud(vec3(0.05, 0.05, 0.12) + vec3(0.95, 0.42, 0.2) * day)), 0.05);
+    let deck = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(cloud(vec3(0.06, 0.02, 0.03) * day), cloud(vec3(0.06, 0.06, 0.14) + vec3(1.1, 0.5, 0.16) * day)), 0.05);
     objects.push(Object { casts_shadow: false, ..solid(Shape::Plane { normal: Vec3::NEG_Y, offset: -25.0 }, Material { fresnel: 1.0, ..Material::matt(deck) }) });
     for (x, z) in [(1.1, -14.0), (5.5, -14.0), (-5.2, -9.0), (-8.0, -17.0)] {
         objects.push(column(vec3(x, -1.5, z), 6.0, 0.5, stone));
@@ -241,7 +241,7 @@ fn sunset(time: f64) -> World {
         lights: vec![sunlight(sun, red * 1.2)],
         ambient,
         sky: Sky {
-            horizon: vec3(0.12, 0.1, 0.2) + vec3(0.6, 0.22, 0.05) * day,
+            horizon: vec3(0.12, 0.1, 0.2) + vec3(0.6, 0.2, 0.0) * day,
             zenith: vec3(0.02, 0.05, 0.2),
             glow: (sun, red, 18.0),
         },
