@@ -118,10 +118,10 @@ fn table(time: f64) -> World {
     }
     World {
         objects,
-        lights: vec![sunlight(sun, vec3(1.15, 0.95, 0.7)), Light { source: Source::Point(vec3(3.0, 5.0, 4.0)), color: vec3(0.16, 0.22, 0.3), radius: 0.0 }],
-        ambient: vec3(0.1, 0.12, 0.14),
+        lights: vec![sunlight(sun, vec3(1.15, 0.95, 0.7))],
+        ambient: vec3(0.13, 0.16, 0.19),
         sky: Sky { horizon: vec3(0.2, 0.36, 0.4), zenith: vec3(0.02, 0.06, 0.12), glow: (vec3(-0.5, 0.3, -0.8).normalize(), vec3(0.5, 0.4, 0.2), 8.0) },
-        max_level: 6,
+        max_level: 5,
     }
 }
 
@@ -191,7 +191,7 @@ fn dance(time: f64) -> World {
         let height = size + 0.5 * (1.3 * t + k * 1.7).sin().abs();
         let center = vec3(radius * angle.cos(), height, radius * angle.sin());
         let texture = [RED, WHITE, GREEN][(i / 3 + ring) % 3].on(center, Mat3::from_rotation_x(t + k));
-        objects.push(ball(center, size, matt(texture).polished(0.15 + 0.25 * (i % 2) as f32, 0.5, 50.0)));
+        objects.push(ball(center, size, matt(texture).polished(0.35 * (i % 2) as f32, 0.5, 50.0)));
     }
     World {
         objects,
