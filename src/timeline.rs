@@ -58,7 +58,8 @@ fn slope<const N: usize>(keys: &[Key<N>], k: usize, i: usize) -> f32 {
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
-    let x = ((time - from) / (to - from)).max(0.0).min(1.0) as f32;
+    let x = (time - from) / (to - from);
+    let x = if x > 0.0 { x.min(1.0) as f32 } else { 0.0 };
     x * x * x * (x * (x * 6.0 - 15.0) + 10.0)
 }
 

@@ -13,7 +13,8 @@ use crate::trace::world::{Light, Material, Object, Sky, Source, World};
 use glam::{Mat3, Vec3, vec3};
 
 /// The part.
-pub const LUMEN: Scene = Scene { name: "lumen", about: "a ray of light: glass, marble, wood, mirrors", duration: END, picture };
+pub const LUMEN: Scene =
+    Scene { name: "lumen", about: "a ray of light: glass, marble, wood, mirrors", duration: END, picture };
 
 /// Seconds that the part takes.
 const END: f64 = 56.0;
@@ -57,7 +58,7 @@ const DOOR: &[Key<7>] = &[
 ];
 
 /// Half of the gap between the doors, metres.
-const GAP: &[Key<1>] = &[(0.0, [0.08]), (1.0, [0.1]), (6.0, [0.6]), (11.0, [1.5])];
+const GAP: &[Key<1>] = &[(0.0, [0.08]), (5.5, [0.5]), (11.0, [1.6])];
 
 fn door(time: f64) -> World {
     let sun = vec3(-0.1, 0.14, -1.0).normalize();
@@ -73,7 +74,8 @@ fn door(time: f64) -> World {
     let [gap] = timeline::sample(GAP, time);
     for side in [-1.0, 1.0] {
         let leaf = vec3(side * (gap + 4.0), 2.8, 0.0);
-        let wood = rings([0.03, 0.014, 0.008], [0.16, 0.075, 0.03], 3.0, 0.2).on(leaf - vec3(side * 1.5, 0.0, 1.0), Mat3::IDENTITY);
+        let wood = rings([0.03, 0.014, 0.008], [0.16, 0.075, 0.03], 3.0, 0.2)
+            .on(leaf - vec3(side * 1.5, 0.0, 1.0), Mat3::IDENTITY);
         objects.push(block(leaf, vec3(4.0, 2.9, 0.25), matt(wood)));
         objects.push(block(vec3(side * 7.0, 3.0, 7.0), vec3(1.0, 4.0, 9.0), wall));
         for z in [2.2, 5.6] {
@@ -82,9 +84,16 @@ fn door(time: f64) -> World {
     }
     World {
         objects,
-        lights: vec![sunlight(sun, vec3(5.0, 2.8, 1.1)), Light { source: Source::Point(vec3(-2.0, 4.6, 10.0)), color: vec3(0.1, 0.15, 0.26), radius: 0.0 }],
+        lights: vec![
+            sunlight(sun, vec3(5.0, 2.8, 1.1)),
+            Light { source: Source::Point(vec3(-2.0, 4.6, 10.0)), color: vec3(0.1, 0.15, 0.26), radius: 0.0 },
+        ],
         ambient: vec3(0.06, 0.085, 0.15),
-        sky: Sky { horizon: vec3(0.5, 0.27, 0.2), zenith: vec3(0.1, 0.2, 0.45), glow: (sun, vec3(0.45, 0.32, 0.12), 24.0) },
+        sky: Sky {
+            horizon: vec3(0.5, 0.27, 0.2),
+            zenith: vec3(0.1, 0.2, 0.45),
+            glow: (sun, vec3(0.45, 0.32, 0.12), 24.0),
+        },
         max_level: 6,
     }
 }
@@ -112,7 +121,9 @@ fn table(time: f64) -> World {
         let height = 2.1 + 1.2 * (k * 0.7 + 0.5 * time as f32).sin();
         objects.push(column(foot, height, 0.45, marbled(i, foot, 0.3 * k)));
     }
-    for (texture, radius, z, start, speed) in [(RED, 0.42, -1.5, -3.6, 0.75), (GREEN, 0.55, -3.7, 3.6, -0.6), (WHITE, 0.3, 1.1, 3.0, -0.25)] {
+    for (texture, radius, z, start, speed) in
+        [(RED, 0.42, -1.5, -3.6, 0.75), (GREEN, 0.55, -3.7, 3.6, -0.6), (WHITE, 0.3, 1.1, 3.0, -0.25)]
+    {
         let way = start + speed * time as f32;
         objects.push(rolling(vec3(way, radius, z), radius, way, texture));
     }
@@ -120,7 +131,11 @@ fn table(time: f64) -> World {
         objects,
         lights: vec![sunlight(sun, vec3(1.15, 0.95, 0.7))],
         ambient: vec3(0.13, 0.16, 0.19),
-        sky: Sky { horizon: vec3(0.2, 0.36, 0.4), zenith: vec3(0.02, 0.06, 0.12), glow: (vec3(-0.5, 0.3, -0.8).normalize(), vec3(0.5, 0.4, 0.2), 8.0) },
+        sky: Sky {
+            horizon: vec3(0.2, 0.36, 0.4),
+            zenith: vec3(0.02, 0.06, 0.12),
+            glow: (vec3(-0.5, 0.3, -0.8).normalize(), vec3(0.5, 0.4, 0.2), 8.0),
+        },
         max_level: 5,
     }
 }
@@ -136,7 +151,7 @@ const COLUMNS: &[Key<7>] = &[
 fn columns(time: f64) -> World {
     let sun = vec3(0.8, 0.55, -0.3).normalize();
     let stone = MARBLE.painted([0.12, 0.085, 0.06], [0.36, 0.27, 0.19], 0.6);
-    let mut objects = vec![floor(stone_floor(stone, 0.9))];
+    let mut objects = vec![floor(stone_floor(stone, 0.7))];
     for i in 0..6 {
         for side in [-2.6, 2.6] {
             let foot = vec3(side, 0.0, 1.0 - 3.4 * i as f32);
@@ -146,14 +161,21 @@ fn columns(time: f64) -> World {
     for side in [-2.6, 2.6] {
         objects.push(block(vec3(side, 5.8, -7.5), vec3(0.7, 0.4, 10.0), matt(stone)));
     }
-    let way = -1.0 * time as f32;
-    let gold = Material { reflectance: vec3(0.75, 0.52, 0.25), ..matt(Texture::plain(vec3(0.3, 0.18, 0.06))).polished(0.0, 0.6, 60.0) };
+    let way = -time as f32;
+    let gold = Material {
+        reflectance: vec3(0.75, 0.52, 0.25),
+        ..matt(Texture::plain(vec3(0.3, 0.18, 0.06))).polished(0.0, 0.6, 60.0)
+    };
     objects.push(ball(vec3(-1.2 * (0.42 * time as f32).cos(), 0.6, way), 0.6, gold));
     World {
         objects,
         lights: vec![sunlight(sun, vec3(1.7, 1.25, 0.8))],
         ambient: vec3(0.14, 0.19, 0.28),
-        sky: Sky { horizon: vec3(0.58, 0.52, 0.46), zenith: vec3(0.0, 0.08, 0.4), glow: (sun, vec3(0.5, 0.35, 0.15), 6.0) },
+        sky: Sky {
+            horizon: vec3(0.58, 0.52, 0.46),
+            zenith: vec3(0.0, 0.08, 0.4),
+            glow: (sun, vec3(0.5, 0.35, 0.15), 6.0),
+        },
         max_level: 4,
     }
 }
@@ -170,19 +192,19 @@ const DANCE: &[Key<7>] = &[
 fn dance(time: f64) -> World {
     let t = time as f32;
     let turn = Mat3::from_rotation_y(0.12 * t);
-    let disc = |y: f32, radius: f32, texture: Texture| {
-        let material = matt(texture.on(Vec3::ZERO, turn)).polished(0.14, 0.3, 50.0);
+    let disc = |y: f32, radius: f32, mirror: f32, texture: Texture| {
+        let material = matt(texture.on(Vec3::ZERO, turn)).polished(mirror, 0.3, 50.0);
         Object { casts_shadow: false, ..column(vec3(0.0, y - 0.4, 0.0), 0.4, radius, material) }
     };
     let checker = Texture::new(Pattern::Checker, Palette::Mix(vec3(0.06, 0.06, 0.07), vec3(0.46, 0.42, 0.35)), 1.4);
     let moon = vec3(0.99, 0.15, 0.07).normalize();
-    let craters = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.1, 0.15, 0.25), vec3(0.75, 0.85, 1.0)), 0.25);
+    let craters = clouds(vec3(0.1, 0.15, 0.25), vec3(0.75, 0.85, 1.0), 0.25);
     let mut objects = vec![
-        disc(-0.04, 5.4, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0)),
-        disc(-0.02, 4.0, rings([0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3)),
-        disc(0.0, 2.6, checker),
+        disc(-0.04, 5.4, 0.0, MARBLE.painted([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0)),
+        disc(-0.02, 4.0, 0.14, rings([0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3)),
+        disc(0.0, 2.6, 0.14, checker),
         ball(vec3(0.0, 1.5 + 0.12 * (1.1 * t).sin(), 0.0), 0.9, GLASS),
-        ball(moon * 90.0, 6.0, Material::matt(craters)),
+        unshadowing(Shape::Sphere { center: moon * 90.0, radius: 6.0 }, Material::matt(craters)),
     ];
     for i in 0..9 {
         let (ring, k) = (i % 3, i as f32);
@@ -200,7 +222,11 @@ fn dance(time: f64) -> World {
             sunlight(moon, vec3(0.1, 0.2, 0.42)),
         ],
         ambient: vec3(0.07, 0.08, 0.12),
-        sky: Sky { horizon: vec3(0.03, 0.05, 0.11), zenith: vec3(0.02, 0.02, 0.05), glow: (moon, vec3(0.16, 0.18, 0.3), 6.0) },
+        sky: Sky {
+            horizon: vec3(0.03, 0.05, 0.11),
+            zenith: vec3(0.02, 0.02, 0.05),
+            glow: (moon, vec3(0.16, 0.18, 0.3), 6.0),
+        },
         max_level: 4,
     }
 }
@@ -217,21 +243,20 @@ fn sunset(time: f64) -> World {
     let day = 1.0 - ease(-2.0, 14.0, time);
     let sun = vec3(0.17, -0.14 + 0.26 * day, -1.0).normalize();
     let ambient = vec3(0.1, 0.11, 0.2);
-    let deep = Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(vec3(0.0, 0.01, 0.03), vec3(0.05, 0.1, 0.14)), 0.4);
+    let deep = clouds(vec3(0.0, 0.01, 0.03), vec3(0.05, 0.1, 0.14), 0.4);
+    // The clouds have no light but the ambient: theirs is painted on. Towards the horizon they mirror the sky.
+    let lit = vec3(0.06, 0.06, 0.14) + vec3(1.1, 0.5, 0.16) * day;
+    let deck = clouds(vec3(0.06, 0.02, 0.03) * day / ambient, lit / ambient, 0.05);
+    let deck = Material { fresnel: 1.0, ..Material::matt(deck.on(vec3(0.0, 0.0, 1.5 * time as f32), Mat3::IDENTITY)) };
     let stone = matt(MARBLE.painted(VEINS[0].0, VEINS[0].1, 1.5));
+    let water = Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 220.0 };
     let mut objects = vec![
-        Object {
-            shape: Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 220.0 },
-            material: Material { fresnel: 1.0, ..matt(deep).polished(0.05, 0.0, 1.0) },
-            casts_shadow: false,
-        },
+        unshadowing(water, Material { fresnel: 1.0, ..matt(deep).polished(0.05, 0.0, 1.0) }),
+        unshadowing(Shape::Plane { normal: Vec3::NEG_Y, offset: -25.0 }, deck),
         ball(vec3(-0.5, 0.9, 0.0), 1.0, GLASS),
         lamp(sun * 60.0, 2.4, vec3(25.0, 14.0, 3.0)),
         block(vec3(3.3, 4.7, -14.0), vec3(3.0, 0.35, 0.6), stone),
     ];
-    let cloud = |c: Vec3| c / ambient;
-    let deck = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(cloud(vec3(0.06, 0.02, 0.03) * day), cloud(vec3(0.06, 0.06, 0.14) + vec3(1.1, 0.5, 0.16) * day)), 0.05);
-    objects.push(Object { casts_shadow: false, ..solid(Shape::Plane { normal: Vec3::NEG_Y, offset: -25.0 }, Material { fresnel: 1.0, ..Material::matt(deck) }) });
     for (x, z) in [(1.1, -14.0), (5.5, -14.0), (-5.2, -9.0), (-8.0, -17.0)] {
         objects.push(column(vec3(x, -1.5, z), 6.0, 0.5, stone));
     }
@@ -253,16 +278,26 @@ fn sunset(time: f64) -> World {
 
 const GLASS: Material = Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) };
 /// Layers along x, folded.
-const MARBLE: Texture = Texture::new(Pattern::Marble { warp: 7.0, scale: 3.5, octaves: 3 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
+const MARBLE: Texture =
+    Texture::new(Pattern::Marble { warp: 7.0, scale: 3.5, octaves: 3 }, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
 /// Veins and ground of the columns' marbles.
 const VEINS: [([f32; 3], [f32; 3]); 3] = [
     ([0.2, 0.13, 0.09], [0.74, 0.66, 0.54]),
     ([0.62, 0.66, 0.58], [0.16, 0.27, 0.25]),
     ([0.7, 0.52, 0.44], [0.44, 0.2, 0.14]),
 ];
-const RED: Texture = Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(vec3(0.15, 0.0, 0.0), vec3(0.9, 0.2, 0.08)), 4.0);
-const GREEN: Texture = Texture::new(Pattern::Marble { warp: 6.0, scale: 3.0, octaves: 3 }, Palette::Mix(vec3(0.01, 0.08, 0.07), vec3(0.2, 0.55, 0.42)), 7.0);
-const WHITE: Texture = Texture::new(Pattern::Turbulence { octaves: 4 }, Palette::Mix(vec3(0.9, 0.86, 0.78), vec3(0.1, 0.15, 0.4)), 3.0);
+const RED: Texture = clouds(vec3(0.15, 0.0, 0.0), vec3(0.9, 0.2, 0.08), 4.0);
+const GREEN: Texture = Texture::new(
+    Pattern::Marble { warp: 6.0, scale: 3.0, octaves: 3 },
+    Palette::Mix(vec3(0.01, 0.08, 0.07), vec3(0.2, 0.55, 0.42)),
+    7.0,
+);
+const WHITE: Texture =
+    Texture::new(Pattern::Turbulence { octaves: 4 }, Palette::Mix(vec3(0.9, 0.86, 0.78), vec3(0.1, 0.15, 0.4)), 3.0);
+
+const fn clouds(dark: Vec3, light: Vec3, scale: f32) -> Texture {
+    Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(dark, light), scale)
+}
 
 impl Texture {
     /// The same in other colours, `scale` times finer.
@@ -303,8 +338,13 @@ fn solid(shape: Shape, material: Material) -> Object {
     Object { shape, material, casts_shadow: true }
 }
 
+/// What lies below or beyond all lights.
+fn unshadowing(shape: Shape, material: Material) -> Object {
+    Object { shape, material, casts_shadow: false }
+}
+
 fn floor(material: Material) -> Object {
-    Object { casts_shadow: false, ..solid(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material) }
+    unshadowing(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material)
 }
 
 fn ball(center: Vec3, radius: f32, material: Material) -> Object {
@@ -318,7 +358,7 @@ fn rolling(center: Vec3, radius: f32, way: f32, texture: Texture) -> Object {
 
 /// A ball that shines by itself: brighter than white in the faintest light.
 fn lamp(center: Vec3, radius: f32, color: Vec3) -> Object {
-    Object { casts_shadow: false, ..ball(center, radius, Material::matt(Texture::plain(color))) }
+    unshadowing(Shape::Sphere { center, radius }, Material::matt(Texture::plain(color)))
 }
 
 fn block(center: Vec3, half: Vec3, material: Material) -> Object {
