@@ -10,4 +10,5 @@ pub mod noise;
 pub mod quality;
 pub mod scenes;
 pub mod tile;
+pub mod timeline;
 pub mod trace;

@@ -1,5 +1,6 @@
 //! One file a scene; only scenes know more than one renderer.
 
+pub mod lumen;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
@@ -52,6 +53,7 @@ impl Shot {
 
 /// Every scene, the intro's own first.
 pub const ALL: &[Scene] = &[
+    lumen::LUMEN,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]
