@@ -7,7 +7,8 @@
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
-use paprsek::noise::{BLOCK, fbm, fbm_block, noise, noise_block};
+use paprsek::block::BLOCK;
+use paprsek::noise::{fbm, fbm_block, noise, noise_block};
 use std::time::Instant;
 
 #[path = "../tests/common/mod.rs"]

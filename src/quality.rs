@@ -15,8 +15,8 @@ pub struct Quality {
     pub subpixel: u32,
     /// Samples of a pixel along each axis, everywhere: 1, or 8 for the reference.
     pub grid: usize,
-    /// Points on a light that has a size.
-    pub light_samples: u32,
+    /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
+    pub light_samples: [u32; 2],
 }
 
 impl Quality {
@@ -28,13 +28,20 @@ impl Quality {
         min_detail: 1.0 / 8.0,
         subpixel: 0,
         grid: 1,
-        light_samples: 16,
+        light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality { subpixel: 1, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
-    pub const EXACT: Quality =
-        Quality { cell: 1, threshold: 0.0, min_weight: 0.0, min_detail: 0.0, subpixel: 0, grid: 1, light_samples: 16 };
+    pub const EXACT: Quality = Quality {
+        cell: 1,
+        threshold: 0.0,
+        min_weight: 0.0,
+        min_detail: 0.0,
+        subpixel: 0,
+        grid: 1,
+        light_samples: [64, 64],
+    };
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 

@@ -4,7 +4,8 @@ mod common;
 
 use fearless_simd::dispatch;
 use glam::Vec3;
-use paprsek::noise::{BLOCK, fbm, fbm_block, noise, noise_block, turbulence, turbulence_block};
+use paprsek::block::BLOCK;
+use paprsek::noise::{fbm, fbm_block, noise, noise_block, turbulence, turbulence_block};
 use proptest::prelude::*;
 
 /// f32 against exact arithmetic, all roundings of one noise together.

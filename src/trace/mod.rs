@@ -81,6 +81,9 @@ impl Layer for Traced {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         let Traced { world, means, variation, view, guard, quality } = self;
         let Quality { min_weight, min_detail, light_samples, .. } = *quality;
+        // What counts is light, not weight: a faint ray may meet a lamp's glare.
+        let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
+        let (min_weight, min_detail) = (min_weight / brightest, min_detail / brightest);
         let limits = Limits { min_weight, min_detail, light_samples };
         let samples = SCRATCH.with_borrow_mut(|(scratch, visible)| {
             self.visible(tile, visible);

@@ -137,8 +137,8 @@ pub struct Limits {
     pub min_weight: f32,
     /// Hits of less weight are no part of the chain, and their textures are their means.
     pub min_detail: f32,
-    /// Points on a light that has a size.
-    pub light_samples: u32,
+    /// Points on a light that has a size, for eye rays and for the others.
+    pub light_samples: [u32; 2],
 }
 
 /// A bundle of rays that take the same path (sequence of reflections and refractions) from the eye.
@@ -265,6 +265,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             let mut diffuse = V3::splat(simd, world.ambient);
             let mut specular = V3::splat(simd, Vec3::ZERO);
             if shaded.any_true() {
+                let samples = limits.light_samples[(level > 1) as usize];
                 for (index, source) in world.lights.iter().enumerate() {
                     let (to_light, reach) = toward(simd, source, point);
                     let cos_light = normal.dot(to_light);
@@ -272,7 +273,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     if !front.any_true() {
                         continue;
                     }
-                    let seen = visibility(simd, world, &limits, source, point, to_light, reach, object, front);
+                    let seen = visibility(simd, world, samples, source, point, to_light, reach, object, front);
                     let lit = front & seen.simd_gt(zero);
                     let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
                     let shiny = lit & glint.simd_gt(zero) & surface.specular.simd_gt(zero);
@@ -463,7 +464,7 @@ fn toward<S: Simd>(simd: S, light: &Light, point: V3<S>) -> (V3<S>, F<S>) {
 fn visibility<S: Simd>(
     simd: S,
     world: &World,
-    limits: &Limits,
+    samples: u32,
     light: &Light,
     point: V3<S>,
     to_light: V3<S>,
@@ -484,15 +485,15 @@ fn visibility<S: Simd>(
     let directional = matches!(light.source, Source::Directional(_));
     let scale = if directional { one } else { reach };
     let mut seen = zero;
-    for k in 0..limits.light_samples {
-        let (a, b) = disc_point(k, limits.light_samples);
+    for k in 0..samples {
+        let (a, b) = disc_point(k, samples);
         let aim = to_light * Lane(scale) + u * Lane(F::<S>::splat(simd, a)) + v * Lane(F::<S>::splat(simd, b));
         let length = aim.dot(aim).sqrt();
         let distance = if directional { reach } else { length };
         let aim = aim * Lane(one / length);
         seen = seen + (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
     }
-    seen * (1.0 / limits.light_samples as f32)
+    seen * (1.0 / samples as f32)
 }
 
 /// Point `k` of `n` spread evenly over the unit disc, by Vogel's spiral.
