@@ -262,6 +262,9 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
                 let square = Square { x: x as usize, y: y as usize, size };
                 let agree = if size < unit {
                     size == 1 || same_chain(grid.corners(square))
+                } else if size == unit && unit > 1 {
+                    // A pixel is not interpolated, but is what its middle is.
+                    same_chain(grid.corners(square)) && grid.at(square.x, square.y).chain == grid.centre(square).chain
                 } else {
                     size <= unit * job.guard.finest(tile.x + square.x / unit, tile.y + square.y / unit)
                         && size > 1
