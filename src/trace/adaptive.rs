@@ -253,7 +253,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
                 grid.want(job, tile, x + size, y);
                 grid.want(job, tile, x, y + size);
                 grid.want(job, tile, x + size, y + size);
-                if size >= unit.max(2) {
+                if size > unit || unit == 1 {
                     grid.want(job, tile, x + size / 2, y + size / 2);
                 }
             }
@@ -262,13 +262,16 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
                 let square = Square { x: x as usize, y: y as usize, size };
                 let agree = if size < unit {
                     size == 1 || same_chain(grid.corners(square))
-                } else if size == unit && unit > 1 {
-                    // A pixel is not interpolated, but is what its middle is.
-                    same_chain(grid.corners(square)) && grid.at(square.x, square.y).chain == grid.centre(square).chain
                 } else {
-                    size <= unit * job.guard.finest(tile.x + square.x / unit, tile.y + square.y / unit)
-                        && size > 1
-                        && agree(simd, job, size.div_ceil(unit), grid.corners(square), grid.centre(square))
+                    let finest = job.guard.finest(tile.x + square.x / unit, tile.y + square.y / unit);
+                    if size == unit && unit > 1 {
+                        // A pixel is the mean of its corners, whatever they differ in but their chain.
+                        finest > 1 && same_chain(grid.corners(square))
+                    } else {
+                        size > 1
+                            && size <= unit * finest
+                            && agree(simd, job, size.div_ceil(unit), grid.corners(square), grid.centre(square))
+                    }
                 };
                 if size < unit && agree {
                     continue;
@@ -340,8 +343,11 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
     for &square in whole.iter() {
         if square.size == unit {
             let pixel = square.y / unit * Tile::SIZE + square.x / unit;
-            let footprint = fill::footprints(grid.corners(square));
-            fill::add(simd, job, tile, deferred, pixel, grid.centre(square), 1.0, &footprint);
+            let corners = grid.corners(square);
+            let footprint = fill::footprints(corners);
+            let mut mean = *corners[0];
+            mean.numbers = foretell(simd, corners);
+            fill::add(simd, job, tile, deferred, pixel, &mean, 1.0, &footprint);
         } else {
             fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
         }
@@ -385,15 +391,11 @@ fn same_chain(c: [&Sample; 4]) -> bool {
     c[0].chain == c[1].chain && c[0].chain == c[2].chain && c[0].chain == c[3].chain
 }
 
-/// May a square be interpolated?
+/// What the corners of a square foretell of its centre: their mean.
 #[inline(always)]
-fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sample) -> bool {
-    if !same_chain(c) || c[0].chain != centre.chain {
-        return false;
-    }
-    // What the corners foretell of the centre.
+fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
     let mut mean = [0.0; NUMBERS];
-    for i in (0..centre.used()).step_by(F::<S>::LEN) {
+    for i in (0..c[0].used()).step_by(F::<S>::LEN) {
         let range = i..i + F::<S>::LEN;
         let sum = F::<S>::from_slice(simd, &c[0].numbers[range.clone()])
             + F::<S>::from_slice(simd, &c[1].numbers[range.clone()])
@@ -401,6 +403,16 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
             + F::<S>::from_slice(simd, &c[3].numbers[range.clone()]);
         (sum * 0.25).store_slice(&mut mean[range]);
     }
+    mean
+}
+
+/// May a square be interpolated?
+#[inline(always)]
+fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sample) -> bool {
+    if !same_chain(c) || c[0].chain != centre.chain {
+        return false;
+    }
+    let mean = foretell(simd, c);
     let [found, foretold] = [&centre.numbers, &mean];
     let mut error = distance(&found[..3], &foretold[..3]);
     let mut level = found[0] + found[1] + found[2];
