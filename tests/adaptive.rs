@@ -350,7 +350,8 @@ fn small_balls_in_a_mirror_ball_are_never_missed() {
             let center = vec3(30.0 + 4.0 * x as f32, 20.0 + 4.0 * y as f32, 10.0);
             let ball = object(Shape::Sphere { center, radius }, Vec3::ONE);
             let what = || format!("radius {radius} at {x}, {y}");
-            tally.add(what, &flat(vec![big, ball]), &flat(vec![big]), before_the_screen(), 0.0);
+            // The rim of an image in a round mirror is followed, not foreseen.
+            tally.add(what, &flat(vec![big, ball]), &flat(vec![big]), before_the_screen(), ALONG_EDGES);
         }
         verdict.add(&format!("radius {radius}, in a mirror ball"), &tally);
     }

@@ -3,8 +3,9 @@
 //! A body whose picture is smaller than a square can hide between its corners, and the rim of a larger one can bulge
 //! into a square between two of them by up to its sagitta `size^2 / (8 radius)`. Both are excluded by cutting the
 //! squares under the body's picture to `sqrt(radius)` pixels, where the sagitta is an eighth of a pixel. The same holds
-//! for what else a body shows: its shadow, found by following the light's ray through it; its image in a mirror, flat or
-//! round; and the highlights on round and flat bodies, which are the lights' own images.
+//! for its shadow, found by following the light's ray through it, and its image in a flat mirror. Its images in round
+//! mirrors, and the highlights on round and flat bodies, which are the lights' own images, are only made sure to be met by
+//! a sample, with squares of half their radius; from there their edges are followed.
 //!
 //! Not guarded: images in the sides of blocks and cylinders, and images of images.
 
@@ -20,6 +21,15 @@ const BLOCK: usize = 8;
 const MOST_BALLS: f32 = 64.0;
 /// Highlights are guarded up to where they have fallen to this.
 const SKIRT: f32 = 0.125;
+
+/// What is asked of the rim of a small thing.
+#[derive(Clone, Copy)]
+enum Rim {
+    /// No bulge of it is lost.
+    Exact,
+    /// It is met.
+    Found,
+}
 
 /// For each block of the picture the largest square that may be interpolated there.
 pub struct Guard {
@@ -37,12 +47,13 @@ impl Guard {
                 guard.highlight(view, body, light);
             }
             for (center, radius) in balls(&body.shape).chain(tips(&body.shape)) {
-                guard.protect(view, center, radius);
+                guard.protect(view, center, radius, Rim::Exact);
                 for (other, mirror) in world.objects.iter().enumerate() {
                     if other != index
                         && let Some((image, radius)) = reflected(view.camera().eye, mirror, center, radius)
                     {
-                        guard.protect(view, image, radius);
+                        let flat = matches!(mirror.shape, Shape::Plane { .. });
+                        guard.protect(view, image, radius, if flat { Rim::Exact } else { Rim::Found });
                     }
                 }
                 if body.casts_shadow {
@@ -87,7 +98,7 @@ impl Guard {
             };
             // How much longer than wide it is there, at most 8.
             let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
-            small = self.protect(view, point, radius * grown / slope.max(0.125));
+            small = self.protect(view, point, radius * grown / slope.max(0.125), Rim::Exact);
         }
     }
 
@@ -108,14 +119,18 @@ impl Guard {
             Shape::Sphere { radius, .. } => radius * angle,
             _ => 2.0 * angle * point.distance(view.camera().eye),
         };
-        self.protect(view, point, radius);
+        self.protect(view, point, radius, Rim::Found);
     }
 
     /// Cuts the squares under the picture of a ball; is it small enough for that to be needed?
-    fn protect(&mut self, view: &View, center: Vec3, radius: f32) -> bool {
+    fn protect(&mut self, view: &View, center: Vec3, radius: f32, rim: Rim) -> bool {
         let Some((x, y, metre)) = view.project(center) else { return false };
         let pixels = radius * metre;
-        let finest = pixels.sqrt().max(1.0);
+        let finest = match rim {
+            Rim::Exact => pixels.sqrt(),
+            Rim::Found => pixels * 0.5,
+        }
+        .max(1.0);
         // Written so that a picture that is not a number is left alone.
         let small = finest < BLOCK as f32 && x.is_finite() && y.is_finite();
         if small {
