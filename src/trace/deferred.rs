@@ -71,7 +71,7 @@ impl Deferred {
         }
     }
 
-    /// Adds a hit of one object for each of `pixels`: gain (3), point (3), and its closeness, which is not needed here.
+    /// Adds a hit of one object for each of `pixels`.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn push_run<S: Simd>(
@@ -81,7 +81,8 @@ impl Deferred {
         tile: &mut Tile,
         object: u32,
         pixels: &[u16],
-        hits: &[[f32; BLOCK]; HIT],
+        gain: &Block3,
+        point: &Block3,
         footprint: &[f32; BLOCK],
     ) {
         let queue = &mut self.queues[object as usize];
@@ -91,8 +92,8 @@ impl Deferred {
             queue.pixel[at..at + n].copy_from_slice(&pixels[done..done + n]);
             queue.footprint[at..at + n].copy_from_slice(&footprint[done..done + n]);
             for axis in 0..3 {
-                queue.gain[axis][at..at + n].copy_from_slice(&hits[axis][done..done + n]);
-                queue.point[axis][at..at + n].copy_from_slice(&hits[3 + axis][done..done + n]);
+                queue.gain[axis][at..at + n].copy_from_slice(&gain[axis][done..done + n]);
+                queue.point[axis][at..at + n].copy_from_slice(&point[axis][done..done + n]);
             }
             queue.count += n;
             done += n;

@@ -3,8 +3,8 @@
 use super::adaptive::{Grid, Job, Square};
 use super::deferred::Deferred;
 use super::lanes::{F, Lane, V3};
-use super::packet::{HIT, PLAIN, REMEMBERED, Sample};
-use super::texture;
+use super::packet::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
+use super::texture::{self, Block3};
 use crate::block::{BLOCK, load, store};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
@@ -65,6 +65,8 @@ struct Ramp {
     /// From the square's first pixel.
     pixel: [u16; BLOCK],
     count: usize,
+    /// Share of the square's edge that a pixel takes.
+    step: f32,
 }
 
 /// The ramps of squares of 1, 2, 4, 8 and 16 pixels, in blocks of whole rows.
@@ -87,7 +89,8 @@ impl Ramps {
             let count = BLOCK.min(size * size);
             ramps.clear();
             for first in (0..size * size).step_by(count) {
-                let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count };
+                let step = 1.0 / size as f32;
+                let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, step };
                 for i in 0..count {
                     let (x, y) = ((first + i) % size, (first + i) / size);
                     ramp.u[i] = (x as f32 + offset) / size as f32;
@@ -97,6 +100,78 @@ impl Ramps {
                 ramps.push(ramp);
             }
         }
+    }
+}
+
+/// The numbers of a sample, bilinear over a square: `start + u along + v (down + u twist)`.
+struct Patch {
+    start: [f32; NUMBERS],
+    along: [f32; NUMBERS],
+    down: [f32; NUMBERS],
+    twist: [f32; NUMBERS],
+}
+
+impl Patch {
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, corners: [&Sample; 4]) -> Patch {
+        let zero = [0.0; NUMBERS];
+        let mut patch = Patch { start: corners[0].numbers, along: zero, down: zero, twist: zero };
+        for i in (0..corners[0].used()).step_by(F::<S>::LEN) {
+            let range = i..i + F::<S>::LEN;
+            let a = F::<S>::from_slice(simd, &corners[0].numbers[range.clone()]);
+            let b = F::<S>::from_slice(simd, &corners[1].numbers[range.clone()]);
+            let c = F::<S>::from_slice(simd, &corners[2].numbers[range.clone()]);
+            let d = F::<S>::from_slice(simd, &corners[3].numbers[range.clone()]);
+            (b - a).store_slice(&mut patch.along[range.clone()]);
+            (c - a).store_slice(&mut patch.down[range.clone()]);
+            (d - c - b + a).store_slice(&mut patch.twist[range]);
+        }
+        patch
+    }
+
+    /// Number `k` at places of the square.
+    #[inline(always)]
+    fn at<S: Simd>(&self, simd: S, k: usize, u: F<S>, v: F<S>) -> F<S> {
+        let (start, down) = (F::<S>::splat(simd, self.start[k]), F::<S>::splat(simd, self.down[k]));
+        start + u * self.along[k] + v * (down + u * self.twist[k])
+    }
+
+    /// The derivatives of number `k` along u and v.
+    #[inline(always)]
+    fn slopes<S: Simd>(&self, k: usize, u: F<S>, v: F<S>) -> (F<S>, F<S>) {
+        (v * self.twist[k] + self.along[k], u * self.twist[k] + self.down[k])
+    }
+
+    /// The points of the textured hit whose numbers begin at `at`, and how long a pixel is there if that is asked for.
+    #[inline(always)]
+    fn points<S: Simd>(&self, simd: S, at: usize, ramp: &Ramp, footprint: Option<&mut [f32; BLOCK]>) -> Block3 {
+        let mut points = [[0.0; BLOCK]; 3];
+        let mut none = [0.0; BLOCK];
+        let filter = footprint.is_some();
+        let footprint = footprint.unwrap_or(&mut none);
+        let mut i = 0;
+        while i * F::<S>::LEN < ramp.count {
+            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+            let k = F::<S>::splat(simd, 1.0) / self.at(simd, at + 6, u, v);
+            let (x, y, z) = (self.at(simd, at + 3, u, v), self.at(simd, at + 4, u, v), self.at(simd, at + 5, u, v));
+            let point = V3::<S> { x, y, z } * Lane(k);
+            store(point.x, &mut points[0], i);
+            store(point.y, &mut points[1], i);
+            store(point.z, &mut points[2], i);
+            if filter {
+                let (wu, wv) = self.slopes::<S>(at + 6, u, v);
+                let (xu, xv) = self.slopes::<S>(at + 3, u, v);
+                let (yu, yv) = self.slopes::<S>(at + 4, u, v);
+                let (zu, zv) = self.slopes::<S>(at + 5, u, v);
+                // The derivative of a quotient, point = homogeneous / closeness.
+                let across = V3::<S> { x: xu, y: yu, z: zu } - point * Lane(wu);
+                let down = V3::<S> { x: xv, y: yv, z: zv } - point * Lane(wv);
+                let longest = across.dot(across).max(down.dot(down)).sqrt();
+                store(longest * k.abs() * ramp.step, footprint, i);
+            }
+            i += 1;
+        }
+        points
     }
 }
 
@@ -112,6 +187,7 @@ pub fn interpolate<S: Simd>(
     square: Square,
 ) {
     let corners = grid.corners(square);
+    let patch = Patch::new(simd, corners);
     let unit = job.unit();
     let size = square.size / unit;
     let first = (square.y / unit) * Tile::SIZE + square.x / unit;
@@ -119,32 +195,48 @@ pub fn interpolate<S: Simd>(
     let solid = if corners[0].closeness() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];
-        for (k, plane) in plain.iter_mut().enumerate().take(if tile.solids_matter { PLAIN } else { 3 }) {
-            bilinear(simd, corners, k, ramp, plane);
+        let mut i = 0;
+        while i * F::<S>::LEN < ramp.count {
+            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+            for (k, plane) in plain.iter_mut().enumerate() {
+                store(patch.at(simd, k, u, v), plane, i);
+            }
+            i += 1;
         }
         for n in 0..corners[0].count as usize {
-            let mut hits = [[0.0; BLOCK]; HIT];
-            for (k, plane) in hits.iter_mut().enumerate() {
-                bilinear(simd, corners, PLAIN + HIT * n + k, ramp, plane);
-            }
+            let at = PLAIN + HIT * n;
             let mut footprint = [0.0; BLOCK];
-            project(simd, corners, n, size, ramp, filter, &mut hits, &mut footprint);
+            let points = patch.points(simd, at, ramp, if filter { Some(&mut footprint) } else { None });
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
                 let mut color = [[0.0; BLOCK]; 3];
-                let points = [hits[3], hits[4], hits[5]];
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
-                texture::shade(simd, albedo, &points, filter.then_some(&footprint), &mut color);
-                for k in 0..3 {
-                    accumulate(simd, &hits[k], &color[k], &mut plain[k]);
+                texture::shade(simd, albedo, &points, if filter { Some(&footprint) } else { None }, &mut color);
+                let mut i = 0;
+                while i * F::<S>::LEN < BLOCK {
+                    let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+                    for k in 0..3 {
+                        let light = patch.at(simd, at + k, u, v) * load::<S, F<S>>(simd, &color[k], i);
+                        store(load::<S, F<S>>(simd, &plain[k], i) + light, &mut plain[k], i);
+                    }
+                    i += 1;
                 }
             } else {
+                let mut gain = [[0.0; BLOCK]; 3];
+                let mut i = 0;
+                while i * F::<S>::LEN < ramp.count {
+                    let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+                    for (k, plane) in gain.iter_mut().enumerate() {
+                        store(patch.at(simd, at + k, u, v), plane, i);
+                    }
+                    i += 1;
+                }
                 let mut pixels = [0; BLOCK];
                 for (pixel, offset) in pixels.iter_mut().zip(&ramp.pixel) {
                     *pixel = first as u16 + offset;
                 }
                 let pixels = &pixels[..ramp.count];
-                deferred.push_run(simd, job.context.world, tile, object, pixels, &hits, &footprint);
+                deferred.push_run(simd, job.context.world, tile, object, pixels, &gain, &points, &footprint);
             }
         }
         let mut row = 0;
@@ -174,82 +266,5 @@ fn add_row<const N: usize>(tile: &mut Tile, to: usize, plain: &[[f32; BLOCK]; PL
     if tile.solids_matter {
         tile.closeness[to..to + N].copy_from_slice(&plain[3][from..from + N]);
         tile.coverage[to..to + N].fill(solid);
-    }
-}
-
-/// Bilinear interpolation of number `k` over a ramp.
-#[inline(always)]
-fn bilinear<S: Simd>(simd: S, corners: [&Sample; 4], k: usize, ramp: &Ramp, out: &mut [f32; BLOCK]) {
-    let [a, b, c, d] = [corners[0].numbers[k], corners[1].numbers[k], corners[2].numbers[k], corners[3].numbers[k]];
-    let (du, dv, duv) = (b - a, c - a, d - c - b + a);
-    let mut i = 0;
-    while i * F::<S>::LEN < ramp.count {
-        let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-        store(u * (v * duv + du) + (v * dv + a), out, i);
-        i += 1;
-    }
-}
-
-/// From homogeneous points to points, and the footprint of a pixel around each.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn project<S: Simd>(
-    simd: S,
-    corners: [&Sample; 4],
-    n: usize,
-    size: usize,
-    ramp: &Ramp,
-    filter: bool,
-    hits: &mut [[f32; BLOCK]; HIT],
-    footprint: &mut [f32; BLOCK],
-) {
-    let step = 1.0 / size as f32;
-    let mut i = 0;
-    while i * F::<S>::LEN < ramp.count {
-        let k = F::<S>::splat(simd, 1.0) / load::<S, F<S>>(simd, &hits[6], i);
-        let homogeneous =
-            V3::<S> { x: load(simd, &hits[3], i), y: load(simd, &hits[4], i), z: load(simd, &hits[5], i) };
-        let point = homogeneous * Lane(k);
-        store(point.x, &mut hits[3], i);
-        store(point.y, &mut hits[4], i);
-        store(point.z, &mut hits[5], i);
-        if filter {
-            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-            let at = PLAIN + HIT * n;
-            let (wu, wv) = slopes(corners, at + 6, u, v);
-            let (xu, xv) = slopes(corners, at + 3, u, v);
-            let (yu, yv) = slopes(corners, at + 4, u, v);
-            let (zu, zv) = slopes(corners, at + 5, u, v);
-            // The derivative of a quotient, point = homogeneous / closeness.
-            let across = V3::<S> { x: xu, y: yu, z: zu } - point * Lane(wu);
-            let down = V3::<S> { x: xv, y: yv, z: zv } - point * Lane(wv);
-            let longest = across.dot(across).max(down.dot(down)).sqrt();
-            store(longest * k.abs() * step, footprint, i);
-        }
-        i += 1;
-    }
-}
-
-/// The derivatives of a number along u and v.
-#[inline(always)]
-fn slopes<L: Copy + std::ops::Mul<f32, Output = L> + std::ops::Add<f32, Output = L>>(
-    corners: [&Sample; 4],
-    k: usize,
-    u: L,
-    v: L,
-) -> (L, L) {
-    let [a, b, c, d] = [corners[0].numbers[k], corners[1].numbers[k], corners[2].numbers[k], corners[3].numbers[k]];
-    let duv = d - c - b + a;
-    (v * duv + (b - a), u * duv + (c - a))
-}
-
-/// `sum += a b`.
-#[inline(always)]
-fn accumulate<S: Simd>(simd: S, a: &[f32; BLOCK], b: &[f32; BLOCK], sum: &mut [f32; BLOCK]) {
-    let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let product = load::<S, F<S>>(simd, a, i) * load::<S, F<S>>(simd, b, i);
-        store(load::<S, F<S>>(simd, sum, i) + product, sum, i);
-        i += 1;
     }
 }
