@@ -9,7 +9,8 @@ pub struct Quality {
     pub threshold: f32,
     /// A secondary ray whose weight falls below this is not traced; 0 traces all up to the depth limit.
     pub min_weight: f32,
-    /// Hits whose share of the pixel's light falls below this are interpolated whatever they hit, with mean textures.
+    /// Hits whose weight is less than this share of the light before them are interpolated whatever they hit, with mean
+    /// textures.
     pub min_detail: f32,
     /// Anti-aliasing where an edge runs through a pixel: 0 none, 1 halves and 2 quarters the pixel.
     pub subpixel: u32,
@@ -25,13 +26,13 @@ impl Quality {
         cell: 8,
         threshold: 0.02,
         min_weight: 1.0 / 64.0,
-        min_detail: 1.0 / 8.0,
+        min_detail: 1.0 / 6.0,
         subpixel: 0,
         grid: 1,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality = Quality { subpixel: 1, ..Quality::FAST };
+    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 8.0, subpixel: 1, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,

@@ -135,7 +135,8 @@ pub struct Context<'a> {
 pub struct Limits {
     /// Secondary rays of less weight are not traced.
     pub min_weight: f32,
-    /// Hits of less weight are no part of the chain, and their textures are their means.
+    /// Hits of less weight beside a white surface in full light are no part of the chain, and their textures are their
+    /// means.
     pub min_detail: f32,
     /// Points on a light that has a size, for eye rays and for the others.
     pub light_samples: [u32; 2],
@@ -161,6 +162,9 @@ struct Node<S: Simd> {
 const NOWHERE: u32 = u32::MAX;
 /// Highlights of more light than this are part of a corner's state: the skirt of a highlight finds the highlight.
 const HIGHLIGHT: f32 = 1.0 / 16.0;
+
+/// Light beside which a difference is judged even where there is none.
+const DARK: f32 = 0.25;
 
 /// What the shading of a hit needs of its object, one a lane.
 struct Surface<S: Simd> {
@@ -211,6 +215,8 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     let step = ray.dot(ray).sqrt();
     let mut chain = U::<S>::splat(simd, 0);
     let mut light = V3::splat(simd, Vec3::ZERO);
+    // Light of white surfaces so far.
+    let mut seen = zero;
     let mut first_closeness = zero;
     stack.clear();
     let mut next = Some(Node {
@@ -234,7 +240,8 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         };
         let Node { active, direction, weight, length, level, path, .. } = node;
         let object = if level == 1 { first_seen(simd, context, &node) } else { nearest(simd, world, &node) };
-        let detailed = weight.max_element().simd_gt(F::<S>::splat(simd, limits.min_detail));
+        // Beside much light little is seen (Weber), in the dark it is.
+        let detailed = weight.max_element().simd_gt((seen + DARK) * limits.min_detail);
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
         let missed = active & !hit;
         if missed.any_true() {
@@ -300,6 +307,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             let shine = specular.mulv(V3::select(glass, weight, local));
             light = light + shine.masked(simd, shaded);
             let gain = local.mulv(diffuse);
+            seen = seen + gain.max_element();
             let textured = matt & surface.textured & detailed;
             light = light + gain.mulv(surface.albedo).masked(simd, matt & !textured);
             if textured.any_true() {
