@@ -24,15 +24,15 @@ impl Quality {
     /// Every shortcut, one sample a pixel.
     pub const FAST: Quality = Quality {
         cell: 8,
-        threshold: 0.02,
+        threshold: 0.03,
         min_weight: 1.0 / 64.0,
-        min_detail: 1.0 / 6.0,
+        min_detail: 1.0 / 5.0,
         subpixel: 0,
         grid: 1,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 8.0, subpixel: 1, ..Quality::FAST };
+    pub const DEFAULT: Quality = Quality { threshold: 0.02, min_detail: 1.0 / 8.0, subpixel: 1, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,
