@@ -8,6 +8,7 @@ use crate::trace::shape::Shape;
 use crate::trace::texture::{Palette, Pattern, Texture};
 use crate::trace::world::{Light, Material, Object, Sky, Source, World};
 use glam::{Vec3, vec3};
+use std::f64::consts::FRAC_PI_4;
 
 /// Textured.
 pub const SPHERES: Scene =
@@ -46,7 +47,7 @@ pub fn camera(time: f64) -> Camera {
 pub fn world(time: f64, textured: bool, glass: bool) -> World {
     let mut objects = Vec::with_capacity(10);
     for i in 0..8 {
-        let a = i as f64 * 0.785398163 + 0.4 * time;
+        let a = i as f64 * FRAC_PI_4 + 0.4 * time;
         let center = vec3(2.6 * a.cos() as f32, (0.85 + 0.25 * (2.0 * a + time).sin()) as f32, 2.6 * a.sin() as f32);
         let hue = Vec3::splat(i as f32 / 8.0) + vec3(0.0, 0.33, 0.67);
         let color = Vec3::splat(0.55) + (hue * std::f32::consts::TAU).map(f32::cos) * 0.45;

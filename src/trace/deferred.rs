@@ -4,7 +4,7 @@
 //! and noise always runs on full blocks, however broken the picture is.
 
 use super::lanes::F;
-use super::packet::{HIT, PLAIN, REMEMBERED, Sample};
+use super::packet::{REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use super::world::World;
 use crate::block::{BLOCK, load, store};
@@ -52,14 +52,12 @@ impl Deferred {
         share: f32,
         footprint: &[f32; REMEMBERED],
     ) {
-        for n in 0..sample.count as usize {
-            let object = sample.object[n];
-            let hit = &sample.numbers[PLAIN + HIT * n..][..HIT];
+        for ((object, hit), &footprint) in sample.hits().zip(footprint) {
             let queue = &mut self.queues[object as usize];
             let at = queue.count & (BLOCK - 1);
             let k = 1.0 / hit[6];
             queue.pixel[at] = pixel;
-            queue.footprint[at] = footprint[n];
+            queue.footprint[at] = footprint;
             for axis in 0..3 {
                 queue.gain[axis][at] = hit[axis] * share;
                 queue.point[axis][at] = hit[3 + axis] * k;

@@ -38,7 +38,7 @@ pub fn add<S: Simd>(
 #[inline(always)]
 pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
     let mut footprints = [0.0; REMEMBERED];
-    for n in 0..corners[0].count as usize {
+    for (n, footprint) in footprints.iter_mut().enumerate().take(corners[0].count as usize) {
         let mut across = [[0.0; 3]; 4];
         for (corner, point) in corners.iter().zip(&mut across) {
             let hit = &corner.numbers[PLAIN + HIT * n..][..HIT];
@@ -52,7 +52,7 @@ pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
             x += right * right;
             y += down * down;
         }
-        footprints[n] = x.max(y).sqrt();
+        *footprint = x.max(y).sqrt();
     }
     footprints
 }

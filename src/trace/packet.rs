@@ -52,6 +52,13 @@ impl Sample {
         self.numbers[3]
     }
 
+    /// The textured hits: the object, and the numbers of each.
+    #[inline(always)]
+    pub fn hits(&self) -> impl Iterator<Item = (u32, &[f32; HIT])> {
+        let (hits, _) = self.numbers[PLAIN..].as_chunks::<HIT>();
+        self.object.iter().copied().zip(hits).take(self.count as usize)
+    }
+
     /// How many of the numbers are in use.
     pub fn used(&self) -> usize {
         PLAIN + HIT * self.count as usize
@@ -300,14 +307,14 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                         bright
                             .select(U::<S>::splat(simd, 2), lit.select(U::<S>::splat(simd, 1), U::<S>::splat(simd, 0))),
                     );
-                    state = state | (code << (2 * index as u32));
+                    state |= code << (2 * index as u32);
                 }
             }
             // Glass shows the lights themselves and nothing else of its own.
             let shine = specular.mulv(V3::select(glass, weight, local));
             light = light + shine.masked(simd, shaded);
             let gain = local.mulv(diffuse);
-            seen = seen + gain.max_element();
+            seen += gain.max_element();
             let textured = matt & surface.textured & detailed;
             light = light + gain.mulv(surface.albedo).masked(simd, matt & !textured);
             if textured.any_true() {
@@ -353,7 +360,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             }
         }
         let code = hash(simd, (object + 1) ^ (state << 12), path);
-        chain = chain + (active & detailed).select(code, U::<S>::splat(simd, 0));
+        chain += (active & detailed).select(code, U::<S>::splat(simd, 0));
     }
     for (lane, sample) in out.iter_mut().enumerate() {
         sample.chain = chain[lane];
@@ -499,7 +506,7 @@ fn visibility<S: Simd>(
         let length = aim.dot(aim).sqrt();
         let distance = if directional { reach } else { length };
         let aim = aim * Lane(one / length);
-        seen = seen + (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
+        seen += (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
     }
     seen * (1.0 / samples as f32)
 }

@@ -174,11 +174,11 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let p = load3(simd, points, i).sub1(texture.origin);
-        for axis in 0..3 {
-            store(p.dot1(texture.turn.row(axis)) * pre, &mut local[axis], i);
+        for (axis, local) in local.iter_mut().enumerate() {
+            store(p.dot1(texture.turn.row(axis)) * pre, local, i);
         }
         if let Some(footprint) = footprint {
-            store(load::<S, F<S>>(simd, &footprint, i) * zoom, &mut foot, i);
+            store(load::<S, F<S>>(simd, footprint, i) * zoom, &mut foot, i);
         }
         i += 1;
     }
@@ -220,7 +220,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
                 if footprint.is_some() {
                     // The layers' own phase is even over the footprint, of which a third lies along any one axis.
                     let phase = w * scale;
-                    wave = wave * damping(simd, lost * (warp * warp) + phase * phase * (1.0 / 36.0));
+                    wave *= damping(simd, lost * (warp * warp) + phase * phase * (1.0 / 36.0));
                 }
                 wave + 0.5
             }
@@ -229,7 +229,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
                 let mut wave = ring - ring.floor() - 0.5;
                 if footprint.is_some() {
                     let turns = lost * (warp * warp) + w * w * (1.0 / 24.0);
-                    wave = wave * damping(simd, turns * (TAU * TAU));
+                    wave *= damping(simd, turns * (TAU * TAU));
                 }
                 wave + 0.5
             }
@@ -242,7 +242,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
                     let mut sum = F::<S>::splat(simd, c[0][channel]);
                     for k in 0..3 {
                         let step = (s * 3.0 - k as f32).max(zero).min(one);
-                        sum = sum + step * (c[k + 1][channel] - c[k][channel]);
+                        sum += step * (c[k + 1][channel] - c[k][channel]);
                     }
                     sum
                 }
@@ -280,7 +280,7 @@ fn octaves_in<S: Simd>(
         }
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
-            let w = load::<S, F<S>>(simd, &foot, i) * frequency;
+            let w = load::<S, F<S>>(simd, foot, i) * frequency;
             let keep = one / (w * w * 0.3 + 1.0);
             let gone = one - keep;
             let n = load::<S, F<S>>(simd, &n, i);
