@@ -16,31 +16,21 @@
 //!   the centres of pixels, so that a corner is a pixel.
 
 use super::deferred::Deferred;
+use super::edge::Groups;
 use super::fill::{self, Ramps};
+use super::grid::{Grid, Square, same_chain};
 use super::guard::Guard;
 use super::lanes::F;
-use super::packet::{self, Context, HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
+use super::packet::Context;
+use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
 use super::texture::Variation;
 use crate::quality::Quality;
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
-/// Most lattice points along a tile's edge: quarter pixels, both ends.
-const LATTICE: usize = Tile::SIZE * 4 + 1;
 /// Sizes of squares from 16 pixels down to a quarter.
 const LEVELS: usize = 7;
-
-/// A square of the lattice: its top left corner and its edge, lattice steps.
-#[derive(Clone, Copy)]
-pub struct Square {
-    /// Left.
-    pub x: usize,
-    /// Top.
-    pub y: usize,
-    /// Edge.
-    pub size: usize,
-}
 
 /// What the renderer of one tile reads.
 #[derive(Clone, Copy)]
@@ -78,104 +68,6 @@ pub struct Scratch {
     ramps: Ramps,
 }
 
-/// The samples of a tile, on a lattice of pixels or parts of pixels.
-#[derive(Default)]
-pub struct Grid {
-    /// For each lattice point the generation that traced it and its sample.
-    lattice: Vec<(u32, u32)>,
-    generation: u32,
-    /// The first `count` are of this tile.
-    samples: Vec<Sample>,
-    count: usize,
-    /// Where the samples are, pixels of the picture; behind the last sample, where those lie that are asked for.
-    xs: Vec<f32>,
-    ys: Vec<f32>,
-}
-
-impl Grid {
-    /// Forgets the last tile.
-    fn begin(&mut self) {
-        self.lattice.resize(LATTICE * LATTICE, (0, 0));
-        self.generation = self.generation.wrapping_add(1).max(1);
-        self.clear();
-    }
-
-    /// Forgets all samples.
-    fn clear(&mut self) {
-        self.count = 0;
-        self.xs.clear();
-        self.ys.clear();
-    }
-
-    /// Asks for the sample at a lattice point, if it is not there yet.
-    #[inline(always)]
-    fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) {
-        let entry = &mut self.lattice[y * LATTICE + x];
-        if entry.0 != self.generation {
-            *entry = (self.generation, self.xs.len() as u32);
-            let (step, offset) = if job.quality.subpixel == 0 { (1.0, 0.5) } else { (1.0 / job.unit() as f32, 0.0) };
-            self.xs.push(tile.x as f32 + x as f32 * step + offset);
-            self.ys.push(tile.y as f32 + y as f32 * step + offset);
-        }
-    }
-
-    /// The sample at a lattice point that has been traced.
-    #[inline(always)]
-    pub fn at(&self, x: usize, y: usize) -> &Sample {
-        &self.samples[self.lattice[y * LATTICE + x].1 as usize]
-    }
-
-    /// The corners of a square: top left, top right, bottom left, bottom right.
-    #[inline(always)]
-    pub fn corners(&self, Square { x, y, size }: Square) -> [&Sample; 4] {
-        [self.at(x, y), self.at(x + size, y), self.at(x, y + size), self.at(x + size, y + size)]
-    }
-
-    /// The sample in the middle of a square.
-    #[inline(always)]
-    pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
-        self.at(x + size / 2, y + size / 2)
-    }
-
-    /// Traces all that was asked for.
-    #[inline(always)]
-    fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
-        let (first, end) = (self.count, self.xs.len());
-        if self.samples.len() < end {
-            self.samples.resize(end.next_power_of_two(), Sample::default());
-        }
-        packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
-        self.count = end;
-    }
-
-    /// Does a sample between the ends of a line of lattice points have another chain?
-    ///
-    /// Lines are cut in the middle: where the middle has not been traced, nothing between it and the ends has.
-    fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, chain: u32) -> bool {
-        let half = length / 2;
-        if half == 0 {
-            return false;
-        }
-        let middle = (x + dx * half, y + dy * half);
-        if self.lattice[middle.1 * LATTICE + middle.0].0 != self.generation {
-            return false;
-        }
-        self.at(middle.0, middle.1).chain != chain
-            || self.crossed((x, y), (dx, dy), half, chain)
-            || self.crossed(middle, (dx, dy), half, chain)
-    }
-
-    /// Does an edge enter a square from a neighbour?
-    #[inline(always)]
-    fn entered(&self, Square { x, y, size }: Square) -> bool {
-        let chain = self.at(x, y).chain;
-        self.crossed((x, y), (1, 0), size, chain)
-            || self.crossed((x, y), (0, 1), size, chain)
-            || self.crossed((x, y + size), (1, 0), size, chain)
-            || self.crossed((x + size, y), (0, 1), size, chain)
-    }
-}
-
 /// Draws a tile; returns the number of eye rays.
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
@@ -185,7 +77,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
     let count = if job.quality.cell > 1 {
         subdivide(simd, job, tile, scratch);
         paint(simd, job, tile, scratch);
-        scratch.grid.count
+        scratch.grid.samples().len()
     } else {
         every_pixel(simd, job, tile, scratch);
         tile.width * tile.height * job.quality.grid * job.quality.grid
@@ -197,7 +89,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
 impl Scratch {
     /// Where the samples of the tile drawn last lie, pixels of the picture.
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
-        self.grid.xs.iter().copied().zip(self.grid.ys.iter().copied())
+        self.grid.positions()
     }
 }
 
@@ -212,12 +104,12 @@ fn every_pixel<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scrat
         grid.clear();
         for x in 0..tile.width {
             for n in 0..across * across {
-                grid.xs.push((tile.x + x) as f32 + ((n % across) as f32 + 0.5) * step);
-                grid.ys.push((tile.y + y) as f32 + ((n / across) as f32 + 0.5) * step);
+                let (dx, dy) = (((n % across) as f32 + 0.5) * step, ((n / across) as f32 + 0.5) * step);
+                grid.want_at((tile.x + x) as f32 + dx, (tile.y + y) as f32 + dy);
             }
         }
         grid.trace(simd, job);
-        for (n, sample) in grid.samples[..grid.count].iter().enumerate() {
+        for (n, sample) in grid.samples().iter().enumerate() {
             let pixel = y * Tile::SIZE + n / (across * across);
             fill::add(simd, job, tile, deferred, pixel, sample, share, &[0.0; REMEMBERED]);
         }
@@ -360,35 +252,11 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
     let mut groups = Groups::default();
     for &(x, y) in edges.iter() {
         let (x, y) = (x as usize, y as usize);
-        let pixel = (x, y);
-        let mut weights = Weights::default();
-        let half = unit / 2;
-        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x, y, size: half }, 0.25, pixel, &mut weights);
-        }
-        groups.count = 0;
-        for (row, weights) in weights.iter().enumerate() {
-            for (column, &weight) in weights.iter().enumerate() {
-                if weight > 0.0 {
-                    groups.add(simd, grid.at(x + column, y + row), weight);
-                }
-            }
-        }
         let pixel = y / unit * Tile::SIZE + x / unit;
-        for group in &mut groups.list[..groups.count] {
-            let k = 1.0 / group.weight;
-            for number in &mut group.sum.numbers {
-                *number *= k;
-            }
-            fill::add(simd, job, tile, deferred, pixel, &group.sum, group.weight, &[0.0; REMEMBERED]);
+        for group in groups.of_pixel(simd, grid, x, y, unit) {
+            fill::add(simd, job, tile, deferred, pixel, &group.mean, group.share, &[0.0; REMEMBERED]);
         }
     }
-}
-
-/// Do the corners have one chain?
-#[inline(always)]
-fn same_chain(c: [&Sample; 4]) -> bool {
-    c[0].chain == c[1].chain && c[0].chain == c[2].chain && c[0].chain == c[3].chain
 }
 
 /// What the corners of a square foretell of its centre: their mean.
@@ -447,66 +315,3 @@ fn point(hit: &[f32]) -> [f32; 3] {
 fn distance(a: &[f32], b: &[f32]) -> f32 {
     (a[0] - b[0]).abs().max((a[1] - b[1]).abs()).max((a[2] - b[2]).abs())
 }
-
-/// The surfaces seen through one pixel, each with its share of the area.
-struct Groups {
-    count: usize,
-    list: [Group; 25],
-}
-
-impl Default for Groups {
-    fn default() -> Groups {
-        Groups { count: 0, list: [Group { weight: 0.0, sum: Sample::default() }; 25] }
-    }
-}
-
-#[derive(Clone, Copy)]
-struct Group {
-    weight: f32,
-    sum: Sample,
-}
-
-impl Groups {
-    /// Adds a sample to those of its chain.
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, simd: S, sample: &Sample, weight: f32) {
-        let mut at = 0;
-        while at < self.count && self.list[at].sum.chain != sample.chain {
-            at += 1;
-        }
-        let group = &mut self.list[at];
-        if at == self.count {
-            self.count += 1;
-            *group = Group { weight: 0.0, sum: Sample { numbers: [0.0; NUMBERS], ..*sample } };
-        }
-        group.weight += weight;
-        for i in (0..sample.used()).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let sum = F::<S>::from_slice(simd, &group.sum.numbers[range.clone()]);
-            let number = F::<S>::from_slice(simd, &sample.numbers[range.clone()]);
-            (sum + number * weight).store_slice(&mut group.sum.numbers[range]);
-        }
-    }
-}
-
-/// Weights of the lattice points of a pixel, up to quarters.
-type Weights = [[f32; 5]; 5];
-
-/// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
-fn weigh(grid: &Grid, square: Square, weight: f32, pixel: (usize, usize), weights: &mut Weights) {
-    let Square { x, y, size } = square;
-    if size > 1 && !same_chain(grid.corners(square)) {
-        let half = size / 2;
-        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x, y, size: half }, weight * 0.25, pixel, weights);
-        }
-        return;
-    }
-    let (column, row) = (x - pixel.0, y - pixel.1);
-    for (column, row) in [(column, row), (column + size, row), (column, row + size), (column + size, row + size)] {
-        weights[row][column] += weight * 0.25;
-    }
-}
-
-// The numbers of a sample come in full lanes of any width.
-const _: () = assert!(NUMBERS.is_multiple_of(16));

@@ -4,7 +4,7 @@
 //! and noise always runs on full blocks, however broken the picture is.
 
 use super::lanes::F;
-use super::packet::{REMEMBERED, Sample};
+use super::sample::{REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use super::world::World;
 use crate::block::{BLOCK, load, store};

@@ -1,9 +1,10 @@
 //! From samples to pixels: squares between agreeing corners, and single pixels.
 
-use super::adaptive::{Grid, Job, Square};
+use super::adaptive::Job;
 use super::deferred::Deferred;
+use super::grid::{Grid, Square};
 use super::lanes::{F, Lane, V3};
-use super::packet::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
+use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use crate::block::{BLOCK, load, store};
 use crate::tile::Tile;

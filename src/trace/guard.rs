@@ -9,9 +9,9 @@
 //!
 //! Not guarded: images in the sides of blocks and cylinders, and images of images.
 
-use super::packet::View;
 use super::scalar;
 use super::shape::Shape;
+use super::view::View;
 use super::world::{Light, Object, Source, World};
 use glam::Vec3;
 

@@ -5,13 +5,18 @@
 
 pub mod adaptive;
 pub mod deferred;
+pub mod edge;
 pub mod fill;
+pub mod grid;
 pub mod guard;
 pub mod lanes;
+pub mod light;
 pub mod packet;
+pub mod sample;
 pub mod scalar;
 pub mod shape;
 pub mod texture;
+pub mod view;
 pub mod world;
 
 use crate::camera::Camera;
@@ -21,9 +26,10 @@ use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
 use glam::Vec3;
 use guard::Guard;
-use packet::{Context, Limits, View};
+use packet::{Context, Limits};
 use std::cell::RefCell;
 use texture::Variation;
+use view::View;
 use world::World;
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.

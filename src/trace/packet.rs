@@ -4,123 +4,16 @@
 //! their colour it carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time.
 
 use super::lanes::{Bits, F, Lane, M, U, V3};
+use super::light::{sky, toward, visibility};
+use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
 use super::shape::{FAR, Shape};
 use super::texture::Pattern;
-use super::world::{Light, Source, World};
-use crate::camera::Camera;
+use super::view::View;
+use super::world::World;
 use crate::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;
-
-/// Textured hits that a sample can remember; later ones (the deepest, of least weight) are looked up on the spot.
-pub const REMEMBERED: usize = 4;
-/// Numbers of a sample before those of its textured hits.
-pub const PLAIN: usize = 4;
-/// Numbers of a textured hit.
-pub const HIT: usize = 7;
-/// Numbers of a sample.
-pub const NUMBERS: usize = PLAIN + HIT * REMEMBERED;
-
-/// What one eye ray saw: a chain to be compared, and numbers to be interpolated.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Hash of the whole chain: every object hit, by which path, and the state of every light there.
-    pub chain: u32,
-    /// Textured hits that count.
-    pub count: u32,
-    /// The object of each textured hit.
-    pub object: [u32; REMEMBERED],
-    /// Linear light that depends on no texture (highlights, plain surfaces, sky), then the closeness of the first hit,
-    /// 1 / distance in steps of the unnormalised eye ray or 0 where there is none.
-    ///
-    /// Then for each textured hit: its gain, the light that would reach the eye from there off a white surface (3);
-    /// the hit point times its closeness (3); and its closeness, 1 / length of the path from the eye in those steps.
-    /// In this homogeneous form a point on a plane is affine in screen space, exactly, also seen in flat mirrors.
-    pub numbers: [f32; NUMBERS],
-}
-
-impl Default for Sample {
-    fn default() -> Sample {
-        Sample { chain: 0, count: 0, object: [0; REMEMBERED], numbers: [0.0; NUMBERS] }
-    }
-}
-
-impl Sample {
-    /// 1 / distance of the first hit along the view axis, 0 for the sky.
-    pub fn closeness(&self) -> f32 {
-        self.numbers[3]
-    }
-
-    /// The textured hits: the object, and the numbers of each.
-    #[inline(always)]
-    pub fn hits(&self) -> impl Iterator<Item = (u32, &[f32; HIT])> {
-        let (hits, _) = self.numbers[PLAIN..].as_chunks::<HIT>();
-        self.object.iter().copied().zip(hits).take(self.count as usize)
-    }
-
-    /// How many of the numbers are in use.
-    pub fn used(&self) -> usize {
-        PLAIN + HIT * self.count as usize
-    }
-}
-
-/// From pixels to eye rays.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    camera: Camera,
-    /// Screen units of a pixel, and half of the screen in them.
-    pixel: f32,
-    half: (f32, f32),
-}
-
-impl View {
-    /// The view of a camera on a picture of that many pixels.
-    pub fn new(camera: Camera, width: usize, height: usize) -> View {
-        let pixel = 2.0 / height as f32;
-        View { camera, pixel, half: (width as f32 / height as f32, 1.0) }
-    }
-
-    /// The camera.
-    pub fn camera(&self) -> &Camera {
-        &self.camera
-    }
-
-    /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
-    #[inline(always)]
-    pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {
-        let px = x * self.pixel - self.half.0;
-        let py = -(y * self.pixel) + self.half.1;
-        let c = &self.camera;
-        V3::splat(simd, c.forward) + V3::splat(simd, c.right) * Lane(px) + V3::splat(simd, c.up) * Lane(py)
-    }
-
-    /// The unnormalised eye ray through one point of the picture.
-    pub fn ray(&self, x: f32, y: f32) -> Vec3 {
-        let c = &self.camera;
-        c.forward + c.right * (x * self.pixel - self.half.0) + c.up * (self.half.1 - y * self.pixel)
-    }
-
-    /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
-    pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
-        let c = &self.camera;
-        let q = p - c.eye;
-        let depth = q.dot(c.forward);
-        if depth < 1e-3 {
-            return None;
-        }
-        let scale = c.right.length_squared();
-        let px = q.dot(c.right) / (scale * depth);
-        let py = q.dot(c.up) / (scale * depth);
-        let metre = 1.0 / (scale.sqrt() * depth * self.pixel);
-        Some(((px + self.half.0) / self.pixel, (self.half.1 - py) / self.pixel, metre))
-    }
-
-    /// Size of a pixel at distance one.
-    pub fn pixel_size(&self) -> f32 {
-        self.pixel * self.camera.up.length()
-    }
-}
 
 /// What a packet reads of the frame.
 #[derive(Clone, Copy)]
@@ -211,7 +104,7 @@ pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &
 #[simd]
 fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], stack: &mut Vec<Node<S>>) {
     let Context { world, limits, .. } = *context;
-    let eye = context.view.camera.eye;
+    let eye = context.view.camera().eye;
     let zero = F::<S>::splat(simd, 0.0);
     let one = F::<S>::splat(simd, 1.0);
     for sample in out.iter_mut() {
@@ -460,84 +353,6 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
     (t, point, s)
 }
 
-/// Unit direction and distance to a light's centre.
-#[inline(always)]
-fn toward<S: Simd>(simd: S, light: &Light, point: V3<S>) -> (V3<S>, F<S>) {
-    match light.source {
-        Source::Point(position) => {
-            let q = V3::splat(simd, position) - point;
-            let distance = q.dot(q).sqrt();
-            (q * Lane(F::<S>::splat(simd, 1.0) / distance), distance)
-        }
-        Source::Directional(direction) => (V3::splat(simd, direction), F::<S>::splat(simd, FAR)),
-    }
-}
-
-/// The share of a light that each lane sees: 0 or 1 for a point, the share of its sample points for one with a size.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn visibility<S: Simd>(
-    simd: S,
-    world: &World,
-    samples: u32,
-    light: &Light,
-    point: V3<S>,
-    to_light: V3<S>,
-    reach: F<S>,
-    from: U<S>,
-    wanted: M<S>,
-) -> F<S> {
-    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    if light.radius == 0.0 {
-        return (wanted & !occluded(simd, world, point, to_light, reach, from, wanted)).select(one, zero);
-    }
-    // The luminous ball's disc, seen from the point: two axes across the direction to it.
-    let y_up = to_light.y.abs().simd_lt(F::<S>::splat(simd, 0.9));
-    let helper = V3 { x: y_up.select(zero, one), y: y_up.select(one, zero), z: zero };
-    let u = cross(helper, to_light);
-    let u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
-    let v = cross(to_light, u);
-    let directional = matches!(light.source, Source::Directional(_));
-    let scale = if directional { one } else { reach };
-    let mut seen = zero;
-    for k in 0..samples {
-        let (a, b) = disc_point(k, samples);
-        let aim = to_light * Lane(scale) + u * Lane(F::<S>::splat(simd, a)) + v * Lane(F::<S>::splat(simd, b));
-        let length = aim.dot(aim).sqrt();
-        let distance = if directional { reach } else { length };
-        let aim = aim * Lane(one / length);
-        seen += (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
-    }
-    seen * (1.0 / samples as f32)
-}
-
-/// Point `k` of `n` spread evenly over the unit disc, by Vogel's spiral.
-fn disc_point(k: u32, n: u32) -> (f32, f32) {
-    const GOLDEN_ANGLE: f32 = 2.399_963_2;
-    let radius = ((k as f32 + 0.5) / n as f32).sqrt();
-    let (sin, cos) = (k as f32 * GOLDEN_ANGLE).sin_cos();
-    (radius * cos, radius * sin)
-}
-
-/// Which of the `wanted` lanes have something between them and a light.
-///
-/// A lit point of a convex body is never in that body's own shadow.
-#[inline(always)]
-fn occluded<S: Simd>(simd: S, world: &World, point: V3<S>, aim: V3<S>, reach: F<S>, from: U<S>, wanted: M<S>) -> M<S> {
-    let mut dark = M::<S>::splat(simd, false);
-    for (index, body) in world.objects.iter().enumerate() {
-        if !body.casts_shadow {
-            continue;
-        }
-        let other = !from.simd_eq(U::<S>::splat(simd, index as u32));
-        dark |= body.shape.blocks(simd, point, aim, reach) & other;
-        if !(wanted & !dark).any_true() {
-            break;
-        }
-    }
-    dark
-}
-
 /// Unpolarised Fresnel reflectance of a dielectric, the cosine behind the surface, and where light passes at all.
 ///
 /// `eta` is the index on the ray's side over the index behind.
@@ -550,20 +365,6 @@ fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
     let s = (eta * cosine - through) / (eta * cosine + through);
     let p = (eta * through - cosine) / (eta * through + cosine);
     (passes.select((s * s + p * p) * 0.5, one), through, passes)
-}
-
-/// The sky in a direction.
-#[inline(always)]
-fn sky<S: Simd>(simd: S, world: &World, d: V3<S>) -> V3<S> {
-    let zero = F::<S>::splat(simd, 0.0);
-    let sky = &world.sky;
-    let base = V3::splat(simd, sky.horizon) + V3::splat(simd, sky.zenith - sky.horizon) * Lane(d.y.max(zero));
-    let (towards, color, exponent) = sky.glow;
-    if exponent == 0.0 {
-        return base;
-    }
-    let glow = math::powf(simd, d.dot1(towards).max(F::<S>::splat(simd, 1e-6)), exponent);
-    base + V3::splat(simd, color) * Lane(glow)
 }
 
 /// Notes the textured hits of a packet, lane by lane.
@@ -602,12 +403,6 @@ fn remember<S: Simd>(
             sample.numbers[2] += color.z * gain.z[lane];
         }
     }
-}
-
-/// Cross product.
-#[inline(always)]
-fn cross<S: Simd>(a: V3<S>, b: V3<S>) -> V3<S> {
-    V3 { x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x }
 }
 
 /// Mixes what was hit with the path that led there.

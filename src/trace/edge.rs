@@ -1,0 +1,95 @@
+//! Pixels that an edge runs through: the surfaces in them, each with its share.
+
+use super::grid::{Grid, Square, same_chain};
+use super::lanes::F;
+use super::sample::{NUMBERS, Sample};
+use fearless_simd::prelude::*;
+
+/// The surfaces seen through one pixel, each with its share of the area; memory for as many as can be.
+pub struct Groups {
+    count: usize,
+    list: [Group; 25],
+}
+
+impl Default for Groups {
+    fn default() -> Groups {
+        Groups { count: 0, list: [Group { share: 0.0, mean: Sample::default() }; 25] }
+    }
+}
+
+/// One surface: its share of the pixel and the mean of its samples.
+#[derive(Clone, Copy)]
+pub struct Group {
+    /// 0 to 1.
+    pub share: f32,
+    /// All of one chain.
+    pub mean: Sample,
+}
+
+impl Groups {
+    /// The surfaces in the pixel whose top left corner is at (x, y) of the lattice, `unit` steps wide.
+    #[inline(always)]
+    pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, x: usize, y: usize, unit: usize) -> &[Group] {
+        let mut weights = Weights::default();
+        let half = unit / 2;
+        for (left, top) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+            weigh(grid, Square { x: left, y: top, size: half }, 0.25, (x, y), &mut weights);
+        }
+        self.count = 0;
+        for (row, weights) in weights.iter().enumerate() {
+            for (column, &weight) in weights.iter().enumerate() {
+                if weight > 0.0 {
+                    self.add(simd, grid.at(x + column, y + row), weight);
+                }
+            }
+        }
+        let groups = &mut self.list[..self.count];
+        for group in &mut *groups {
+            let k = 1.0 / group.share;
+            for number in &mut group.mean.numbers {
+                *number *= k;
+            }
+        }
+        groups
+    }
+
+    /// Adds a sample to those of its chain.
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, sample: &Sample, weight: f32) {
+        let mut at = 0;
+        while at < self.count && self.list[at].mean.chain != sample.chain {
+            at += 1;
+        }
+        let group = &mut self.list[at];
+        if at == self.count {
+            self.count += 1;
+            *group = Group { share: 0.0, mean: Sample { numbers: [0.0; NUMBERS], ..*sample } };
+        }
+        group.share += weight;
+        for i in (0..sample.used()).step_by(F::<S>::LEN) {
+            let range = i..i + F::<S>::LEN;
+            let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
+            let number = F::<S>::from_slice(simd, &sample.numbers[range.clone()]);
+            (sum + number * weight).store_slice(&mut group.mean.numbers[range]);
+        }
+    }
+}
+
+/// Weights of the lattice points of a pixel, up to quarters.
+type Weights = [[f32; 5]; 5];
+
+/// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
+fn weigh(grid: &Grid, square: Square, weight: f32, pixel: (usize, usize), weights: &mut Weights) {
+    let Square { x, y, size } = square;
+    if size > 1 && !same_chain(grid.corners(square)) {
+        let half = size / 2;
+        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+            weigh(grid, Square { x, y, size: half }, weight * 0.25, pixel, weights);
+        }
+        return;
+    }
+    let (column, row) = (x - pixel.0, y - pixel.1);
+    for (column, row) in [(column, row), (column + size, row), (column, row + size), (column + size, row + size)] {
+        weights[row][column] += weight * 0.25;
+    }
+}

@@ -1,0 +1,142 @@
+//! The samples of a tile, on a lattice of pixels or parts of pixels.
+
+use super::adaptive::Job;
+use super::packet;
+use super::sample::Sample;
+use crate::tile::Tile;
+use fearless_simd::prelude::*;
+
+/// Most lattice points along a tile's edge: quarter pixels, both ends.
+const LATTICE: usize = Tile::SIZE * 4 + 1;
+
+/// A square of the lattice: its top left corner and its edge, lattice steps.
+#[derive(Clone, Copy)]
+pub struct Square {
+    /// Left.
+    pub x: usize,
+    /// Top.
+    pub y: usize,
+    /// Edge.
+    pub size: usize,
+}
+
+/// The samples of a tile, on a lattice of pixels or parts of pixels.
+#[derive(Default)]
+pub struct Grid {
+    /// For each lattice point the generation that traced it and its sample.
+    lattice: Vec<(u32, u32)>,
+    generation: u32,
+    /// The first `count` are of this tile.
+    samples: Vec<Sample>,
+    count: usize,
+    /// Where the samples are, pixels of the picture; behind the last sample, where those lie that are asked for.
+    xs: Vec<f32>,
+    ys: Vec<f32>,
+}
+
+impl Grid {
+    /// Forgets the last tile.
+    pub fn begin(&mut self) {
+        self.lattice.resize(LATTICE * LATTICE, (0, 0));
+        self.generation = self.generation.wrapping_add(1).max(1);
+        self.clear();
+    }
+
+    /// Forgets all samples.
+    pub fn clear(&mut self) {
+        self.count = 0;
+        self.xs.clear();
+        self.ys.clear();
+    }
+
+    /// Asks for the sample at a lattice point, if it is not there yet.
+    #[inline(always)]
+    pub fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) {
+        let entry = &mut self.lattice[y * LATTICE + x];
+        if entry.0 != self.generation {
+            *entry = (self.generation, self.xs.len() as u32);
+            let (step, offset) = if job.quality.subpixel == 0 { (1.0, 0.5) } else { (1.0 / job.unit() as f32, 0.0) };
+            self.xs.push(tile.x as f32 + x as f32 * step + offset);
+            self.ys.push(tile.y as f32 + y as f32 * step + offset);
+        }
+    }
+
+    /// Asks for a sample off the lattice: pixels of the picture.
+    #[inline(always)]
+    pub fn want_at(&mut self, x: f32, y: f32) {
+        self.xs.push(x);
+        self.ys.push(y);
+    }
+
+    /// All samples that have been traced, in the order in which they were asked for.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples[..self.count]
+    }
+
+    /// Where they are, pixels of the picture.
+    pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
+        self.xs.iter().copied().zip(self.ys.iter().copied())
+    }
+
+    /// The sample at a lattice point that has been traced.
+    #[inline(always)]
+    pub fn at(&self, x: usize, y: usize) -> &Sample {
+        &self.samples[self.lattice[y * LATTICE + x].1 as usize]
+    }
+
+    /// The corners of a square: top left, top right, bottom left, bottom right.
+    #[inline(always)]
+    pub fn corners(&self, Square { x, y, size }: Square) -> [&Sample; 4] {
+        [self.at(x, y), self.at(x + size, y), self.at(x, y + size), self.at(x + size, y + size)]
+    }
+
+    /// The sample in the middle of a square.
+    #[inline(always)]
+    pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
+        self.at(x + size / 2, y + size / 2)
+    }
+
+    /// Traces all that was asked for.
+    #[inline(always)]
+    pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
+        let (first, end) = (self.count, self.xs.len());
+        if self.samples.len() < end {
+            self.samples.resize(end.next_power_of_two(), Sample::default());
+        }
+        packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
+        self.count = end;
+    }
+
+    /// Does a sample between the ends of a line of lattice points have another chain?
+    ///
+    /// Lines are cut in the middle: where the middle has not been traced, nothing between it and the ends has.
+    fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, chain: u32) -> bool {
+        let half = length / 2;
+        if half == 0 {
+            return false;
+        }
+        let middle = (x + dx * half, y + dy * half);
+        if self.lattice[middle.1 * LATTICE + middle.0].0 != self.generation {
+            return false;
+        }
+        self.at(middle.0, middle.1).chain != chain
+            || self.crossed((x, y), (dx, dy), half, chain)
+            || self.crossed(middle, (dx, dy), half, chain)
+    }
+
+    /// Does an edge enter a square from a neighbour?
+    #[inline(always)]
+    pub fn entered(&self, Square { x, y, size }: Square) -> bool {
+        let chain = self.at(x, y).chain;
+        self.crossed((x, y), (1, 0), size, chain)
+            || self.crossed((x, y), (0, 1), size, chain)
+            || self.crossed((x, y + size), (1, 0), size, chain)
+            || self.crossed((x + size, y), (0, 1), size, chain)
+    }
+}
+
+/// Do the corners have one chain?
+#[inline(always)]
+pub fn same_chain(c: [&Sample; 4]) -> bool {
+    c[0].chain == c[1].chain && c[0].chain == c[2].chain && c[0].chain == c[3].chain
+}

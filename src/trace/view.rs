@@ -1,0 +1,63 @@
+//! From pixels to eye rays, and from points to pixels.
+
+use super::lanes::{F, Lane, V3};
+use crate::camera::Camera;
+use fearless_simd::prelude::*;
+use glam::Vec3;
+
+/// From pixels to eye rays.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    camera: Camera,
+    /// Screen units of a pixel, and half of the screen in them.
+    pixel: f32,
+    half: (f32, f32),
+}
+
+impl View {
+    /// The view of a camera on a picture of that many pixels.
+    pub fn new(camera: Camera, width: usize, height: usize) -> View {
+        let pixel = 2.0 / height as f32;
+        View { camera, pixel, half: (width as f32 / height as f32, 1.0) }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
+    #[inline(always)]
+    pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {
+        let px = x * self.pixel - self.half.0;
+        let py = -(y * self.pixel) + self.half.1;
+        let c = &self.camera;
+        V3::splat(simd, c.forward) + V3::splat(simd, c.right) * Lane(px) + V3::splat(simd, c.up) * Lane(py)
+    }
+
+    /// The unnormalised eye ray through one point of the picture.
+    pub fn ray(&self, x: f32, y: f32) -> Vec3 {
+        let c = &self.camera;
+        c.forward + c.right * (x * self.pixel - self.half.0) + c.up * (self.half.1 - y * self.pixel)
+    }
+
+    /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
+    pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
+        let c = &self.camera;
+        let q = p - c.eye;
+        let depth = q.dot(c.forward);
+        if depth < 1e-3 {
+            return None;
+        }
+        let scale = c.right.length_squared();
+        let px = q.dot(c.right) / (scale * depth);
+        let py = q.dot(c.up) / (scale * depth);
+        let metre = 1.0 / (scale.sqrt() * depth * self.pixel);
+        Some(((px + self.half.0) / self.pixel, (self.half.1 - py) / self.pixel, metre))
+    }
+
+    /// Size of a pixel at distance one.
+    pub fn pixel_size(&self) -> f32 {
+        self.pixel * self.camera.up.length()
+    }
+}
