@@ -2,6 +2,8 @@
 //!
 //! Before a scene is timed its pictures are judged: the fast one must be what `exact` shows, to 40 dB.
 
+#![allow(missing_docs)] // criterion_group! makes an undocumented function.
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
