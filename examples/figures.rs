@@ -1,0 +1,142 @@
+//! Prints the README's table of scenes: speed, samples and error of every scene, in Markdown.
+//!
+//! `cargo run --release --example figures`: about a minute on two cores. The qualities take turns frame by frame, so
+//! that what else the machine does hits all alike.
+
+use paprsek::quality::Quality;
+use paprsek::scenes::{self, Scene};
+use paprsek::tile::{Frame, Renderer};
+use std::time::Instant;
+
+/// Size of the frames that are timed, and of those that are compared with 64 samples a pixel, which take long.
+const FULL: (usize, usize) = (1280, 720);
+const HALF: (usize, usize) = (640, 360);
+const THREADS: usize = 2;
+/// Instants of a scene, in the middle of equal parts: in `lumen` one in every shot.
+const INSTANTS: usize = 5;
+/// Times that every frame is rendered; the median counts.
+const ROUNDS: usize = 9;
+/// A pixel counts as off when a channel is, by more than this many codes.
+const OFF: u8 = 8;
+
+fn main() -> Result<(), String> {
+    let mut renderer = Renderer::new(THREADS)?;
+    let scenes = scenes::all();
+    let times = time(&mut renderer, &scenes);
+    println!(
+        "| scene | quality | fps | samples a pixel | PSNR, dB (worst) | pixels off by more than {OFF} | against |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for (scene, [fast, default]) in scenes.iter().zip(times) {
+        let mut error = Error::default();
+        for at in instants(scene) {
+            error.add(
+                &render(&mut renderer, scene, at, Quality::FAST),
+                &render(&mut renderer, scene, at, Quality::EXACT),
+            );
+        }
+        row(scene, "fast", fast, error, "exact");
+        let (mut error, at) = (Error::default(), instants(scene)[INSTANTS / 2]);
+        let [mut ours, mut truth] = [Frame::new(HALF.0, HALF.1), Frame::new(HALF.0, HALF.1)];
+        renderer.render(scene, at, &Quality::DEFAULT, &mut ours);
+        renderer.render(scene, at, &Quality::REFERENCE, &mut truth);
+        error.add(&ours, &truth);
+        row(scene, "default", default, error, "reference");
+    }
+    let (width, height) = FULL;
+    println!();
+    println!("{width}x{height}, {THREADS} threads, {}.", renderer.simd());
+    Ok(())
+}
+
+/// What the frames of one quality took.
+#[derive(Clone, Copy, Default)]
+struct Cost {
+    /// Seconds, the median of the rounds, and eye rays: sums over the instants.
+    seconds: f64,
+    samples: u64,
+}
+
+/// The cost of `fast` and of `default` in every scene.
+fn time(renderer: &mut Renderer, scenes: &[Scene]) -> Vec<[Cost; 2]> {
+    let mut frame = Frame::new(FULL.0, FULL.1);
+    // Seconds of every scene, instant, quality and round.
+    let mut seconds = vec![[[[0.0; ROUNDS]; 2]; INSTANTS]; scenes.len()];
+    let mut costs = vec![[Cost::default(); 2]; scenes.len()];
+    for round in 0..ROUNDS {
+        for (s, scene) in scenes.iter().enumerate() {
+            for (i, at) in instants(scene).into_iter().enumerate() {
+                for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
+                    let began = Instant::now();
+                    let stats = renderer.render(scene, at, quality, &mut frame);
+                    seconds[s][i][q][round] = began.elapsed().as_secs_f64();
+                    costs[s][q].samples += if round == 0 { stats.samples } else { 0 };
+                }
+            }
+        }
+    }
+    for (costs, seconds) in costs.iter_mut().zip(&mut seconds) {
+        for instant in seconds {
+            for (cost, rounds) in costs.iter_mut().zip(instant) {
+                rounds.sort_by(f64::total_cmp);
+                cost.seconds += rounds[ROUNDS / 2];
+            }
+        }
+    }
+    costs
+}
+
+fn instants(scene: &Scene) -> [f64; INSTANTS] {
+    std::array::from_fn(|k| scene.duration * (k as f64 + 0.5) / INSTANTS as f64)
+}
+
+fn render(renderer: &mut Renderer, scene: &Scene, at: f64, quality: Quality) -> Frame {
+    let mut frame = Frame::new(FULL.0, FULL.1);
+    renderer.render(scene, at, &quality, &mut frame);
+    frame
+}
+
+fn row(scene: &Scene, quality: &str, cost: Cost, error: Error, truth: &str) {
+    let name = scene.name;
+    let fps = INSTANTS as f64 / cost.seconds;
+    let samples = cost.samples as f64 / (INSTANTS * FULL.0 * FULL.1) as f64;
+    let (mean, worst, off) = (error.mean / error.frames, error.worst, error.off / error.frames);
+    println!(
+        "| `{name}` | {quality} | {fps:.1} | {samples:.3} | {:.1} ({:.1}) | {:.2} % | {truth} |",
+        psnr(mean),
+        psnr(worst),
+        100.0 * off
+    );
+}
+
+/// Sums over compared frames.
+#[derive(Default)]
+struct Error {
+    frames: f64,
+    /// Mean squares of the difference, codes; the largest of them; shares of pixels that are off.
+    mean: f64,
+    worst: f64,
+    off: f64,
+}
+
+impl Error {
+    fn add(&mut self, ours: &Frame, truth: &Frame) {
+        let (mut square, mut off) = (0u64, 0u64);
+        for (a, b) in ours.pixels.iter().zip(&truth.pixels) {
+            let gaps = [0, 1, 2].map(|k| a.to_be_bytes()[k + 1].abs_diff(b.to_be_bytes()[k + 1]));
+            square += gaps.iter().map(|gap| u64::from(*gap).pow(2)).sum::<u64>();
+            off += u64::from(gaps.iter().any(|gap| *gap > OFF));
+        }
+        let pixels = ours.pixels.len() as f64;
+        let mean = square as f64 / (3.0 * pixels);
+        self.frames += 1.0;
+        self.mean += mean;
+        self.worst = self.worst.max(mean);
+        self.off += off as f64 / pixels;
+    }
+}
+
+/// Decibels of a mean square of 8-bit codes.
+fn psnr(mean: f64) -> f64 {
+    10.0 * (255.0 * 255.0 / mean).log10()
+}
