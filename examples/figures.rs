@@ -61,7 +61,7 @@ struct Cost {
 fn time(renderer: &mut Renderer, scenes: &[Scene]) -> Vec<[Cost; 2]> {
     let mut frame = Frame::new(FULL.0, FULL.1);
     // Seconds of every scene, instant, quality and round.
-    let mut seconds = vec![[[[0.0; ROUNDS]; 2]; INSTANTS]; scenes.len()];
+    let mut seconds = vec![<[[Vec<f64>; 2]; INSTANTS]>::default(); scenes.len()];
     let mut costs = vec![[Cost::default(); 2]; scenes.len()];
     for round in 0..ROUNDS {
         for (s, scene) in scenes.iter().enumerate() {
@@ -69,7 +69,7 @@ fn time(renderer: &mut Renderer, scenes: &[Scene]) -> Vec<[Cost; 2]> {
                 for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
                     let began = Instant::now();
                     let stats = renderer.render(scene, at, quality, &mut frame);
-                    seconds[s][i][q][round] = began.elapsed().as_secs_f64();
+                    seconds[s][i][q].push(began.elapsed().as_secs_f64());
                     costs[s][q].samples += if round == 0 { stats.samples } else { 0 };
                 }
             }
