@@ -17,9 +17,11 @@ const PSNR: f64 = 40.0;
 /// Likeness of two frames over 8-bit RGB, decibels.
 fn psnr(a: &Frame, b: &Frame) -> f64 {
     let channels = |p: u32| [p >> 16 & 255, p >> 8 & 255, p & 255];
-    let squares = a.pixels.iter().zip(&b.pixels).flat_map(|(p, q)| {
-        channels(*p).into_iter().zip(channels(*q)).map(|(x, y)| (x as f64 - y as f64).powi(2))
-    });
+    let squares = a
+        .pixels
+        .iter()
+        .zip(&b.pixels)
+        .flat_map(|(p, q)| channels(*p).into_iter().zip(channels(*q)).map(|(x, y)| (x as f64 - y as f64).powi(2)));
     let mean = squares.sum::<f64>() / (3 * a.pixels.len()) as f64;
     10.0 * (255.0 * 255.0 / mean.max(1e-9)).log10()
 }
