@@ -7,7 +7,8 @@ pub struct Quality {
     pub cell: usize,
     /// A cell is interpolated when the error estimated at its centre is at most this, linear light.
     pub threshold: f32,
-    /// A secondary ray whose weight falls below this is not traced; 0 traces all up to the depth limit.
+    /// A secondary ray whose weight falls below this, over the brightest light where that is more than 1, is not traced
+    /// and takes the sky's light; 0 traces all up to the depth limit.
     pub min_weight: f32,
     /// Hits whose weight is less than this share of the light before them are interpolated whatever they hit, with mean
     /// textures.

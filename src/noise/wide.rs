@@ -1,10 +1,10 @@
 //! Noise for 64 points at once, the same bits as the scalar truth at every SIMD level.
 
 use super::PERMUTATION;
-#[cfg(target_arch = "x86_64")]
 use crate::block::{BLOCK, load, store};
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
+#[cfg(target_arch = "x86_64")]
 use fearless_simd::{Avx2, Level, f32x8, u32x8};
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
