@@ -79,10 +79,8 @@ impl Shape {
         let zero = F::<S>::splat(simd, 0.0);
         match *self {
             Shape::Sphere { center, radius } => {
-                let q = o.sub1(center);
-                let b = -q.dot(d);
-                let m = q + d * Lane(b);
-                let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
+                let (q, b, apart) = past(o, d, center);
+                let disc = F::<S>::splat(simd, radius * radius) - apart;
                 let s = disc.max(zero).sqrt();
                 let hit = disc.simd_gt(zero);
                 // The root on the far side of the nearest point is exact; the other follows from their product.
@@ -153,10 +151,8 @@ impl Shape {
     pub fn span_roughly<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
         let Shape::Sphere { center, radius } = *self else { return self.span(simd, o, d) };
         let zero = F::<S>::splat(simd, 0.0);
-        let q = o.sub1(center);
-        let b = -q.dot(d);
-        let m = q + d * Lane(b);
-        let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
+        let (_, b, apart) = past(o, d, center);
+        let disc = F::<S>::splat(simd, radius * radius) - apart;
         let s = disc.max(zero).sqrt();
         let hit = disc.simd_gt(zero);
         (hit.select(b - s, F::<S>::splat(simd, FAR)), hit.select(b + s, zero))
@@ -169,10 +165,8 @@ impl Shape {
     pub fn blocks<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, reach: F<S>) -> M<S> {
         let zero = F::<S>::splat(simd, 0.0);
         if let Shape::Sphere { center, radius } = *self {
-            let q = o.sub1(center);
-            let b = -q.dot(d);
-            let m = q + d * Lane(b);
-            return m.dot(m).simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
+            let (_, b, apart) = past(o, d, center);
+            return apart.simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
         }
         let (t0, t1) = self.span(simd, o, d);
         t1.simd_gt(zero) & t0.simd_lt(reach)
@@ -212,6 +206,16 @@ impl Shape {
             }
         }
     }
+}
+
+/// How a line passes a point: from the point to the line's origin, how far along the line it is nearest, and the square of
+/// how near.
+#[inline(always)]
+fn past<S: Simd>(o: V3<S>, d: V3<S>, center: Vec3) -> (V3<S>, F<S>, F<S>) {
+    let q = o.sub1(center);
+    let b = -q.dot(d);
+    let m = q + d * Lane(b);
+    (q, b, m.dot(m))
 }
 
 /// The unit vector of every lane.
