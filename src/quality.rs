@@ -33,7 +33,7 @@ impl Quality {
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality = Quality { threshold: 0.02, min_detail: 1.0 / 8.0, subpixel: 1, ..Quality::FAST };
+    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 6.0, subpixel: 1, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,

@@ -185,7 +185,9 @@ impl Renderer {
             }
             samples
         };
-        let bands = || frame.pixels.par_chunks_mut((width * Tile::SIZE).max(1)).enumerate().map(band).sum();
+        // Each band is a task of its own: a few dear ones at the end must not stay with one thread.
+        let bands =
+            || frame.pixels.par_chunks_mut((width * Tile::SIZE).max(1)).enumerate().with_max_len(1).map(band).sum();
         Stats { samples: self.pool.install(bands) }
     }
 }
