@@ -49,12 +49,6 @@ impl<S: Simd> V3<S> {
         V3 { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 
-    /// Componentwise product with one vector.
-    #[inline(always)]
-    pub fn mul1(self, o: Vec3) -> V3<S> {
-        V3 { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
-    }
-
     /// Componentwise product.
     #[inline(always)]
     pub fn mulv(self, o: V3<S>) -> V3<S> {

@@ -1,7 +1,8 @@
 //! The Whitted ray tracer: shapes, materials and lights; packets; and the adaptive corner grid.
 //!
 //! One flow: [`world`] (what is there) -> [`guard`] (what must not be missed) -> [`adaptive`] (which rays) ->
-//! [`packet`] (what they see) -> [`fill`] (which pixels that is) -> [`deferred`] (what colour that is). [`scalar`] is the plain truth beside the packets.
+//! [`packet`] (what they see) -> [`fill`] (which pixels that is) -> [`deferred`] (what colour that is).
+//! [`scalar`] is the plain truth beside the packets.
 
 pub mod adaptive;
 pub mod deferred;

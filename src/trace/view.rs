@@ -55,9 +55,4 @@ impl View {
         let metre = 1.0 / (scale.sqrt() * depth * self.pixel);
         Some(((px + self.half.0) / self.pixel, (self.half.1 - py) / self.pixel, metre))
     }
-
-    /// Size of a pixel at distance one.
-    pub fn pixel_size(&self) -> f32 {
-        self.pixel * self.camera.up.length()
-    }
 }
