@@ -1,0 +1,3 @@
+//! Builds the intro for size and packs it.
+
+fn main() {}
