@@ -2,6 +2,7 @@
 //!
 //! The scalar functions are the truth, in f64; [`encode`] is what a frame uses.
 
+use crate::block::{BLOCK, load, store};
 use crate::math::{exp2_within, log2};
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
@@ -93,9 +94,6 @@ const SRGB: Curve = Curve {
     dither: 1.0 / 65536.0,
 };
 
-/// Pixels that are encoded at a time.
-const BLOCK: usize = 16;
-
 /// Encodes a row of linear light, from pixel (`x0`, `y`) on, to `0x00RRGGBB`: [`quantize`] for every channel, but for
 /// values within 1e-4 codes of a step. The same bits at every SIMD level.
 ///
@@ -107,40 +105,7 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
         Transfer::Gamma22 => GAMMA22,
         Transfer::Srgb => SRGB,
     };
-    let pixels = out.len();
-    let (r, r_rest) = r[..pixels].as_chunks::<BLOCK>();
-    let (g, g_rest) = g[..pixels].as_chunks::<BLOCK>();
-    let (b, b_rest) = b[..pixels].as_chunks::<BLOCK>();
-    let (out, rest) = out.as_chunks_mut::<BLOCK>();
-    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
-    let mut i = 0;
-    while i < out.len() {
-        encode_block(simd, &curve, turns, &r[i], &g[i], &b[i], &mut out[i]);
-        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
-        i += 1;
-    }
-    if !rest.is_empty() {
-        let [mut last_r, mut last_g, mut last_b] = [[0.0; BLOCK]; 3];
-        last_r[..rest.len()].copy_from_slice(r_rest);
-        last_g[..rest.len()].copy_from_slice(g_rest);
-        last_b[..rest.len()].copy_from_slice(b_rest);
-        let mut last = [0; BLOCK];
-        encode_block(simd, &curve, turns, &last_r, &last_g, &last_b, &mut last);
-        rest.copy_from_slice(&last[..rest.len()]);
-    }
-}
-
-/// Encodes 16 pixels, the dither of whose first is `turns`.
-#[inline(always)]
-fn encode_block<S: Simd>(
-    simd: S,
-    curve: &Curve,
-    turns: u32,
-    r: &[f32; BLOCK],
-    g: &[f32; BLOCK],
-    b: &[f32; BLOCK],
-    out: &mut [u32; BLOCK],
-) {
+    // The dither of a block's pixels, but for where it begins.
     static LANES: [u32; BLOCK] = {
         let mut lanes = [0u32; BLOCK];
         let mut i = 0;
@@ -150,34 +115,28 @@ fn encode_block<S: Simd>(
         }
         lanes
     };
-    let mut i = 0;
-    while i < BLOCK / S::f32s::LEN {
-        let turns = load::<S, S::u32s>(simd, &LANES, i) + turns;
-        // Each step for all three: the processor works on several chains of operations that wait for themselves.
-        let (r, g, b) = (limit(simd, load(simd, r, i)), limit(simd, load(simd, g, i)), limit(simd, load(simd, b, i)));
-        let (p, q, s) = (log2(simd, r), log2(simd, g), log2(simd, b));
-        let (p, q, s) = (p * curve.exponent, q * curve.exponent, s * curve.exponent);
-        let (p, q, s) = (exp2_within(simd, p), exp2_within(simd, q), exp2_within(simd, s));
-        let red = code::<S>(curve, r, p, turns);
-        let green = code::<S>(curve, g, q, turns + STEP_CHANNEL);
-        let blue = code::<S>(curve, b, s, turns + STEP_CHANNEL.wrapping_mul(2));
-        let pixels = (red << 16) | (green << 8) | blue;
-        match S::f32s::LEN {
-            4 => pixels.store_slice(&mut out.as_chunks_mut::<4>().0[i]),
-            8 => pixels.store_slice(&mut out.as_chunks_mut::<8>().0[i]),
-            _ => pixels.store_slice(out),
+    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
+    let mut done = 0;
+    while done < out.len() {
+        let count = BLOCK.min(out.len() - done);
+        let mut pixels = [0; BLOCK];
+        let mut turn = turns;
+        for plane in [r, g, b] {
+            let mut light = [0.0; BLOCK];
+            light[..count].copy_from_slice(&plane[done..done + count]);
+            let mut i = 0;
+            while i < BLOCK / S::f32s::LEN {
+                let c = limit(simd, load(simd, &light, i));
+                let power = exp2_within(simd, log2(simd, c) * curve.exponent);
+                let code = code::<S>(&curve, c, power, load::<S, S::u32s>(simd, &LANES, i) + turn);
+                store((load::<S, S::u32s>(simd, &pixels, i) << 8) | code, &mut pixels, i);
+                i += 1;
+            }
+            turn = turn.wrapping_add(STEP_CHANNEL);
         }
-        i += 1;
-    }
-}
-
-/// Vector `i` of a block.
-#[inline(always)]
-fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
-    match V::LEN {
-        4 => V::from_slice(simd, &x.as_chunks::<4>().0[i]),
-        8 => V::from_slice(simd, &x.as_chunks::<8>().0[i]),
-        _ => V::from_slice(simd, x),
+        out[done..done + count].copy_from_slice(&pixels[..count]);
+        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
+        done += count;
     }
 }
 

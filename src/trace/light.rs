@@ -34,24 +34,29 @@ pub fn visibility<S: Simd>(
     wanted: M<S>,
 ) -> F<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    if light.radius == 0.0 {
-        return (wanted & !occluded(simd, world, point, to_light, reach, from, wanted)).select(one, zero);
-    }
-    // The luminous ball's disc, seen from the point: two axes across the direction to it.
-    let y_up = to_light.y.abs().simd_lt(F::<S>::splat(simd, 0.9));
-    let helper = V3 { x: y_up.select(zero, one), y: y_up.select(one, zero), z: zero };
-    let u = cross(helper, to_light);
-    let u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
-    let v = cross(to_light, u);
+    let soft = light.radius > 0.0;
+    let samples = if soft { samples } else { 1 };
     let directional = matches!(light.source, Source::Directional(_));
     let scale = if directional { one } else { reach };
+    let (mut aim, mut distance) = (to_light, reach);
+    let (mut u, mut v) = (to_light, to_light);
+    if soft {
+        // The luminous ball's disc, seen from the point: two axes across the direction to it.
+        let y_up = to_light.y.abs().simd_lt(F::<S>::splat(simd, 0.9));
+        let helper = V3 { x: y_up.select(zero, one), y: y_up.select(one, zero), z: zero };
+        u = cross(helper, to_light);
+        u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
+        v = cross(to_light, u);
+    }
     let mut seen = zero;
     for k in 0..samples {
-        let (a, b) = disc_point(k, samples);
-        let aim = to_light * Lane(scale) + u * Lane(F::<S>::splat(simd, a)) + v * Lane(F::<S>::splat(simd, b));
-        let length = aim.dot(aim).sqrt();
-        let distance = if directional { reach } else { length };
-        let aim = aim * Lane(one / length);
+        if soft {
+            let (a, b) = disc_point(k, samples);
+            aim = to_light * Lane(scale) + u * Lane(F::<S>::splat(simd, a)) + v * Lane(F::<S>::splat(simd, b));
+            let length = aim.dot(aim).sqrt();
+            distance = if directional { reach } else { length };
+            aim = aim * Lane(one / length);
+        }
         seen += (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
     }
     seen * (1.0 / samples as f32)

@@ -25,18 +25,18 @@ use crate::quality::Quality;
 use crate::tile::{Layer, Stats, Tile};
 use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
-use glam::Vec3;
 use guard::Guard;
 use packet::{Context, Limits};
 use std::cell::RefCell;
 use texture::Variation;
 use view::View;
-use world::World;
+use world::{SURFACE, World};
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.
 pub struct Traced {
     world: World,
-    means: Vec<Vec3>,
+    surfaces: Vec<[f32; SURFACE]>,
+    all: Vec<u32>,
     variation: Vec<Variation>,
     view: View,
     guard: Guard,
@@ -48,9 +48,10 @@ impl Traced {
     pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> Traced {
         let view = View::new(camera, width, height);
         let guard = Guard::new(&world, &view, width, height);
-        let means = world.objects.iter().map(|o| o.material.albedo.mean()).collect();
+        let surfaces = world.objects.iter().map(|o| o.material.numbers()).collect();
+        let all = (0..world.objects.len() as u32).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
-        Traced { world, means, variation, view, guard, quality }
+        Traced { world, surfaces, all, variation, view, guard, quality }
     }
 
     /// The objects that eye rays through a tile may meet: by the angle between the tile's middle and their bounds.
@@ -86,7 +87,7 @@ thread_local! {
 
 impl Layer for Traced {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let Traced { world, means, variation, view, guard, quality } = self;
+        let Traced { world, surfaces, all, variation, view, guard, quality } = self;
         let Quality { min_weight, min_detail, light_samples, .. } = *quality;
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
@@ -94,7 +95,7 @@ impl Layer for Traced {
         let limits = Limits { min_weight, min_detail, light_samples };
         let samples = SCRATCH.with_borrow_mut(|(scratch, visible)| {
             self.visible(tile, visible);
-            let context = Context { world, means, view, visible, limits };
+            let context = Context { world, surfaces, view, visible, all, limits };
             let job = Job { context, variation, guard, quality };
             dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch))
         });

@@ -7,9 +7,8 @@ use super::lanes::{Bits, F, Lane, M, U, V3};
 use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
 use super::shape::{FAR, Shape};
-use super::texture::Pattern;
 use super::view::View;
-use super::world::World;
+use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
 use crate::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -20,12 +19,14 @@ use glam::Vec3;
 pub struct Context<'a> {
     /// The scene.
     pub world: &'a World,
-    /// The mean colour of every object.
-    pub means: &'a [Vec3],
+    /// What the shading of a hit needs of every object.
+    pub surfaces: &'a [[f32; SURFACE]],
     /// The camera.
     pub view: &'a View,
-    /// The objects that eye rays may meet.
+    /// The objects that eye rays may meet, and all that others may.
     pub visible: &'a [u32],
+    /// Every object.
+    pub all: &'a [u32],
     /// The knobs of the recursion.
     pub limits: Limits,
 }
@@ -46,6 +47,8 @@ pub struct Limits {
 #[derive(Clone, Copy)]
 struct Node<S: Simd> {
     active: M<S>,
+    /// Lanes too faint to be traced. They are guessed to see the sky: half of the error of leaving them black.
+    faint: M<S>,
     origin: V3<S>,
     direction: V3<S>,
     weight: V3<S>,
@@ -66,17 +69,18 @@ const HIGHLIGHT: f32 = 1.0 / 16.0;
 /// Light beside which a difference is judged even where there is none.
 const DARK: f32 = 0.25;
 
-/// What the shading of a hit needs of its object, one a lane.
+/// Normal and material of what each lane has hit.
 struct Surface<S: Simd> {
     normal: V3<S>,
-    albedo: V3<S>,
-    reflectance: V3<S>,
-    filter: V3<S>,
-    fresnel: F<S>,
-    specular: F<S>,
-    exponent: F<S>,
-    ior: F<S>,
-    textured: M<S>,
+    numbers: [F<S>; SURFACE],
+}
+
+impl<S: Simd> Surface<S> {
+    /// The colour that begins at that number.
+    #[inline(always)]
+    fn color(&self, at: usize) -> V3<S> {
+        V3 { x: self.numbers[at], y: self.numbers[at + 1], z: self.numbers[at + 2] }
+    }
 }
 
 /// Traces the eye rays through `xs`, `ys` (pixels) into the samples `out`, in order. All are of the same length.
@@ -121,6 +125,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     stack.clear();
     let mut next = Some(Node {
         active: lanes_in_use,
+        faint: M::<S>::splat(simd, false),
         origin: V3::splat(simd, eye),
         direction: ray * Lane(one / step),
         weight: V3 { x: one, y: one, z: one },
@@ -139,11 +144,11 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             },
         };
         let Node { active, direction, weight, length, level, path, .. } = node;
-        let object = if level == 1 { first_seen(simd, context, &node) } else { nearest(simd, world, &node) };
+        let object = nearest(simd, world, if level == 1 { context.visible } else { context.all }, &node);
         // Beside much light little is seen (Weber), in the dark it is.
         let detailed = weight.max_element().simd_gt((seen + DARK) * limits.min_detail);
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
-        let missed = active & !hit;
+        let missed = (active & !hit) | node.faint;
         if missed.any_true() {
             light = light + sky(simd, world, direction).mulv(weight).masked(simd, missed);
         }
@@ -159,15 +164,17 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             let inside = facing.simd_lt(zero);
             let cosine = facing.abs();
             let normal = V3::select(inside, -surface.normal, surface.normal);
-            let glass = hit & surface.ior.simd_gt(zero);
+            let (shininess, ior) = (surface.numbers[SPECULAR], surface.numbers[IOR]);
+            let glass = hit & ior.simd_gt(zero);
             let matt = hit & !glass;
-            let shaded = matt | (glass & surface.specular.simd_gt(zero));
+            let shaded = matt | (glass & shininess.simd_gt(zero));
 
             // Local light: what is left beside the mirror.
             let grazing = one - cosine.min(one);
             let grazing = grazing * grazing * (grazing * grazing) * grazing;
-            let boost = surface.fresnel * grazing;
-            let mirror = surface.reflectance + (V3 { x: one, y: one, z: one } - surface.reflectance) * Lane(boost);
+            let boost = surface.numbers[FRESNEL] * grazing;
+            let reflectance = surface.color(REFLECTANCE);
+            let mirror = reflectance + (V3 { x: one, y: one, z: one } - reflectance) * Lane(boost);
             let local = (weight - weight.mulv(mirror)).masked(simd, matt);
             let mut diffuse = V3::splat(simd, world.ambient);
             let mut specular = V3::splat(simd, Vec3::ZERO);
@@ -183,11 +190,11 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     let seen = visibility(simd, world, samples, source, point, to_light, reach, object, front);
                     let lit = front & seen.simd_gt(zero);
                     let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
-                    let shiny = lit & glint.simd_gt(zero) & surface.specular.simd_gt(zero);
+                    let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
                     let mut shine = zero;
                     if shiny.any_true() {
-                        let power = math::exp2(simd, math::log2(simd, glint) * surface.exponent);
-                        shine = shiny.select(power * surface.specular * seen, zero);
+                        let power = math::exp2(simd, math::log2(simd, glint) * surface.numbers[EXPONENT]);
+                        shine = shiny.select(power * shininess * seen, zero);
                     }
                     let amount = lit.select(cos_light * seen, zero);
                     diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
@@ -208,8 +215,8 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             light = light + shine.masked(simd, shaded);
             let gain = local.mulv(diffuse);
             seen += gain.max_element();
-            let textured = matt & surface.textured & detailed;
-            light = light + gain.mulv(surface.albedo).masked(simd, matt & !textured);
+            let textured = matt & surface.numbers[TEXTURED].simd_gt(zero) & detailed;
+            light = light + gain.mulv(surface.color(ALBEDO)).masked(simd, matt & !textured);
             if textured.any_true() {
                 remember(world, &object, &gain, &point, &closeness, textured.to_bitmask(), out);
             }
@@ -221,34 +228,23 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                 let mut reflected = weight.mulv(mirror);
                 let mut stays_inside = M::<S>::splat(simd, false);
                 if glass.any_true() {
-                    let eta = inside.select(surface.ior, one / surface.ior);
+                    let eta = inside.select(ior, one / ior);
                     let (share, cos_through, passes) = fresnel(simd, eta, cosine);
                     let bend = eta * cosine - cos_through;
                     let refracted = direction * Lane(eta) + normal * Lane(bend);
-                    let through = weight.mulv(surface.filter) * Lane(one - share);
-                    let strong = through.max_element().simd_gt(least);
-                    let faint = glass & passes & !strong;
-                    if limits.min_weight > 0.0 && faint.any_true() {
-                        light = light + sky(simd, world, refracted).mulv(through).masked(simd, faint);
-                    }
-                    let active = glass & passes & strong;
-                    if active.any_true() {
+                    let through = weight.mulv(surface.color(FILTER)) * Lane(one - share);
+                    let (active, faint) = strength(simd, glass & passes, through, least);
+                    if (active | faint).any_true() {
                         let (direction, weight, inward, path) = (refracted, through, !inside, path * 2 + 1);
-                        stack.push(Node { active, direction, weight, inward, path, ..child });
+                        stack.push(Node { active, faint, direction, weight, inward, path, ..child });
                     }
                     reflected = V3::select(glass, weight * Lane(share), reflected);
                     stays_inside = glass & inside;
                 }
-                let strong = reflected.max_element().simd_gt(least);
-                let faint = hit & !strong;
-                if limits.min_weight > 0.0 && faint.any_true() {
-                    // What is too faint to be traced is guessed: half of the error of leaving it black.
-                    light = light + sky(simd, world, mirrored).mulv(reflected).masked(simd, faint);
-                }
-                let active = hit & strong;
-                if active.any_true() {
+                let (active, faint) = strength(simd, hit, reflected, least);
+                if (active | faint).any_true() {
                     let (direction, weight, inward, path) = (mirrored, reflected, stays_inside, path * 2);
-                    next = Some(Node { active, direction, weight, inward, path, ..child });
+                    next = Some(Node { active, faint, direction, weight, inward, path, ..child });
                 }
             }
         }
@@ -265,33 +261,27 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     }
 }
 
-/// The nearest body of every lane of an eye ray, or `NOWHERE`.
+/// Which of the `wanted` lanes have weight enough to be traced, and which have less but some.
 #[inline(always)]
-fn first_seen<S: Simd>(simd: S, context: &Context, node: &Node<S>) -> U<S> {
-    let zero = F::<S>::splat(simd, 0.0);
-    let mut best = F::<S>::splat(simd, FAR);
-    let mut object = U::<S>::splat(simd, NOWHERE);
-    for &index in context.visible {
-        let shape = &context.world.objects[index as usize].shape;
-        let (t0, t1) = shape.span_roughly(simd, node.origin, node.direction);
-        let t = t0.simd_gt(zero).select(t0, t1);
-        let meets = t.simd_gt(zero) & t.simd_lt(best);
-        best = meets.select(t, best);
-        object = meets.select(U::<S>::splat(simd, index), object);
-    }
-    object
+fn strength<S: Simd>(simd: S, wanted: M<S>, weight: V3<S>, least: F<S>) -> (M<S>, M<S>) {
+    let most = weight.max_element();
+    let strong = most.simd_gt(least);
+    (wanted & strong, wanted & !strong & most.simd_gt(F::<S>::splat(simd, 0.0)))
 }
 
-/// The nearest body of every lane of a ray that leaves a body, or `NOWHERE`.
+/// The nearest of the bodies in `list` for every lane, or `NOWHERE`.
 #[inline(always)]
-fn nearest<S: Simd>(simd: S, world: &World, node: &Node<S>) -> U<S> {
+fn nearest<S: Simd>(simd: S, world: &World, list: &[u32], node: &Node<S>) -> U<S> {
     let zero = F::<S>::splat(simd, 0.0);
     let mut best = F::<S>::splat(simd, FAR);
     let mut object = U::<S>::splat(simd, NOWHERE);
-    for (index, candidate) in world.objects.iter().enumerate() {
-        let id = U::<S>::splat(simd, index as u32);
+    if !node.active.any_true() {
+        return object;
+    }
+    for &index in list {
+        let id = U::<S>::splat(simd, index);
         let same = node.from.simd_eq(id);
-        let (t0, t1) = candidate.shape.span_roughly(simd, node.origin, node.direction);
+        let (t0, t1) = world.objects[index as usize].shape.span_roughly(simd, node.origin, node.direction);
         // Outwards the body that the ray leaves does not count; inwards only its far side does.
         let t = (t0.simd_gt(zero) & !same).select(t0, t1);
         let meets = t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
@@ -308,24 +298,13 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
     let black = V3::splat(simd, Vec3::ZERO);
     let mut t = zero;
     let mut point = black;
-    let mut s = Surface {
-        normal: black,
-        albedo: black,
-        reflectance: black,
-        filter: black,
-        fresnel: zero,
-        specular: zero,
-        exponent: zero,
-        ior: zero,
-        textured: M::<S>::splat(simd, false),
-    };
+    let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();
     while todo != 0 {
         let id = object[todo.trailing_zeros() as usize];
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
         let body = &context.world.objects[id as usize];
-        let material = &body.material;
         let (t0, t1) = body.shape.span(simd, node.origin, node.direction);
         let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
         t = here.select(outside.select(t0, t1).max(zero), t);
@@ -336,21 +315,12 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
         }
         point = V3::select(here, at, point);
         let normal = body.shape.normal(simd, at);
-        s.normal = V3::select(here, normal, s.normal);
-        s.albedo = V3::select(here, V3::splat(simd, context.means[id as usize]), s.albedo);
-        if material.albedo.pattern != Pattern::Plain {
-            s.textured |= here;
-        }
-        s.reflectance = V3::select(here, V3::splat(simd, material.reflectance), s.reflectance);
-        s.fresnel = here.select(F::<S>::splat(simd, material.fresnel), s.fresnel);
-        s.specular = here.select(F::<S>::splat(simd, material.specular), s.specular);
-        s.exponent = here.select(F::<S>::splat(simd, material.exponent), s.exponent);
-        if material.is_glass() {
-            s.filter = V3::select(here, V3::splat(simd, material.filter), s.filter);
-            s.ior = here.select(F::<S>::splat(simd, material.ior), s.ior);
+        surface.normal = V3::select(here, normal, surface.normal);
+        for (number, &value) in surface.numbers.iter_mut().zip(&context.surfaces[id as usize]) {
+            *number = here.select(F::<S>::splat(simd, value), *number);
         }
     }
-    (t, point, s)
+    (t, point, surface)
 }
 
 /// Unpolarised Fresnel reflectance of a dielectric, the cosine behind the surface, and where light passes at all.

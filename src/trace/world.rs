@@ -1,7 +1,7 @@
 //! What is traced: shapes with materials, lights, and the sky behind them.
 
 use super::shape::Shape;
-use super::texture::Texture;
+use super::texture::{Pattern, Texture};
 use glam::Vec3;
 
 /// How a surface answers light: Phong over a texture, a mirror on top, or clear glass.
@@ -23,6 +23,25 @@ pub struct Material {
     pub filter: Vec3,
 }
 
+/// How many numbers of a material the shading of a hit needs.
+pub const SURFACE: usize = 14;
+/// Where the mean colour stands among them, three numbers;
+pub const ALBEDO: usize = 0;
+/// the mirror, three;
+pub const REFLECTANCE: usize = 3;
+/// the tint of glass, three;
+pub const FILTER: usize = 6;
+/// what Fresnel adds to the mirror;
+pub const FRESNEL: usize = 9;
+/// the weight of the highlight;
+pub const SPECULAR: usize = 10;
+/// and its exponent;
+pub const EXPONENT: usize = 11;
+/// the index of refraction;
+pub const IOR: usize = 12;
+/// and 1 where there is a texture.
+pub const TEXTURED: usize = 13;
+
 impl Material {
     /// A matt surface.
     pub const fn matt(albedo: Texture) -> Material {
@@ -38,6 +57,20 @@ impl Material {
     /// With a mirror of one grey and a highlight.
     pub const fn polished(self, reflectance: f32, specular: f32, exponent: f32) -> Material {
         Material { reflectance: Vec3::splat(reflectance), specular, exponent, ..self }
+    }
+
+    /// What the shading of a hit needs of it.
+    pub fn numbers(&self) -> [f32; SURFACE] {
+        let mut numbers = [0.0; SURFACE];
+        for (at, color) in [(ALBEDO, self.albedo.mean()), (REFLECTANCE, self.reflectance), (FILTER, self.filter)] {
+            numbers[at..at + 3].copy_from_slice(&color.to_array());
+        }
+        numbers[FRESNEL] = self.fresnel;
+        numbers[SPECULAR] = self.specular;
+        numbers[EXPONENT] = self.exponent;
+        numbers[IOR] = self.ior;
+        numbers[TEXTURED] = if self.albedo.pattern == Pattern::Plain { 0.0 } else { 1.0 };
+        numbers
     }
 
     /// Does light pass through?
