@@ -260,7 +260,7 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
 }
 
 /// What the corners of a square foretell of its centre: their mean.
-#[inline(always)]
+#[simd]
 fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
     let mut mean = [0.0; NUMBERS];
     for i in (0..c[0].used()).step_by(F::<S>::LEN) {

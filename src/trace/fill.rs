@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
 /// Adds `share` of a sample to a pixel, its textures averaged over their `footprint`s.
-#[inline(always)]
+#[simd]
 #[allow(clippy::too_many_arguments)]
 pub fn add<S: Simd>(
     simd: S,
@@ -36,7 +36,6 @@ pub fn add<S: Simd>(
 }
 
 /// The footprint of each textured hit of a pixel, metres: the longer of its two middle lines.
-#[inline(always)]
 pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
     let mut footprints = [0.0; REMEMBERED];
     for (n, footprint) in footprints.iter_mut().enumerate().take(corners[0].count as usize) {
@@ -240,32 +239,18 @@ pub fn interpolate<S: Simd>(
                 deferred.push_run(simd, job.context.world, tile, object, pixels, &gain, &points, &footprint);
             }
         }
-        let mut row = 0;
-        while row < ramp.count {
-            let to = first + ramp.pixel[row] as usize;
+        let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+        for (plane, values) in planes.into_iter().zip(&plain) {
             // Added, not set: a queue of textures may have been emptied into these pixels already.
-            match size {
-                2 => add_row::<2>(tile, to, &plain, row, solid),
-                4 => add_row::<4>(tile, to, &plain, row, solid),
-                8 => add_row::<8>(tile, to, &plain, row, solid),
-                _ => add_row::<16>(tile, to, &plain, row, solid),
+            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
+                plane[first + *offset as usize] += value;
             }
-            row += size;
         }
-    }
-}
-
-/// Adds a row of `N` pixels, from place `from` of a block, to the tile at pixel `to`.
-#[inline(always)]
-fn add_row<const N: usize>(tile: &mut Tile, to: usize, plain: &[[f32; BLOCK]; PLAIN], from: usize, solid: f32) {
-    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
-    for (plane, values) in planes.into_iter().zip(plain) {
-        for (sum, value) in plane[to..to + N].iter_mut().zip(&values[from..from + N]) {
-            *sum += value;
+        if tile.solids_matter {
+            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(&plain[3]) {
+                tile.closeness[first + *offset as usize] = *value;
+                tile.coverage[first + *offset as usize] = solid;
+            }
         }
-    }
-    if tile.solids_matter {
-        tile.closeness[to..to + N].copy_from_slice(&plain[3][from..from + N]);
-        tile.coverage[to..to + N].fill(solid);
     }
 }

@@ -50,7 +50,6 @@ impl Grid {
     }
 
     /// Asks for the sample at a lattice point, if it is not there yet.
-    #[inline(always)]
     pub fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) {
         let entry = &mut self.lattice[y * LATTICE + x];
         if entry.0 != self.generation {
@@ -62,7 +61,6 @@ impl Grid {
     }
 
     /// Asks for a sample off the lattice: pixels of the picture.
-    #[inline(always)]
     pub fn want_at(&mut self, x: f32, y: f32) {
         self.xs.push(x);
         self.ys.push(y);
@@ -79,19 +77,16 @@ impl Grid {
     }
 
     /// The sample at a lattice point that has been traced.
-    #[inline(always)]
     pub fn at(&self, x: usize, y: usize) -> &Sample {
         &self.samples[self.lattice[y * LATTICE + x].1 as usize]
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
-    #[inline(always)]
     pub fn corners(&self, Square { x, y, size }: Square) -> [&Sample; 4] {
         [self.at(x, y), self.at(x + size, y), self.at(x, y + size), self.at(x + size, y + size)]
     }
 
     /// The sample in the middle of a square.
-    #[inline(always)]
     pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
         self.at(x + size / 2, y + size / 2)
     }
@@ -125,7 +120,6 @@ impl Grid {
     }
 
     /// Does an edge enter a square from a neighbour?
-    #[inline(always)]
     pub fn entered(&self, Square { x, y, size }: Square) -> bool {
         let chain = self.at(x, y).chain;
         self.crossed((x, y), (1, 0), size, chain)
@@ -136,7 +130,6 @@ impl Grid {
 }
 
 /// Do the corners have one chain?
-#[inline(always)]
 pub fn same_chain(c: [&Sample; 4]) -> bool {
     c[0].chain == c[1].chain && c[0].chain == c[2].chain && c[0].chain == c[3].chain
 }
