@@ -7,8 +7,10 @@ use super::lanes::{Bits, F, Lane, M, U, V3};
 use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
 use super::shape::{FAR, Shape};
+use super::texture;
 use super::view::View;
 use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
+use crate::block::{BLOCK, store};
 use crate::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -218,7 +220,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             let textured = matt & surface.numbers[TEXTURED].simd_gt(zero) & detailed;
             light = light + gain.mulv(surface.color(ALBEDO)).masked(simd, matt & !textured);
             if textured.any_true() {
-                remember(world, &object, &gain, &point, &closeness, textured.to_bitmask(), out);
+                remember(simd, world, textured.to_bitmask(), &object, &[gain, point], &closeness, out);
             }
 
             if level < world.max_level {
@@ -337,40 +339,50 @@ fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
     (passes.select((s * s + p * p) * 0.5, one), through, passes)
 }
 
-/// Notes the textured hits of a packet, lane by lane.
+/// Notes the textured hits of a packet, lane by lane: `vectors` are gain and point.
 #[inline(always)]
 fn remember<S: Simd>(
+    simd: S,
     world: &World,
-    object: &U<S>,
-    gain: &V3<S>,
-    point: &V3<S>,
-    closeness: &F<S>,
     lanes: u64,
+    object: &U<S>,
+    vectors: &[V3<S>; 2],
+    closeness: &F<S>,
     out: &mut [Sample],
 ) {
+    let [gain, point] = vectors;
+    let mut late = 0u64;
     for lane in Bits(lanes) {
         let sample = &mut out[lane];
-        let id = object[lane];
         let n = sample.count as usize;
-        if n < REMEMBERED {
-            let k = closeness[lane];
-            sample.object[n] = id;
-            sample.numbers[PLAIN + HIT * n..][..HIT].copy_from_slice(&[
-                gain.x[lane],
-                gain.y[lane],
-                gain.z[lane],
-                point.x[lane] * k,
-                point.y[lane] * k,
-                point.z[lane] * k,
-                k,
-            ]);
-            sample.count += 1;
-        } else {
-            let at = Vec3::new(point.x[lane], point.y[lane], point.z[lane]);
-            let color = world.objects[id as usize].material.albedo.color(at);
-            sample.numbers[0] += color.x * gain.x[lane];
-            sample.numbers[1] += color.y * gain.y[lane];
-            sample.numbers[2] += color.z * gain.z[lane];
+        if n == REMEMBERED {
+            late |= 1 << lane;
+            continue;
+        }
+        let k = closeness[lane];
+        let point = [point.x[lane] * k, point.y[lane] * k, point.z[lane] * k];
+        sample.object[n] = object[lane];
+        let hit = &mut sample.numbers[PLAIN + HIT * n..][..HIT];
+        hit[..3].copy_from_slice(&[gain.x[lane], gain.y[lane], gain.z[lane]]);
+        hit[3..6].copy_from_slice(&point);
+        hit[6] = k;
+        sample.count += 1;
+    }
+    // What finds no place is looked up on the spot, once for each object.
+    while late != 0 {
+        let id = object[late.trailing_zeros() as usize];
+        let here = late & object.simd_eq(U::<S>::splat(simd, id)).to_bitmask();
+        late &= !here;
+        let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
+        store(point.x, &mut points[0], 0);
+        store(point.y, &mut points[1], 0);
+        store(point.z, &mut points[2], 0);
+        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
+        for lane in Bits(here) {
+            let numbers = &mut out[lane].numbers;
+            numbers[0] += color[0][lane] * gain.x[lane];
+            numbers[1] += color[1][lane] * gain.y[lane];
+            numbers[2] += color[2][lane] * gain.z[lane];
         }
     }
 }
