@@ -264,6 +264,7 @@ const fn rings(dark: Vec3, light: Vec3, scale: f32, warp: f32) -> Texture {
     Texture::new(Pattern::Wood { warp, octaves: 2 }, Palette::Ramp([dark, light, late, dark]), scale)
 }
 
+#[inline(never)] // Some hundred bytes, for many callers.
 const fn matt(texture: Texture) -> Material {
     Material::matt(texture).polished(0.0, 0.12, 24.0)
 }

@@ -56,6 +56,8 @@ impl Job<'_> {
 /// What a thread keeps from tile to tile; only memory, never values.
 #[derive(Default)]
 pub struct Scratch {
+    /// The objects that eye rays may meet.
+    pub visible: Vec<u32>,
     grid: Grid,
     /// Squares to look at, by level.
     work: [Vec<(u16, u16)>; LEVELS],

@@ -27,7 +27,7 @@ use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
 use guard::Guard;
 use packet::{Context, Limits};
-use std::cell::RefCell;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use texture::Variation;
 use view::View;
 use world::{SURFACE, World};
@@ -81,29 +81,42 @@ impl Traced {
     }
 }
 
-thread_local! {
-    static SCRATCH: RefCell<(Scratch, Vec<u32>)> = RefCell::default();
+/// Memory that tiles leave to the next ones, as much as threads have needed at a time. Not a thread's own: that would take
+/// 3 kB of code to be set up and given back.
+static SPARE: Mutex<Vec<Scratch>> = Mutex::new(Vec::new());
+
+fn spare() -> MutexGuard<'static, Vec<Scratch>> {
+    SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Layer for Traced {
-    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+impl Traced {
+    /// Draws a tile; returns the number of eye rays and the memory that it took.
+    fn draw_in(&self, level: Level, tile: &mut Tile) -> (u64, Scratch) {
         let Traced { world, surfaces, all, variation, view, guard, quality } = self;
         let Quality { min_weight, min_detail, light_samples, .. } = *quality;
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
         let (min_weight, min_detail) = (min_weight / brightest, min_detail / brightest);
         let limits = Limits { min_weight, min_detail, light_samples };
-        let samples = SCRATCH.with_borrow_mut(|(scratch, visible)| {
-            self.visible(tile, visible);
-            let context = Context { world, surfaces, view, visible, all, limits };
-            let job = Job { context, variation, guard, quality };
-            dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch))
-        });
+        let mut scratch = spare().pop().unwrap_or_default();
+        let mut visible = std::mem::take(&mut scratch.visible);
+        self.visible(tile, &mut visible);
+        let context = Context { world, surfaces, view, visible: &visible, all, limits };
+        let job = Job { context, variation, guard, quality };
+        let samples = dispatch!(level, simd => adaptive::draw(simd, &job, tile, &mut scratch));
+        scratch.visible = visible;
+        (samples, scratch)
+    }
+}
+
+impl Layer for Traced {
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        let (samples, scratch) = self.draw_in(level, tile);
+        spare().push(scratch);
         Stats { samples }
     }
 
     fn positions(&self, level: Level, tile: &mut Tile) -> Vec<(f32, f32)> {
-        self.draw(level, tile);
-        SCRATCH.with_borrow(|(scratch, _)| scratch.positions().collect())
+        self.draw_in(level, tile).1.positions().collect()
     }
 }
