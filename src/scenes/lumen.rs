@@ -102,7 +102,7 @@ fn table(time: f32, _: f32) -> World {
     set.block(vec3(0.0, -0.2, -1.0), vec3(7.0, 0.2, 5.6), &top);
     set.ball(vec3(-0.4, 1.0, 0.0), 1.0, &GLASS);
     for i in 0..7 {
-        let k = i as f32;
+        let k = i as u32 as f32;
         let foot = vec3(1.6 * k - 4.6, 0.0, -5.4);
         set.marbled(i, foot, 2.1 + 1.2 * (k * 0.7 + 0.5 * time).sin(), 0.45, 0.3 * k);
     }
@@ -141,8 +141,8 @@ fn columns(time: f32, _: f32) -> World {
     set.floor(&FLOOR);
     for side in [-2.6, 2.6] {
         for i in 0..6 {
-            let foot = vec3(side, 0.0, 1.0 - 3.4 * i as f32);
-            set.marbled(i, foot, 5.4, 0.55, side * 0.2 * time + i as f32);
+            let foot = vec3(side, 0.0, 1.0 - 3.4 * i as u32 as f32);
+            set.marbled(i, foot, 5.4, 0.55, side * 0.2 * time + i as u32 as f32);
         }
         set.block(vec3(side, 5.8, -7.5), vec3(0.7, 0.4, 10.0), &BEAM);
     }
@@ -180,13 +180,13 @@ fn dance(time: f32, _: f32) -> World {
     set.ball(vec3(0.0, 1.5 + 0.12 * (1.1 * time).sin(), 0.0), 0.9, &GLASS);
     set.backdrop(Shape::Sphere { center: moon * 90.0, radius: 6.0 }, &MOON);
     for i in 0..9 {
-        let (ring, k) = (i % 3, i as f32);
+        let (ring, k) = (i % 3, i as u32 as f32);
         let (radius, speed, size) = [(1.9, 0.55, 0.3), (3.2, -0.4, 0.42), (4.5, 0.28, 0.34)][ring];
-        let (sin, cos) = ((i / 3) as f32 * 2.0944 + ring as f32 + speed * time).sin_cos();
+        let (sin, cos) = ((i / 3) as u32 as f32 * 2.0944 + ring as u32 as f32 + speed * time).sin_cos();
         let height = size + 0.5 * (1.3 * time + k * 1.7).sin().abs();
         let center = vec3(radius * cos, height, radius * sin);
         let texture = [RED, WHITE, GREEN][(i / 3 + ring) % 3].on(center, Mat3::from_rotation_x(time + k));
-        set.ball(center, size, &matt(texture).polished(0.35 * (i % 2) as f32, 0.5, 50.0));
+        set.ball(center, size, &matt(texture).polished(0.35 * (i % 2) as u32 as f32, 0.5, 50.0));
     }
     set.lamp(vec3(1.5, 5.5, -2.0), vec3(1.2, 0.95, 0.65), 0.4);
     set.sunlight(moon, vec3(0.1, 0.2, 0.42));

@@ -73,7 +73,7 @@ pub struct Scratch {
 /// Draws a tile; returns the number of eye rays.
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-    scratch.grid.begin();
+    scratch.grid.begin(job, tile);
     scratch.deferred.begin(job.context.world.objects.len(), job.quality.subpixel > 0);
     tile.clear();
     let count = if job.quality.cell > 1 {
@@ -100,14 +100,14 @@ impl Scratch {
 fn every_pixel<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
     let Scratch { grid, deferred, .. } = scratch;
     let across = job.quality.grid;
-    let share = 1.0 / (across * across) as f32;
-    let step = 1.0 / across as f32;
+    let share = 1.0 / (across * across) as u32 as f32;
+    let step = 1.0 / across as u32 as f32;
     for y in 0..tile.height {
         grid.clear();
         for x in 0..tile.width {
             for n in 0..across * across {
-                let (dx, dy) = (((n % across) as f32 + 0.5) * step, ((n / across) as f32 + 0.5) * step);
-                grid.want_at((tile.x + x) as f32 + dx, (tile.y + y) as f32 + dy);
+                let (dx, dy) = (((n % across) as u32 as f32 + 0.5) * step, ((n / across) as u32 as f32 + 0.5) * step);
+                grid.want_at((tile.x + x) as u32 as f32 + dx, (tile.y + y) as u32 as f32 + dy);
             }
         }
         grid.trace(simd, job);
@@ -140,15 +140,15 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
             let squares = std::mem::take(&mut work[level]);
             for &(x, y) in &squares {
                 let (x, y) = (x as usize, y as usize);
-                grid.want(job, tile, x, y);
+                grid.want(x, y);
                 if size == 1 && unit == 1 {
                     continue;
                 }
-                grid.want(job, tile, x + size, y);
-                grid.want(job, tile, x, y + size);
-                grid.want(job, tile, x + size, y + size);
+                grid.want(x + size, y);
+                grid.want(x, y + size);
+                grid.want(x + size, y + size);
                 if size > unit || unit == 1 {
-                    grid.want(job, tile, x + size / 2, y + size / 2);
+                    grid.want(x + size / 2, y + size / 2);
                 }
             }
             grid.trace(simd, job);
@@ -291,7 +291,7 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
         let (hit, guess) = (&found[at..at + HIT], &foretold[at..at + HIT]);
         let shift = distance(&point(hit), &point(guess));
         let (first, last) = (point(&c[0].numbers[at..at + HIT]), point(&c[3].numbers[at..at + HIT]));
-        let pixel = distance(&first, &last) / size as f32;
+        let pixel = distance(&first, &last) / size as u32 as f32;
         let Variation { contrast, slope } = job.variation[centre.object[n] as usize];
         // A texture finer than pixels may be displaced by a part of one.
         let texture = (slope * shift).min(contrast * SUBPIXEL * shift / pixel.max(1e-20)).min(contrast);

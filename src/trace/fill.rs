@@ -89,12 +89,12 @@ impl Ramps {
             let count = BLOCK.min(size * size);
             ramps.clear();
             for first in (0..size * size).step_by(count) {
-                let step = 1.0 / size as f32;
+                let step = 1.0 / size as u32 as f32;
                 let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, step };
                 for i in 0..count {
                     let (x, y) = ((first + i) % size, (first + i) / size);
-                    ramp.u[i] = (x as f32 + offset) / size as f32;
-                    ramp.v[i] = (y as f32 + offset) / size as f32;
+                    ramp.u[i] = (x as u32 as f32 + offset) / size as u32 as f32;
+                    ramp.v[i] = (y as u32 as f32 + offset) / size as u32 as f32;
                     ramp.pixel[i] = (y * Tile::SIZE + x) as u16;
                 }
                 ramps.push(ramp);

@@ -26,6 +26,9 @@ pub struct Grid {
     /// For each lattice point the generation that traced it and its sample.
     lattice: Vec<(u32, u32)>,
     generation: u32,
+    /// Where the lattice begins, pixels of the picture, and its steps.
+    first: (f32, f32),
+    step: f32,
     /// The first `count` are of this tile.
     samples: Vec<Sample>,
     count: usize,
@@ -35,8 +38,12 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Forgets the last tile.
-    pub fn begin(&mut self) {
+    /// Forgets the last tile, for one of a job.
+    pub fn begin(&mut self, job: &Job, tile: &Tile) {
+        // Corners are centres of pixels, or corners of them.
+        let offset = if job.quality.subpixel == 0 { 0.5 } else { 0.0 };
+        self.first = (tile.x as u32 as f32 + offset, tile.y as u32 as f32 + offset);
+        self.step = 1.0 / job.unit() as u32 as f32;
         self.lattice.resize(LATTICE * LATTICE, (0, 0));
         self.generation = self.generation.wrapping_add(1).max(1);
         self.clear();
@@ -50,13 +57,12 @@ impl Grid {
     }
 
     /// Asks for the sample at a lattice point, if it is not there yet.
-    pub fn want(&mut self, job: &Job, tile: &Tile, x: usize, y: usize) {
+    pub fn want(&mut self, x: usize, y: usize) {
         let entry = &mut self.lattice[y * LATTICE + x];
         if entry.0 != self.generation {
             *entry = (self.generation, self.xs.len() as u32);
-            let (step, offset) = if job.quality.subpixel == 0 { (1.0, 0.5) } else { (1.0 / job.unit() as f32, 0.0) };
-            self.xs.push(tile.x as f32 + x as f32 * step + offset);
-            self.ys.push(tile.y as f32 + y as f32 * step + offset);
+            self.xs.push(self.first.0 + x as u32 as f32 * self.step);
+            self.ys.push(self.first.1 + y as u32 as f32 * self.step);
         }
     }
 

@@ -149,10 +149,11 @@ impl Guard {
 
 /// The blocks, up to `end`, that a ball's picture may touch along one axis.
 fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
-    let block = |pixel: f32| (pixel / BLOCK as f32).floor().clamp(-1.0, end as f32);
-    let (low, high) = (block(at - radius - 1.0), block(at + radius + 1.0) + 1.0);
-    let low = low.max(0.0) as usize;
-    (low, (high.clamp(0.0, end as f32) as usize).max(low))
+    let end = end as i32;
+    let block = |pixel: f32| (pixel / BLOCK as f32).floor().clamp(-1.0, end as f32) as i32;
+    let low = block(at - radius - 1.0).max(0);
+    let high = (block(at + radius + 1.0) + 1).clamp(low, end.max(low));
+    (low as usize, high as usize)
 }
 
 /// Balls that cover a body and are no wider than it, except for plates; none for planes and globes.

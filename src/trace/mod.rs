@@ -57,7 +57,7 @@ impl Traced {
     /// The objects that eye rays through a tile may meet: by the angle between the tile's middle and their bounds.
     fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
         let eye = self.view.camera().eye;
-        let (x, y) = (tile.x as f32, tile.y as f32);
+        let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
         let half = Tile::SIZE as f32 * 0.5;
         let middle = self.view.ray(x + half, y + half).normalize();
         // Corners of the grid reach one pixel beyond the tile.

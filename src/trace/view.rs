@@ -17,8 +17,8 @@ pub struct View {
 impl View {
     /// The view of a camera on a picture of that many pixels.
     pub fn new(camera: Camera, width: usize, height: usize) -> View {
-        let pixel = 2.0 / height as f32;
-        View { camera, pixel, half: (width as f32 / height as f32, 1.0) }
+        let pixel = 2.0 / height as u32 as f32;
+        View { camera, pixel, half: (width as u32 as f32 / height as u32 as f32, 1.0) }
     }
 
     /// The camera.
