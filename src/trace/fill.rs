@@ -25,6 +25,8 @@ pub fn add<S: Simd>(
     footprint: &[f32; REMEMBERED],
 ) {
     let [red, green, blue, closeness, ..] = sample.numbers;
+    // Inside, and now the compiler knows.
+    let pixel = pixel & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
@@ -243,7 +245,7 @@ pub fn interpolate<S: Simd>(
         for (plane, values) in planes.into_iter().zip(&plain) {
             // Added, not set: a queue of textures may have been emptied into these pixels already.
             for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
-                plane[first + *offset as usize] += value;
+                plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
             }
         }
         if tile.solids_matter {
