@@ -1,41 +1,47 @@
 //! Where the bytes of an executable go, at a stand-in for the packer's costs:
-//! `cargo run --release -p pack --example sizes -- FILE [--self] [--functions N] [--lines N]`.
+//! `cargo run --release -p pack --example sizes -- FILE [--self] [--functions N] [--within N] [--lines N]`.
 //! The file must have symbols and lines: build with `-Cdebuginfo=1`, unstripped.
 
 use std::collections::HashMap;
 
 use object::read::elf::ElfFile64;
 use object::{Object, ObjectSection, ObjectSegment};
-use pack::table::{Profile, View, markdown};
+use pack::table::{Profile, View, lines, markdown};
+
+const USAGE: &str = "usage: sizes FILE [--self] [--functions N] [--within N] [--lines N]";
 
 fn main() -> Result<(), String> {
     let mut args = std::env::args().skip(1);
-    let mut file = None;
-    let mut views = vec![(View::Owner, usize::MAX)];
+    let mut path = None;
+    let mut whole = View::Owner;
+    let mut tops = Vec::new();
     while let Some(arg) = args.next() {
         let view = match &*arg {
+            "--functions" => View::Function,
+            "--within" => View::Within,
+            "--lines" => View::Line,
             "--self" => {
-                views[0].0 = View::Inner;
+                whole = View::Inner;
                 continue;
             }
-            "--functions" => View::Function,
-            "--lines" => View::Line,
-            path => {
-                file = Some(path.to_string());
+            _ => {
+                path = Some(arg);
                 continue;
             }
         };
-        let count = args.next().and_then(|n| n.parse().ok()).ok_or("how many?")?;
-        views.push((view, count));
+        let count: usize = args.next().and_then(|n| n.parse().ok()).ok_or(format!("{arg} wants a number"))?;
+        tops.push((view, count));
     }
-    let path = file.ok_or("usage: sizes FILE [--self] [--functions N] [--lines N]")?;
+    let path = path.ok_or(USAGE)?;
     let elf = std::fs::read(&path).map_err(|e| format!("{path}: {e}"))?;
     let costs = costs(&elf)?;
+    let bits = |at: u64| costs.get(&at).copied();
     let profile = Profile::read(&elf)?;
-    for (view, count) in views {
-        let mut rows = profile.rows(view, &|at| costs.get(&at).copied());
+    println!("{}", markdown(&profile.rows(whole, &bits)));
+    for (view, count) in tops {
+        let mut rows = profile.rows(view, &bits);
         rows.truncate(count);
-        println!("{}", markdown(&rows));
+        println!("{}", lines(&rows));
     }
     Ok(())
 }

@@ -5,6 +5,7 @@
 
 mod code;
 mod data;
+mod name;
 mod place;
 
 use std::collections::HashMap;
@@ -12,7 +13,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use object::read::elf::ElfFile64;
-use object::{Object, ObjectSection, ObjectSegment, SectionKind};
+use object::{Object, ObjectSegment};
 
 /// One line of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,12 +29,14 @@ pub struct Row {
 /// Who pays for a byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum View {
-    /// The innermost place of ours, else of the innermost crate above `core`: what a feature costs.
+    /// The innermost place that is not glue: what a feature costs.
     Owner,
     /// The innermost place, whoever wrote it: what `core` and the SIMD wrappers add everywhere.
     Inner,
-    /// The outermost function of ours, as it stands in the file, else the outermost.
+    /// The outermost function of ours, else the outermost: what stands in the file.
     Function,
+    /// Every function of the stack, whatever its types. Bytes count several times, so there is no total.
+    Within,
     /// The line of the owner.
     Line,
 }
@@ -43,7 +46,6 @@ pub enum View {
 struct Site {
     /// `paprsek::trace::packet`, or a crate.
     module: Rc<str>,
-    /// With its types.
     function: Rc<str>,
     file: Rc<str>,
     line: u32,
@@ -51,7 +53,8 @@ struct Site {
 }
 
 impl Site {
-    fn nameless(module: &str) -> Self {
+    /// A place outside of the source.
+    fn nowhere(module: &str) -> Self {
         let name: Rc<str> = module.into();
         Self { module: name.clone(), function: name.clone(), file: name, line: 0, ours: false }
     }
@@ -60,62 +63,78 @@ impl Site {
 /// The places of a byte, innermost first; never empty.
 type Stack = Rc<[Site]>;
 
-/// What is glue wherever it stands: it does the work of its caller.
-const GLUE: [&str; 3] = ["core", "alloc", "fearless_simd"];
+/// Addresses with their places.
+type Piece = (Range<u64>, Stack);
+
+/// The language, which does the work of its caller; so do these crates wherever they stand.
+const LANGUAGE: [&str; 3] = ["core", "core_arch", "alloc"];
+const WRAPPERS: [&str; 4] = ["std", "fearless_simd", "glam", "once_cell"];
+
+fn is_glue(site: &Site) -> bool {
+    LANGUAGE.contains(&&*site.module) || WRAPPERS.contains(&&*site.module)
+}
 
 fn owner(stack: &[Site]) -> &Site {
-    let above_core = || stack.iter().find(|s| !GLUE.contains(&&*s.module));
-    stack.iter().find(|s| s.ours).or_else(above_core).unwrap_or_else(|| &stack[stack.len() - 1])
+    let wrapper = || stack.iter().find(|s| !LANGUAGE.contains(&&*s.module));
+    stack.iter().find(|s| !is_glue(s)).or_else(wrapper).unwrap_or_else(|| outermost(stack))
+}
+
+fn outermost(stack: &[Site]) -> &Site {
+    &stack[stack.len() - 1]
 }
 
 impl View {
-    fn name(self, stack: &[Site]) -> String {
-        match self {
+    fn names(self, stack: &[Site]) -> Vec<String> {
+        let name = match self {
             View::Owner => owner(stack).module.to_string(),
             View::Inner => stack[0].module.to_string(),
             View::Function => {
-                stack.iter().rfind(|s| s.ours).unwrap_or(&stack[stack.len() - 1]).function.to_string()
+                let ours = stack.iter().rfind(|s| s.ours);
+                ours.unwrap_or_else(|| outermost(stack)).function.to_string()
+            }
+            View::Within => {
+                let mut names: Vec<_> = stack.iter().map(|s| name::without_types(&s.function)).collect();
+                names.sort();
+                names.dedup();
+                return names;
             }
             View::Line => {
                 let Site { file, line, .. } = owner(stack);
                 format!("{file}:{line}")
             }
-        }
+        };
+        vec![name]
     }
 }
 
 /// Every loaded byte of a program and the places that it comes from.
 pub struct Profile {
-    pieces: Vec<(Range<u64>, Stack)>,
+    pieces: Vec<Piece>,
 }
 
 impl Profile {
     /// Reads an executable that still has its symbols and its lines (`-Cdebuginfo=1`).
     pub fn read(elf: &[u8]) -> Result<Self, String> {
         let file = ElfFile64::parse(elf).map_err(|e| e.to_string())?;
-        let text = |s: &_| ObjectSection::kind(s) == SectionKind::Text && ObjectSection::name(s) == Ok(".text");
-        let text = file.sections().find(text).ok_or("no .text")?;
-        let mut code = code::Code::read(&file, &text)?;
-        let mut pieces = std::mem::take(&mut code.pieces);
-        pieces.extend(data::pieces(&file, code));
-        pieces.sort_by_key(|(range, _)| range.start);
+        let mut code = code::Code::read(&file)?;
+        let mut claimed = data::pieces(&file, &mut code);
+        claimed.extend(code.pieces);
+        claimed.sort_by_key(|(range, _)| range.start);
 
-        // What nobody claims among the loaded bytes is there for the loader.
-        let linking: Stack = [Site::nameless("linking")].into();
-        let mut whole = Vec::new();
+        // What nobody claims of the loaded bytes is there for the loader.
+        let linking: Stack = [Site::nowhere("linking")].into();
+        let mut pieces = Vec::new();
         for segment in file.segments() {
-            let (start, length) = (segment.address(), segment.file_range().1);
-            let mut at = start;
-            let inside = |range: &Range<u64>| range.start >= start && range.end <= start + length;
-            for (range, stack) in pieces.iter().filter(|(range, _)| inside(range)) {
-                whole.push((at..range.start, linking.clone()));
-                whole.push((range.clone(), stack.clone()));
+            let mut at = segment.address();
+            let end = at + segment.file_range().1;
+            for (range, stack) in claimed.iter().filter(|(r, _)| segment.address() <= r.start && r.end <= end) {
+                pieces.push((at..range.start, linking.clone()));
+                pieces.push((range.clone(), stack.clone()));
                 at = range.end;
             }
-            whole.push((at..start + length, linking.clone()));
+            pieces.push((at..end, linking.clone()));
         }
-        whole.retain(|(range, _)| !range.is_empty());
-        Ok(Self { pieces: whole })
+        Ok(Self { pieces })
     }
 
     /// The table of a view, dearest first. `bits` is the cost of the byte at an address,
@@ -123,10 +142,11 @@ impl Profile {
     pub fn rows(&self, view: View, bits: &dyn Fn(u64) -> Option<f32>) -> Vec<Row> {
         let mut sums: HashMap<String, (u64, f64)> = HashMap::new();
         for (range, stack) in &self.pieces {
-            let sum = sums.entry(view.name(stack)).or_default();
-            for cost in range.clone().filter_map(bits) {
-                sum.0 += 1;
-                sum.1 += f64::from(cost) / 8.0;
+            let costs = range.clone().filter_map(bits);
+            let (bytes, packed) = costs.fold((0, 0.0), |(n, sum), cost| (n + 1, sum + f64::from(cost) / 8.0));
+            for name in view.names(stack) {
+                let sum = sums.entry(name).or_default();
+                *sum = (sum.0 + bytes, sum.1 + packed);
             }
         }
         let mut rows: Vec<_> = sums.into_iter().map(|(name, (bytes, packed))| Row { name, bytes, packed }).collect();
@@ -141,15 +161,21 @@ pub fn by_module(elf: &[u8], bits: &dyn Fn(u64) -> Option<f32>) -> Result<Vec<Ro
     Ok(Profile::read(elf)?.rows(View::Owner, bits))
 }
 
-/// The table as Markdown, with its total. The rounded column adds up to the rounded total.
+/// Rows as a table in Markdown, with their total. The rounded column adds up to the rounded total.
 pub fn markdown(rows: &[Row]) -> String {
+    let bytes: u64 = rows.iter().map(|r| r.bytes).sum();
+    let packed: f64 = rows.iter().map(|r| r.packed).sum();
+    format!("{}| total | {bytes} | {} |\n", lines(rows), packed.round())
+}
+
+/// Rows as a table in Markdown, without a total.
+pub fn lines(rows: &[Row]) -> String {
     let mut text = String::from("| what | bytes | packed |\n|---|---:|---:|\n");
-    let (mut bytes, mut packed) = (0, 0.0);
+    let mut packed: f64 = 0.0;
     for row in rows {
-        let before = f64::round(packed);
-        bytes += row.bytes;
+        let before = packed.round();
         packed += row.packed;
         text += &format!("| {} | {} | {} |\n", row.name, row.bytes, packed.round() - before);
     }
-    text + &format!("| total | {bytes} | {} |\n", packed.round())
+    text
 }

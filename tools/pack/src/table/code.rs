@@ -1,7 +1,6 @@
-//! The places of every instruction, and what it refers to.
+//! The places of every instruction, and the addresses that it names.
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::rc::Rc;
 
 use addr2line::Context;
@@ -11,70 +10,64 @@ use object::read::elf::ElfFile64;
 use object::{Object, ObjectSection, ObjectSymbol};
 
 use super::place::Home;
-use super::{GLUE, Site, Stack};
+use super::{Piece, Site, Stack, is_glue, name, outermost};
 
 type Slice<'a> = EndianSlice<'a, LittleEndian>;
 
 /// What the code says about itself and about data.
 pub struct Code {
-    pub pieces: Vec<(Range<u64>, Stack)>,
+    pub pieces: Vec<Piece>,
     /// Addresses in operands, in the order of the code, and who names them.
     pub references: Vec<(u64, Stack)>,
     pub names: Names,
 }
 
-/// Files and symbols to places.
-pub struct Names {
-    home: Home,
-    files: HashMap<String, (Rc<str>, Rc<str>, bool)>,
-    functions: HashMap<String, Rc<str>>,
-    modules: HashSet<Rc<str>>,
-}
-
 impl Code {
-    /// Walks over the instructions of a section.
-    pub fn read<'a>(file: &ElfFile64<'a>, text: &impl ObjectSection<'a>) -> Result<Self, String> {
+    /// Walks over the instructions.
+    pub fn read(file: &ElfFile64) -> Result<Self, String> {
         let error = |e: gimli::Error| e.to_string();
         let load = |id: gimli::SectionId| {
             let bytes = file.section_by_name(id.name()).and_then(|s| s.data().ok()).unwrap_or(&[]);
             Ok(EndianSlice::new(bytes, LittleEndian))
         };
         let dwarf = Dwarf::load(load).map_err(error)?;
-        let home = home(&dwarf).map_err(error)?.ok_or("no debug information of a crate: build with -Cdebuginfo=1")?;
+        let home = home(&dwarf).map_err(error)?.ok_or("no lines of Rust: build with -Cdebuginfo=1, unstripped")?;
         let context = Context::from_dwarf(dwarf).map_err(error)?;
-        let names = Names { home, files: HashMap::new(), functions: HashMap::new(), modules: HashSet::new() };
-        let mut code = Code { pieces: Vec::new(), references: Vec::new(), names };
+        let mut names = Names::new(home);
 
-        let symbols: HashMap<u64, &str> =
-            file.symbols().filter_map(|s| Some((s.address(), s.name().ok().filter(|n| !n.is_empty())?))).collect();
+        let named = |s: object::read::elf::ElfSymbol64<'_, '_, _>| Some((s.address(), s.name().ok()?.to_string()));
+        let symbols: HashMap<u64, String> = file.symbols().filter_map(named).filter(|(_, n)| !n.is_empty()).collect();
+        let text = file.section_by_name(".text").ok_or("no .text")?;
         let bytes = text.data().map_err(|e| e.to_string())?;
-        let mut decoder = Decoder::with_ip(64, bytes, text.address(), DecoderOptions::NONE);
-        let mut stack: Stack = [Site::nameless("linking")].into();
-        let mut instruction = Instruction::default();
-        while decoder.can_decode() {
-            decoder.decode_out(&mut instruction);
-            let at = instruction.ip();
-            let sites = code.names.sites(&context, at).map_err(error)?;
+
+        let (mut pieces, mut references) = (Vec::<Piece>::new(), Vec::new());
+        let mut stack: Stack = [Site::nowhere("linking")].into();
+        for instruction in Decoder::with_ip(64, bytes, text.address(), DecoderOptions::NONE).iter() {
+            let (start, end) = (instruction.ip(), instruction.next_ip());
+            let sites = names.sites(&context, start).map_err(error)?;
             if !sites.is_empty() {
-                if *sites != *stack {
+                if sites != *stack {
                     stack = sites.into();
                 }
-            } else if let Some(symbol) = symbols.get(&at) {
-                stack = [code.names.symbol(symbol)].into();
+            } else if let Some(symbol) = symbols.get(&start) {
+                stack = [names.symbol(symbol)].into();
             } // else it pads what stands before it
-            match code.pieces.last_mut() {
-                Some((range, last)) if Rc::ptr_eq(last, &stack) => range.end = instruction.next_ip(),
-                _ => code.pieces.push((at..instruction.next_ip(), stack.clone())),
+            match pieces.last_mut() {
+                Some((range, last)) if Rc::ptr_eq(last, &stack) => range.end = end,
+                _ => pieces.push((start..end, stack.clone())),
             }
-            code.references.extend(addresses(&instruction).map(|to| (to, stack.clone())));
+            references.extend(addresses(&instruction).map(|to| (to, stack.clone())));
         }
-        for (_, stack) in &mut code.pieces {
-            code.names.name_glue(stack);
+
+        // Only now all modules and crates are known by their files.
+        for stack in pieces.iter_mut().map(|p| &mut p.1).chain(references.iter_mut().map(|r| &mut r.1)) {
+            if stack.iter().all(is_glue)
+                && let Some(site) = names.client(outermost(stack))
+            {
+                *stack = stack.iter().cloned().chain([site]).collect();
+            }
         }
-        for (_, stack) in &mut code.references {
-            code.names.name_glue(stack);
-        }
-        Ok(code)
+        Ok(Code { pieces, references, names })
     }
 }
 
@@ -88,29 +81,47 @@ fn addresses(instruction: &Instruction) -> impl Iterator<Item = u64> {
     })
 }
 
-/// Our crate is the one whose root has a relative path; its name stands behind it (`src/main.rs/@/paprsek.1606-cgu.0`).
+/// Our crate is the one whose root has the shortest relative path; its name stands behind the path, as in
+/// `src/main.rs/@/paprsek.1606792f32def728-cgu.0`.
 fn home(dwarf: &Dwarf<Slice>) -> Result<Option<Home>, gimli::Error> {
+    let mut found: Option<(usize, Home)> = None;
     let mut units = dwarf.units();
     while let Some(header) = units.next()? {
         let unit = dwarf.unit(header)?;
         let mut entries = unit.entries();
-        let Some(root) = entries.next_dfs()? else { continue };
-        let text = |at| -> Result<String, gimli::Error> {
-            let Some(value) = root.attr_value(at) else { return Ok(String::new()) };
-            Ok(dwarf.attr_string(&unit, value)?.to_string_lossy().into_owned())
+        let Some(entry) = entries.next_dfs()? else { continue };
+        let text = |at| match entry.attr_value(at) {
+            Some(value) => Ok::<_, gimli::Error>(dwarf.attr_string(&unit, value)?.to_string_lossy().into_owned()),
+            None => Ok(String::new()),
         };
         let name = text(DW_AT_name)?;
-        if let Some((path, unit)) = name.split_once("/@/")
-            && path.starts_with("src/")
-        {
-            let name = unit.split('.').next().unwrap_or(unit).to_string();
-            return Ok(Some(Home { root: text(DW_AT_comp_dir)?, name }));
+        let Some((path, name)) = name.split_once("/@/").filter(|(path, _)| !path.starts_with('/')) else { continue };
+        let Some(folder) = path.strip_suffix("src/main.rs").or_else(|| path.strip_suffix("src/lib.rs")) else {
+            continue;
+        };
+        if found.as_ref().is_none_or(|(length, _)| folder.len() < *length) {
+            let root = format!("{}/{folder}", text(DW_AT_comp_dir)?).trim_end_matches('/').to_string();
+            found = Some((folder.len(), Home { root, name: name.split('.').next().unwrap_or(name).to_string() }));
         }
     }
-    Ok(None)
+    Ok(found.map(|(_, home)| home))
+}
+
+/// Files and symbols to places.
+pub struct Names {
+    home: Home,
+    /// Short name, module, and whether it is ours, by path.
+    files: HashMap<String, (Rc<str>, Rc<str>, bool)>,
+    functions: HashMap<String, Rc<str>>,
+    /// Modules of ours, and crates.
+    modules: HashSet<Rc<str>>,
 }
 
 impl Names {
+    fn new(home: Home) -> Self {
+        Self { home, files: HashMap::new(), functions: HashMap::new(), modules: HashSet::new() }
+    }
+
     fn sites(&mut self, context: &Context<Slice>, at: u64) -> Result<Vec<Site>, gimli::Error> {
         let mut frames = context.find_frames(at).skip_all_loads()?;
         let mut sites = Vec::new();
@@ -128,60 +139,41 @@ impl Names {
             return known.clone();
         }
         let (module, ours) = self.home.module(path);
-        let short = path.strip_prefix(&*self.home.root).unwrap_or(path).trim_start_matches('/');
-        let short = short.rsplit_once("/index.crates.io-").and_then(|(_, f)| f.split_once('/')).map_or(short, |f| f.1);
-        let known: (Rc<str>, Rc<str>, bool) = (short.into(), module.into(), ours);
-        if ours {
-            self.modules.insert(known.1.clone());
-        }
+        let known: (Rc<str>, Rc<str>, bool) = (self.home.short(path).into(), module.into(), ours);
+        self.modules.insert(known.1.clone());
         self.files.insert(path.into(), known.clone());
         known
     }
 
     fn function(&mut self, raw: &str) -> Rc<str> {
-        if !self.functions.contains_key(raw) {
-            let name = format!("{:#}", rustc_demangle::demangle(raw));
-            self.functions.insert(raw.into(), name.into());
+        if let Some(known) = self.functions.get(raw) {
+            return known.clone();
         }
-        self.functions[raw].clone()
+        let name: Rc<str> = format!("{:#}", rustc_demangle::demangle(raw)).into();
+        self.functions.insert(raw.into(), name.clone());
+        name
     }
 
     /// The place of a symbol without lines: a static, or a function of C.
     pub fn symbol(&mut self, raw: &str) -> Site {
         let function = self.function(raw);
-        if *function == *raw {
-            return Site { function, ..Site::nameless("linking") };
-        }
-        let name = krate(&function);
-        let found = (name == self.home.name).then(|| self.module_named(&function)).flatten();
-        let (module, ours) = found.map_or((name.into(), false), |module| (module, true));
+        let module = name::paths(&function).next().and_then(|path| self.module(path));
+        let (module, ours) = module.unwrap_or_else(|| ("linking".into(), false));
         Site { file: function.clone(), module, function, line: 0, ours }
     }
 
-    /// The module of ours that stands first in a name.
-    fn module_named(&self, name: &str) -> Option<Rc<str>> {
-        let path = &name[name.find(&format!("{}::", self.home.name))?..];
-        let end = path.find(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').unwrap_or(path.len());
-        let whole = path[..end].trim_end_matches(':');
-        let mut paths = std::iter::successors(Some(whole), |path| Some(path.rsplit_once("::")?.0));
-        paths.find_map(|path| self.modules.get(path).cloned())
+    /// Glue that stands alone works for the crate among its types, for ours before others.
+    fn client(&self, glue: &Site) -> Option<Site> {
+        let sites = name::paths(&glue.function).filter_map(|path| self.module(path));
+        let sites = sites.map(|(module, ours)| Site { module, ours, ..glue.clone() });
+        let clients: Vec<_> = sites.filter(|site| !is_glue(site)).collect();
+        clients.iter().find(|site| site.ours).or(clients.first()).cloned()
     }
 
-    /// Glue that was not inlined belongs to the module of ours among its types.
-    fn name_glue(&self, stack: &mut Stack) {
-        if !stack.iter().all(|s| GLUE.contains(&&*s.module)) {
-            return;
-        }
-        let last = &stack[stack.len() - 1];
-        if let Some(module) = self.module_named(&last.function) {
-            let site = Site { module, ours: true, ..last.clone() };
-            *stack = stack.iter().cloned().chain([site]).collect();
-        }
+    /// The module of ours that a path is in, else its crate.
+    fn module(&self, path: &str) -> Option<(Rc<str>, bool)> {
+        let ours = name::krate(path) == self.home.name;
+        let mut shorter = std::iter::successors(Some(path), |path| Some(path.rsplit_once("::")?.0));
+        Some((shorter.find_map(|path| self.modules.get(path))?.clone(), ours))
     }
-}
-
-/// The crate that a demangled name begins with.
-fn krate(name: &str) -> &str {
-    let name = name.trim_start_matches(|c: char| !c.is_alphanumeric() && c != '_');
-    name.split("::").next().unwrap_or(name)
 }

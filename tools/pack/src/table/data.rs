@@ -7,7 +7,7 @@ use object::read::elf::ElfFile64;
 use object::{Object, ObjectSection, ObjectSymbol};
 
 use super::code::Code;
-use super::{Site, Stack};
+use super::{Piece, Site, Stack};
 
 /// Starts of pieces and who pays for them, as far as is known.
 type Starts = BTreeMap<u64, Option<Stack>>;
@@ -24,7 +24,7 @@ impl Section<'_> {
 }
 
 /// Every byte of the sections of data.
-pub fn pieces(file: &ElfFile64, mut code: Code) -> Vec<(Range<u64>, Stack)> {
+pub fn pieces(file: &ElfFile64, code: &mut Code) -> Vec<Piece> {
     let data = [".rodata", ".data", ".tdata"];
     let holds_data = |name: &str| data.iter().any(|d| name == *d || name.starts_with(&format!("{d}.")));
     let sections: Vec<_> = file
@@ -44,13 +44,13 @@ pub fn pieces(file: &ElfFile64, mut code: Code) -> Vec<(Range<u64>, Stack)> {
         named.push(range);
     }
     let free = |at: u64| inside(at) && !named.iter().any(|r| r.contains(&at));
-    for (at, stack) in code.references.into_iter().filter(|(at, _)| free(*at)) {
-        starts.entry(at).or_insert(None).get_or_insert(stack);
+    for (at, stack) in code.references.iter().filter(|(at, _)| free(*at)) {
+        starts.entry(*at).or_insert(None).get_or_insert_with(|| stack.clone());
     }
     follow_pointers(&sections, &mut starts, &free);
 
     let mut pieces = Vec::new();
-    let unknown: Stack = [Site::nameless("data")].into();
+    let unknown: Stack = [Site::nowhere("data")].into();
     for section in &sections {
         let mut inner = starts.range(section.address..section.end()).peekable();
         while let Some((&start, stack)) = inner.next() {

@@ -7,32 +7,39 @@ pub struct Home {
 }
 
 impl Home {
-    /// The module of a file and whether it is ours.
+    /// The module of a file, and whether it is ours.
     pub fn module(&self, file: &str) -> (String, bool) {
-        let inside = file.strip_prefix(&*self.root).map(|f| f.trim_start_matches('/'));
-        if let Some(path) = inside.unwrap_or(file).strip_prefix("src/") {
-            let path = path.strip_suffix(".rs").unwrap_or(path);
-            let path = path.strip_suffix("/mod").unwrap_or(path);
-            let ours = if path == "lib" { String::new() } else { format!("::{}", path.replace('/', "::")) };
-            return (self.name.clone() + &ours, true);
-        }
-        (krate(inside.unwrap_or(file)), false)
+        let Some(path) = self.inside(file).strip_prefix("src/") else { return (krate(self.inside(file)), false) };
+        let path = path.strip_suffix(".rs").unwrap_or(path);
+        let path = path.strip_suffix("/mod").unwrap_or(path);
+        let module = if path == "lib" { String::new() } else { format!("::{}", path.replace('/', "::")) };
+        (self.name.clone() + &module, true)
+    }
+
+    /// A file as a person names it: without the folders of cargo, of Rust and of the package.
+    pub fn short<'a>(&self, file: &'a str) -> &'a str {
+        let cargo = file.split_once("/registry/src/").and_then(|(_, rest)| rest.split_once('/'));
+        let rust = || file.split_once("/library/");
+        cargo.or_else(rust).map_or_else(|| self.inside(file), |(_, rest)| rest)
+    }
+
+    fn inside<'a>(&self, file: &'a str) -> &'a str {
+        file.strip_prefix(&*self.root).and_then(|f| f.strip_prefix('/')).unwrap_or(file)
     }
 }
 
 /// The crate of a file that is not ours.
 fn krate(file: &str) -> String {
     let parts: Vec<&str> = file.split('/').collect();
-    let name = parts
-        .iter()
-        .rev()
-        .find_map(|part| without_version(part))
-        .filter(|name| !name.starts_with("rustc"))
-        .or_else(|| after(&parts, "library"))
-        .or_else(|| parts.iter().rposition(|p| *p == "src").and_then(|i| parts.get(i.checked_sub(1)?)).copied())
-        .unwrap_or("other");
+    let after = |folder| parts.iter().position(|p| *p == folder).and_then(|i| parts.get(i + 1));
+    let before = |folder| parts.iter().rposition(|p| *p == folder).and_then(|i| parts.get(i.checked_sub(1)?));
+    let versioned = parts.iter().rev().find_map(|part| without_version(part)).filter(|name| *name != "rustc");
+    let intrinsics = parts.contains(&"stdarch").then_some("stdarch");
+    let named = || after("library").or_else(|| before("src")).copied();
+    let name = versioned.or(intrinsics).or_else(named).unwrap_or("other");
     match name {
-        "stdarch" | "portable-simd" => "core".into(),
+        "stdarch" => "core_arch".into(),
+        "portable-simd" => "core".into(),
         name => name.replace('-', "_"),
     }
 }
@@ -42,11 +49,6 @@ fn without_version(part: &str) -> Option<&str> {
     let (name, version) = part.rsplit_once('-')?;
     let number = version.starts_with(|c: char| c.is_ascii_digit()) && version.contains('.');
     number.then_some(name)
-}
-
-fn after<'a>(parts: &[&'a str], name: &str) -> Option<&'a str> {
-    let at = parts.iter().position(|p| *p == name)?;
-    parts.get(at + 1).copied()
 }
 
 #[cfg(test)]
@@ -69,7 +71,7 @@ mod tests {
             (&format!("{cargo}/rayon-core-1.13.0/src/job.rs"), "rayon_core", false),
             (&format!("{cargo}/minifb-0.29.0/src/native/posix/scalar.c"), "minifb", false),
             (&format!("{rust}/core/src/slice/mod.rs"), "core", false),
-            (&format!("{rust}/core/src/../../stdarch/crates/core_arch/src/x86/avx.rs"), "core", false),
+            (&format!("{rust}/core/src/../../stdarch/crates/core_arch/src/x86/avx.rs"), "core_arch", false),
             (&format!("{rust}/std/src/fs.rs"), "std", false),
             (&format!("{rust}/compiler-builtins/compiler-builtins/src/mem/mod.rs"), "compiler_builtins", false),
             ("/usr/src/rustc-1.96.0/library/alloc/src/vec/mod.rs", "alloc", false),
@@ -78,6 +80,18 @@ mod tests {
             ("<unknown>", "other", false),
         ] {
             assert_eq!(home.module(file), (module.to_string(), ours), "{file}");
+        }
+    }
+
+    #[test]
+    fn files_have_short_names() {
+        let home = Home { root: "/home/me/paprsek".into(), name: "paprsek".into() };
+        for (file, short) in [
+            ("/home/me/paprsek/src/tile.rs", "src/tile.rs"),
+            ("/c/registry/src/index.crates.io-19/glam-0.34.2/src/lib.rs", "glam-0.34.2/src/lib.rs"),
+            ("/usr/lib/rustlib/src/rust/library/core/src/option.rs", "core/src/option.rs"),
+        ] {
+            assert_eq!(home.short(file), short);
         }
     }
 }
