@@ -14,18 +14,18 @@ pub fn krate(path: &str) -> &str {
 
 /// `<Vec>::push` of `<Vec<u8>>::push`, `sort` of `sort::<u8>`.
 pub fn without_types(name: &str) -> String {
-    let kept = usize::from(name.starts_with('<'));
+    let mut kept = name.len() - name.trim_start_matches('<').len();
     let mut depth = 0;
     let mut short = String::new();
     let mut before = ' ';
     for c in name.chars() {
-        let closes = c == '>' && before != '-';
         depth += usize::from(c == '<');
         if depth <= kept {
             short.push(c);
         }
-        if closes {
+        if c == '>' && before != '-' {
             depth -= 1;
+            kept = kept.min(depth);
         }
         before = c;
     }
@@ -49,6 +49,8 @@ mod tests {
             ("core::ptr::drop_in_place::<alloc::vec::Vec<u8>>", "core::ptr::drop_in_place"),
             ("<alloc::vec::Vec<u8>>::push", "<alloc::vec::Vec>::push"),
             ("<a::B<fn() -> u8> as c::D<E>>::f::<G>::{closure#0}", "<a::B as c::D>::f::{closure#0}"),
+            ("<<A<u8> as From<B>>::from::C as D<E>>::f", "<<A as From>::from::C as D>::f"),
+            ("<a::B<u8>>::with::<<a::C>::d::{closure#0}, u64>", "<a::B>::with"),
             ("memcpy", "memcpy"),
         ] {
             assert_eq!(without_types(name), short);
