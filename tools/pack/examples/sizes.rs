@@ -3,6 +3,7 @@
 //! The file must have symbols and lines: build with `-Cdebuginfo=1`, unstripped.
 
 use std::collections::HashMap;
+use std::io::Write;
 
 use object::read::elf::ElfFile64;
 use object::{Object, ObjectSection, ObjectSegment};
@@ -37,12 +38,14 @@ fn main() -> Result<(), String> {
     let costs = costs(&elf)?;
     let bits = |at: u64| costs.get(&at).copied();
     let profile = Profile::read(&elf)?;
-    println!("{}", markdown(&profile.rows(whole, &bits)));
+    let mut text = markdown(&profile.rows(whole, &bits));
     for (view, count) in tops {
         let mut rows = profile.rows(view, &bits);
         rows.truncate(count);
-        println!("{}", lines(&rows));
+        text += &format!("\n{}", lines(&rows));
     }
+    // A pager that has seen enough is no error.
+    let _ = std::io::stdout().write_all(text.as_bytes());
     Ok(())
 }
 

@@ -163,19 +163,20 @@ pub fn by_module(elf: &[u8], bits: &dyn Fn(u64) -> Option<f32>) -> Result<Vec<Ro
 
 /// Rows as a table in Markdown, with their total. The rounded column adds up to the rounded total.
 pub fn markdown(rows: &[Row]) -> String {
-    let bytes: u64 = rows.iter().map(|r| r.bytes).sum();
-    let packed: f64 = rows.iter().map(|r| r.packed).sum();
-    format!("{}| total | {bytes} | {} |\n", lines(rows), packed.round())
+    let mut sum = Row { name: "total".into(), bytes: 0, packed: 0.0 };
+    let mut rounded = Vec::new();
+    for row in rows {
+        let before = sum.packed.round();
+        sum.bytes += row.bytes;
+        sum.packed += row.packed;
+        rounded.push(Row { packed: sum.packed.round() - before, ..row.clone() });
+    }
+    rounded.push(sum);
+    lines(&rounded)
 }
 
 /// Rows as a table in Markdown, without a total.
 pub fn lines(rows: &[Row]) -> String {
-    let mut text = String::from("| what | bytes | packed |\n|---|---:|---:|\n");
-    let mut packed: f64 = 0.0;
-    for row in rows {
-        let before = packed.round();
-        packed += row.packed;
-        text += &format!("| {} | {} | {} |\n", row.name, row.bytes, packed.round() - before);
-    }
-    text
+    let line = |row: &Row| format!("| {} | {} | {:.0} |\n", row.name, row.bytes, row.packed);
+    String::from("| what | bytes | packed |\n|---|---:|---:|\n") + &rows.iter().map(line).collect::<String>()
 }
