@@ -37,7 +37,7 @@ fn files(directory: &Path) -> Vec<(String, Vec<u8>)> {
 fn bad_usage_is_one_line_and_exit_2() {
     let lines: &[&str] = &[
         "nosuchscene",
-        "spheres spheres",
+        "lumen lumen",
         "--nosuchoption",
         "--stereo",
         "-x",
@@ -160,13 +160,13 @@ fn every_size_gives_a_whole_picture() {
 
 #[test]
 fn an_instant_is_the_same_frame_as_in_a_run() {
-    let run = capture(&["spheres", "--from", "1", "--to", "1.5", "--fps", "10", "--size", "64x36"]);
+    let run = capture(&["lumen", "--from", "1", "--to", "1.5", "--fps", "10", "--size", "64x36"]);
     let names: Vec<_> = run.iter().map(|file| file.0.as_str()).collect();
     assert_eq!(
         names,
         ["frame-000000.ppm", "frame-000001.ppm", "frame-000002.ppm", "frame-000003.ppm", "frame-000004.ppm"]
     );
-    let alone = capture(&["spheres", "--at", "1.3", "--size", "64x36"]);
+    let alone = capture(&["lumen", "--at", "1.3", "--size", "64x36"]);
     assert_eq!(run[3].1, alone[0].1);
     assert_ne!(run[2].1, run[3].1);
 }
@@ -174,7 +174,7 @@ fn an_instant_is_the_same_frame_as_in_a_run() {
 #[test]
 fn threads_do_not_change_a_byte() {
     for quality in Quality::NAMES {
-        let words = ["spheres", "--to", "0.1", "--size", "97x55", "--quality", quality, "--threads"];
+        let words = ["lumen", "--to", "0.1", "--size", "97x55", "--quality", quality, "--threads"];
         let one = capture(&[&words[..], &["1"]].concat());
         assert_eq!(one.len(), 3);
         assert_eq!(one, capture(&[&words[..], &["2"]].concat()));
@@ -249,13 +249,13 @@ fn a_closed_pipe_is_said() {
 
 #[test]
 fn a_benchmark_prints_one_object_a_line() {
-    let words = ["spheres", "--bench", "--json", "--threads", "2", "--size", "64x36", "--quality", "fast"];
+    let words = ["lumen", "--bench", "--json", "--threads", "2", "--size", "64x36", "--quality", "fast"];
     let lines = String::from_utf8(succeeds(run(&words))).unwrap();
     assert_eq!(lines.lines().count(), 1);
     let row: Value = serde_json::from_str(&lines).unwrap();
     let text = |key: &str| row[key].as_str().unwrap_or_else(|| panic!("{key} in {row}")).to_owned();
     let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} in {row}"));
-    assert_eq!((text("scene"), text("quality")), ("spheres".into(), "fast".into()));
+    assert_eq!((text("scene"), text("quality")), ("lumen".into(), "fast".into()));
     assert_eq!((number("width"), number("height"), number("threads")), (64.0, 36.0, 2.0));
     assert!(!text("simd").is_empty() && number("frames") >= 1.0 && number("samples") > 0.0);
     assert!(number("fps_p1") > 0.0 && number("fps_p1") <= number("fps_median"), "{row}");
@@ -273,9 +273,9 @@ fn without_a_scene_every_scene_is_timed() {
 
 #[test]
 fn without_a_display_or_a_terminal_the_benchmark_runs() {
-    let output = run(&["spheres", "--size", "16x9"]);
+    let output = run(&["lumen", "--size", "16x9"]);
     let said = fails(&output, 0);
     assert!(said.contains("no display"), "{said}");
     let table = String::from_utf8(output.stdout).unwrap();
-    assert!(table.lines().any(|line| line.starts_with("spheres ")), "{table}");
+    assert!(table.lines().any(|line| line.starts_with("lumen ")), "{table}");
 }

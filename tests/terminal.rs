@@ -54,20 +54,20 @@ fn is_whole(printed: &str) {
 #[test]
 fn a_range_plays_and_ends() {
     let began = Instant::now();
-    is_whole(&play("spheres --to 1", "xterm-256color", b""));
+    is_whole(&play("lumen --to 1", "xterm-256color", b""));
     assert!(began.elapsed() >= Duration::from_secs(1));
 }
 
 #[test]
 fn keys_end_it() {
     for keys in [&b"\x03"[..], b"\x1b", b"q"] {
-        is_whole(&play("spheres", "xterm-256color", keys));
+        is_whole(&play("lumen", "xterm-256color", keys));
     }
 }
 
 #[test]
 fn a_terminal_without_colour_gets_the_benchmark() {
-    let printed = play("spheres --size 16x9", "dumb", b"");
+    let printed = play("lumen --size 16x9", "dumb", b"");
     assert!(printed.starts_with("paprsek: no display"), "{printed}");
     assert!(printed.contains("fps median") && !printed.contains('\x1b'), "{printed}");
 }

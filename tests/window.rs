@@ -131,7 +131,7 @@ fn ending(mut child: Child, patience: Duration) -> Output {
 #[test]
 fn esc_ends_at_once() {
     let Some(display) = Display::open() else { return };
-    let child = display.play(&["spheres"]);
+    let child = display.play(&["lumen"]);
     display.xdotool(&["key", "Escape"]);
     assert!(succeeds(ending(child, AT_ONCE)).is_empty());
 }
@@ -140,7 +140,7 @@ fn esc_ends_at_once() {
 fn esc_ends_in_the_middle_of_a_slow_frame() {
     let Some(display) = Display::open() else { return };
     let mut command = paprsek();
-    command.args(["spheres", "--size", "3840x2160", "--quality", "reference"]).env("DISPLAY", &display.1);
+    command.args(["lumen", "--size", "3840x2160", "--quality", "reference"]).env("DISPLAY", &display.1);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let began = Instant::now();
     // xdotool reports a search that finds nothing as a failure.
@@ -191,7 +191,7 @@ fn a_range_ends_by_itself() {
 #[test]
 fn a_still_stays_and_keys_move_it() {
     let Some(display) = Display::open() else { return };
-    let child = display.play(&["spheres", "--at", "2"]);
+    let child = display.play(&["lumen", "--at", "2"]);
     let still = display.picture();
     sleep(Duration::from_millis(500));
     assert!(display.picture() == still, "a still moves");

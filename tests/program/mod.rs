@@ -4,9 +4,10 @@
 
 use std::process::{Command, Output};
 
-/// The executable, without a display.
+/// The executable, without a display: cargo's, or the one that the environment's `PAPRSEK` names, such as the packed intro.
 pub fn paprsek() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_paprsek"));
+    let ours = env!("CARGO_BIN_EXE_paprsek").into();
+    let mut command = Command::new(std::env::var_os("PAPRSEK").unwrap_or(ours));
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     command
 }
