@@ -130,7 +130,9 @@ impl Renderer {
             if own { pool.use_current_thread() } else { pool }.build()
         };
         let pool = build(true).or_else(|_| build(false)).map_err(|e| format!("cannot start threads: {e}"))?;
-        Ok(Renderer { pool, level: Level::new() })
+        // An executable for processors with AVX2 only need not look for it.
+        let known = cfg!(all(target_feature = "avx2", not(feature = "full")));
+        Ok(Renderer { pool, level: if known { Level::baseline() } else { Level::new() } })
     }
 
     /// The same renderer at another SIMD level.
