@@ -1,26 +1,53 @@
 //! The command line: what was asked for, or the one line that says why not.
 
 use crate::number::decimal;
-use lexopt::{Arg, Error, Parser};
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
-/// The text of `--help`.
-pub const HELP: &str = "\
+/// The text of `--help`, in pieces.
+pub const HELP: &[&str] = &[
+    "\
 paprsek [SCENE] [options]      play the intro (or loop one SCENE) in a window; Esc or closing it ends
   --size WxH                   render size, default 1280x720          --threads N    default: all cores
   --at S | --from S --to S     one instant, or a range, in seconds     --fps N        frames per second of a capture, default 30
-  --bench                      no window: time every scene (or SCENE); a table, or JSON lines with --json
-  --capture DIR | -            no window: PPM files frame-000000.ppm ... in DIR, or one stream of PPMs to stdout
+",
+    #[cfg(feature = "full")]
+    "  --bench                      no window: time every scene (or SCENE); a table, or JSON lines with --json
+",
+    "  --capture DIR | -            no window: PPM files frame-000000.ppm ... in DIR, or one stream of PPMs to stdout
   --quality fast|default|exact|reference
                                fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
                                exact: no shortcut, one sample at each pixel centre;
                                reference: no shortcut, 64 samples a pixel
   --list  --help  --version
 keys: Esc ends, Space pauses, Left and Right seek 5 s
-";
+",
+];
+
+/// Options that take a value, and what that is; the order is that of [`Args::read`].
+const VALUED: [(&str, &str); 8] = [
+    ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
+    ("threads", "a number from 1 to 1024"),
+    ("at", "seconds, 0 or more"),
+    ("from", "seconds, 0 or more"),
+    ("to", "seconds, 0 or more"),
+    ("fps", "a number above 0, up to 1000"),
+    ("quality", "a name"),
+    ("capture", "a directory or -"),
+];
+
+/// Options that take none, in the same way.
+const FLAGS: &[&str] = &[
+    "help",
+    "version",
+    "list",
+    #[cfg(feature = "full")]
+    "bench",
+    #[cfg(feature = "full")]
+    "json",
+];
 
 /// Longest side of a picture, pixels.
 const MAX_SIDE: usize = 16384;
@@ -89,61 +116,36 @@ impl Args {
 
     /// Reads the command line of this process; the error is one line without the program's name.
     pub fn from_env() -> Result<Args, String> {
-        Args::parse(Parser::from_env())
+        Args::read(&Words::from_env()?)
     }
 
-    fn parse(mut parser: Parser) -> Result<Args, String> {
+    fn read(words: &Words) -> Result<Args, String> {
+        let [size, threads, at, from, to, fps, quality, capture] = &words.values;
+        let [help, version, list, bench, json] = words.flags;
         let mut args = Args {
             mode: Mode::Play,
-            scene: None,
-            size: (1280, 720),
-            threads: 0,
-            when: When::Whole,
-            fps: 30.0,
+            scene: words.scene.as_deref().map(scene).transpose()?,
+            size: size.as_deref().map_or(Ok((1280, 720)), self::size)?,
+            threads: threads.as_deref().map_or(Ok(0), self::threads)?,
+            when: when(seconds(2, at)?, seconds(3, from)?, seconds(4, to)?)?,
+            fps: fps.as_deref().map_or(Ok(30.0), rate)?,
             quality: Quality::DEFAULT,
             quality_name: "default",
         };
-        let (mut bench, mut json, mut capture) = (false, false, None);
-        let (mut at, mut from, mut to) = (None, None, None);
-        while let Some(arg) = parser.next().map_err(explain)? {
-            let name = match arg {
-                Arg::Value(value) if args.scene.is_none() => {
-                    args.scene = Some(scene(&value.to_string_lossy())?);
-                    continue;
-                }
-                Arg::Value(value) => return Err(format!("one scene at a time: '{}' is too many", value.display())),
-                Arg::Short(letter) => return Err(format!("there is no option '-{letter}'; see --help")),
-                Arg::Long(name) => name.to_owned(),
-            };
-            match name.as_str() {
-                "size" => args.size = size(&value(&mut parser, &name, "WxH")?)?,
-                "threads" => args.threads = threads(&value(&mut parser, &name, "a number")?)?,
-                "at" => at = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
-                "from" => from = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
-                "to" => to = Some(seconds(&name, &value(&mut parser, &name, "seconds")?)?),
-                "fps" => args.fps = rate(&value(&mut parser, &name, "a number")?)?,
-                "quality" => (args.quality_name, args.quality) = quality(&value(&mut parser, &name, "a name")?)?,
-                "capture" => capture = Some(path(&mut parser)?),
-                "bench" => bench = true,
-                "json" => json = true,
-                "list" => return Ok(Args { mode: Mode::List, ..args }),
-                "help" => return Ok(Args { mode: Mode::Help, ..args }),
-                "version" => return Ok(Args { mode: Mode::Version, ..args }),
-                _ => return Err(format!("there is no option '--{name}'; see --help")),
-            }
-        }
-        if bench && capture.is_some() {
-            return Err("--bench and --capture: choose one".into());
-        }
-        if json && !bench {
-            return Err("--json goes with --bench".into());
+        if let Some(name) = quality {
+            (args.quality_name, args.quality) = self::quality(name)?;
         }
         args.mode = match capture {
-            Some(target) => Mode::Capture(target),
+            _ if help => Mode::Help,
+            _ if version => Mode::Version,
+            _ if list => Mode::List,
+            Some(_) if bench => return Err("--bench and --capture: choose one".into()),
+            _ if json && !bench => return Err("--json goes with --bench".into()),
+            Some(target) if target == "-" => Mode::Capture(None),
+            Some(directory) => Mode::Capture(Some(directory.into())),
             None if bench => Mode::Bench { json },
             None => Mode::Play,
         };
-        args.when = when(at, from, to)?;
         args.check_range()?;
         Ok(args)
     }
@@ -187,74 +189,97 @@ impl Args {
     }
 }
 
-/// The message for what lexopt refuses. Written here since its own `Display` quotes through `Debug`, which brings
-/// the tables of Unicode into the executable.
-fn explain(error: Error) -> String {
-    match error {
-        Error::MissingValue { option: Some(option) } => format!("{option} needs a value"),
-        Error::UnexpectedValue { option, .. } => format!("{option} takes no value"),
-        _ => "cannot read the command line; see --help".into(),
+/// The words of a command line, sorted but not yet read.
+#[derive(Default)]
+struct Words {
+    scene: Option<OsString>,
+    /// One for each of [`VALUED`].
+    values: [Option<OsString>; VALUED.len()],
+    /// One for each that [`FLAGS`] may hold.
+    flags: [bool; 5],
+}
+
+impl Words {
+    fn from_env() -> Result<Words, String> {
+        let mut sorted = Words::default();
+        let mut words = std::env::args_os().skip(1);
+        while let Some(word) = words.next() {
+            let Some(option) = text(&word).strip_prefix('-') else {
+                if sorted.scene.is_some() {
+                    return Err(format!("one scene at a time: '{}' is too many", text(&word)));
+                }
+                sorted.scene = Some(word);
+                continue;
+            };
+            let (name, given) = match option.split_once('=') {
+                Some((name, value)) => (name, Some(value)),
+                None => (option, None),
+            };
+            let is = |known: &str| name.strip_prefix('-') == Some(known);
+            if let Some(flag) = FLAGS.iter().position(|known| is(known)) {
+                if given.is_some() {
+                    return Err(format!("-{name} takes no value"));
+                }
+                sorted.flags[flag] = true;
+            } else if let Some(option) = VALUED.iter().position(|known| is(known.0)) {
+                let value = given.map(OsString::from).or_else(|| words.next()).unwrap_or_default();
+                // Another option in its place is a forgotten value, not a strange one.
+                if value.is_empty() || value.as_encoded_bytes().starts_with(b"--") {
+                    return Err(needs(option, &value));
+                }
+                sorted.values[option] = Some(value);
+            } else {
+                return Err(format!("there is no option '-{name}'; see --help"));
+            }
+        }
+        Ok(sorted)
     }
 }
 
-/// The value of the option just read. Another option in its place is a forgotten value, not a strange one.
-fn os_value(parser: &mut Parser, name: &str, what: &str) -> Result<OsString, String> {
-    let value = parser.value().map_err(explain)?;
-    if value.is_empty() || value.as_encoded_bytes().starts_with(b"--") {
-        return Err(format!("--{name} needs {what}, not '{}'", value.display()));
-    }
-    Ok(value)
+/// The text of a word. What is not Unicode names nothing, and is quoted as `?`.
+fn text(word: &OsStr) -> &str {
+    word.to_str().unwrap_or("?")
 }
 
-fn value(parser: &mut Parser, name: &str, what: &str) -> Result<String, String> {
-    Ok(os_value(parser, name, what)?.to_string_lossy().into_owned())
+/// The message about a value that will not do.
+fn needs(option: usize, value: &OsStr) -> String {
+    let (name, what) = VALUED[option];
+    format!("--{name} needs {what}, not '{}'", text(value))
 }
 
-fn path(parser: &mut Parser) -> Result<Option<PathBuf>, String> {
-    let value = os_value(parser, "capture", "a directory or -")?;
-    Ok((value != "-").then(|| value.into()))
-}
-
-fn scene(name: &str) -> Result<Scene, String> {
+fn scene(name: &OsStr) -> Result<Scene, String> {
+    let name = text(name);
     scenes::named(name).ok_or_else(|| {
         let names: Vec<_> = scenes::all().iter().map(|scene| scene.name).collect();
         format!("there is no scene '{name}'; the scenes are {}", names.join(", "))
     })
 }
 
-fn quality(name: &str) -> Result<(&'static str, Quality), String> {
+fn quality(name: &OsStr) -> Result<(&'static str, Quality), String> {
+    let name = text(name);
     let known = Quality::NAMES.into_iter().find(|known| *known == name);
     known
         .zip(Quality::named(name))
         .ok_or_else(|| format!("there is no quality '{name}'; the qualities are {}", Quality::NAMES.join(", ")))
 }
 
-fn size(text: &str) -> Result<(usize, usize), String> {
+fn size(value: &OsStr) -> Result<(usize, usize), String> {
     let side = |side: &str| natural(side).filter(|n| (1..=MAX_SIDE).contains(n));
-    let size = text.split_once('x').and_then(|(width, height)| side(width).zip(side(height)));
-    match size {
-        None => Err(format!("--size needs WIDTHxHEIGHT, each 1 to {MAX_SIDE}, not '{text}'")),
-        Some((width, height)) if width * height > MAX_PIXELS => {
-            Err(format!("--size {text} is more than {MAX_PIXELS} pixels"))
-        }
-        Some(size) => Ok(size),
-    }
+    let size = text(value).split_once('x').and_then(|(width, height)| side(width).zip(side(height)));
+    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| needs(0, value))
 }
 
-fn threads(text: &str) -> Result<usize, String> {
-    natural(text)
-        .filter(|n| (1..=1024).contains(n))
-        .ok_or_else(|| format!("--threads needs a number from 1 to 1024, not '{text}'"))
+fn threads(value: &OsStr) -> Result<usize, String> {
+    natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(1, value))
 }
 
-fn rate(text: &str) -> Result<f64, String> {
-    decimal(text)
-        .filter(|fps| *fps > 0.0 && *fps <= 1000.0)
-        .ok_or_else(|| format!("--fps needs a number above 0, up to 1000, not '{text}'"))
+fn seconds(option: usize, value: &Option<OsString>) -> Result<Option<f64>, String> {
+    let read = |value: &OsString| decimal(text(value)).ok_or_else(|| needs(option, value));
+    value.as_ref().map(read).transpose()
 }
 
-fn seconds(name: &str, text: &str) -> Result<f64, String> {
-    decimal(text).ok_or_else(|| format!("--{name} needs seconds, 0 or more, not '{text}'"))
+fn rate(value: &OsStr) -> Result<f64, String> {
+    decimal(text(value)).filter(|fps| *fps > 0.0 && *fps <= 1000.0).ok_or_else(|| needs(5, value))
 }
 
 /// Digits only: the standard parser would take a leading plus sign.

@@ -1,6 +1,7 @@
 //! The intro executable: arguments, then play, bench or capture.
 
 mod args;
+#[cfg(feature = "full")]
 mod bench;
 mod canvas;
 mod capture;
@@ -9,7 +10,7 @@ mod clock;
 mod last_word;
 mod number;
 mod present;
-#[cfg(unix)]
+#[cfg(all(unix, feature = "full"))]
 mod terminal;
 
 use args::{Args, Mode};
@@ -31,9 +32,12 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<(), String> {
     match &args.mode {
         Mode::Play => play(args),
+        #[cfg(feature = "full")]
         Mode::Bench { json } => bench::run(args, *json),
+        #[cfg(not(feature = "full"))]
+        Mode::Bench { .. } => Ok(()),
         Mode::Capture(directory) => capture::run(args, directory.as_deref()),
-        Mode::Help => print(args::HELP),
+        Mode::Help => print(&args::HELP.concat()),
         Mode::Version => print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
         Mode::List => print(&scenes::all().iter().map(|s| format!("{:<16} {}\n", s.name, s.about)).collect::<String>()),
     }
@@ -45,12 +49,22 @@ fn play(args: &Args) -> Result<(), String> {
         Ok(screen) => return screen.play(args),
         Err(why) => why,
     };
+    elsewhere(args, &why)
+}
+
+#[cfg(feature = "full")]
+fn elsewhere(args: &Args, why: &str) -> Result<(), String> {
     #[cfg(unix)]
     if terminal::shows_colour() {
         return terminal::play(args);
     }
     complain(&format!("no display ({why}), no colour terminal: running the benchmark"));
     bench::run(args, false)
+}
+
+#[cfg(not(feature = "full"))]
+fn elsewhere(_: &Args, why: &str) -> Result<(), String> {
+    Err(format!("no display ({why}); --capture DIR writes pictures instead"))
 }
 
 fn print(text: &str) -> Result<(), String> {
@@ -66,7 +80,7 @@ fn fail(code: u8, why: &str) -> ExitCode {
 
 /// One line on stderr, whatever the message quotes.
 fn complain(why: &str) {
-    let line = why.replace(char::is_control, "?");
+    let line: String = why.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
     // `eprintln!` would panic where stderr cannot be written.
     let _ = io::stderr().write_all(format!("paprsek: {line}\n").as_bytes());
 }

@@ -4,7 +4,7 @@ use crate::color::{self, Transfer};
 use crate::quality::Quality;
 use crate::scenes::{Scene, Shot};
 use fearless_simd::{Level, Simd, dispatch};
-use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 /// A finished picture: `0RGB` pixels, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -130,7 +130,9 @@ impl Renderer {
             if own { pool.use_current_thread() } else { pool }.build()
         };
         let pool = build(true).or_else(|_| build(false)).map_err(|e| format!("cannot start threads: {e}"))?;
-        Ok(Renderer { pool, level: Level::new() })
+        // An executable for processors with AVX2 only need not look for it.
+        let known = cfg!(all(target_feature = "avx2", not(feature = "full")));
+        Ok(Renderer { pool, level: if known { Level::baseline() } else { Level::new() } })
     }
 
     /// The same renderer at another SIMD level.
@@ -172,23 +174,26 @@ impl Renderer {
         let (level, width, height) = (self.level, frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
         // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
-        let band = |(row, pixels): (usize, &mut [u32])| {
+        // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
+        let bands = Mutex::new(frame.pixels.chunks_mut((width * Tile::SIZE).max(1)).enumerate());
+        let work = || {
             let mut tile = Tile::new();
             let mut samples = 0;
-            for column in 0..columns {
-                tile.place(column, row, width, height);
-                for (index, layer) in picture.layers.iter().enumerate() {
-                    tile.solids_matter = index + 1 < picture.layers.len();
-                    samples += layer.draw(level, &mut tile).samples;
+            loop {
+                // Bound, so that the lock is free again while the band is drawn.
+                let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some((row, pixels)) = next else { return samples };
+                for column in 0..columns {
+                    tile.place(column, row, width, height);
+                    for (index, layer) in picture.layers.iter().enumerate() {
+                        tile.solids_matter = index + 1 < picture.layers.len();
+                        samples += layer.draw(level, &mut tile).samples;
+                    }
+                    dispatch!(level, simd => develop(simd, picture.transfer, &tile, width, pixels));
                 }
-                dispatch!(level, simd => develop(simd, picture.transfer, &tile, width, pixels));
             }
-            samples
         };
-        // Each band is a task of its own: a few dear ones at the end must not stay with one thread.
-        let bands =
-            || frame.pixels.par_chunks_mut((width * Tile::SIZE).max(1)).enumerate().with_max_len(1).map(band).sum();
-        Stats { samples: self.pool.install(bands) }
+        Stats { samples: self.pool.broadcast(|_| work()).into_iter().sum() }
     }
 }
 

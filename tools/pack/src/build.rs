@@ -1,0 +1,65 @@
+//! The intro's executable before it is packed: cargo, with everything that makes it small.
+
+use crate::toolchain::Toolchain;
+use crate::x11;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const TARGET: &str = "x86_64-unknown-linux-gnu";
+
+/// Flags of the compiler, for our code and the standard library alike.
+const FLAGS: &[&str] = &[
+    // A panic ends the process without a word: no messages, no unwinding, no tables for it.
+    "-Zunstable-options",
+    "-Cpanic=immediate-abort",
+    "-Cforce-unwind-tables=no",
+    "-Zlocation-detail=none",
+    "-Zfmt-debug=none",
+    // One SIMD level, AVX2: what processors have had since 2013 (Intel), 2015 (AMD).
+    "-Ctarget-cpu=x86-64-v3",
+    "--cfg=disable_dispatch_avx512",
+    "--cfg=disable_dispatch_sse4_2",
+    "--cfg=disable_dispatch_sse2",
+    "--cfg=disable_dispatch_fallback",
+    // At a fixed address there is nothing to relocate.
+    "-Crelocation-model=static",
+    "-Clink-arg=-no-pie",
+    "-Clink-arg=-Wl,--build-id=none,-z,norelro,--no-eh-frame-hdr,-z,noseparate-code,--hash-style=sysv",
+];
+
+/// Settings of cargo. Line tables are for finding out what the bytes are; they change none that are packed.
+const SETTINGS: &[&str] = &["profile.release.strip=false", "profile.release.debug='line-tables-only'"];
+
+/// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
+pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBuf, String> {
+    let crates = target.join("x11-dl");
+    x11::cut(&metadata(root, toolchain)?, &crates)?;
+    let mut cargo = toolchain.cargo(root);
+    cargo.args(["build", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
+    cargo.args(["--no-default-features", "--features", "x11"]);
+    cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
+    cargo.arg("--target-dir").arg(target);
+    for setting in SETTINGS {
+        cargo.args(["--config", setting]);
+    }
+    cargo.arg("--config").arg(format!("paths=[{:?}]", crates.display().to_string()));
+    cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
+    // minifb's one file in C asks for -O3; the last word counts.
+    cargo.env("CFLAGS", "-Os");
+    // x11-dl would note where this machine keeps its libraries; the loader knows better on the next.
+    cargo.env("PKG_CONFIG", "false");
+    run(&mut cargo)?;
+    Ok(target.join(TARGET).join("release/paprsek"))
+}
+
+fn metadata(root: &Path, toolchain: &Toolchain) -> Result<String, String> {
+    let mut cargo = toolchain.cargo(root);
+    cargo.args(["metadata", "--format-version=1", "--locked", "--filter-platform", TARGET]);
+    String::from_utf8(run(cargo.stdout(Stdio::piped()))?).map_err(|_| "cargo metadata is not UTF-8".into())
+}
+
+/// Runs cargo, whose own messages go where ours go; gives what it printed.
+fn run(cargo: &mut Command) -> Result<Vec<u8>, String> {
+    let said = cargo.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot run cargo: {error}"))?;
+    if said.status.success() { Ok(said.stdout) } else { Err("cargo failed".into()) }
+}

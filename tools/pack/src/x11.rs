@@ -1,0 +1,157 @@
+//! x11-dl without the functions that minifb never names.
+//!
+//! x11-dl looks up all 767 functions of Xlib when a window opens, one after another in code: 66 kB of an executable.
+//! minifb names 56 of them, and of Xcursor one of 59. Cargo's `paths` takes a copy of the crate with only those in
+//! its lists, and leaves the lock file as it is.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The files with lists that minifb opens. Other lists do not get into the executable.
+const LISTS: [&str; 2] = ["xlib.rs", "xcursor.rs"];
+
+/// Copies x11-dl into `copy`, cut down to what minifb names; both are found in the output of `cargo metadata`.
+pub fn cut(metadata: &str, copy: &Path) -> Result<(), String> {
+    let words = words(&source(metadata, "minifb")?.join("src"))?;
+    let _ = fs::remove_dir_all(copy);
+    copy_tree(&source(metadata, "x11-dl")?, copy)?;
+    for name in LISTS {
+        let path = copy.join("src").join(name);
+        let text = cut_list(&read(&path)?, &words).map_err(|why| {
+            format!("{}: {why}; has x11-dl changed? tools/pack/src/x11.rs must follow", path.display())
+        })?;
+        fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// The directory of a package of crates.io, by the paths of manifests in cargo's metadata.
+fn source(metadata: &str, name: &str) -> Result<PathBuf, String> {
+    let is_version = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit());
+    let mut found = metadata.split("\"manifest_path\":\"").skip(1).filter_map(|rest| {
+        let directory = Path::new(rest.split('"').next()?).parent()?;
+        let package = directory.file_name()?.to_str()?;
+        package.strip_prefix(name)?.strip_prefix('-').filter(|rest| is_version(rest))?;
+        Some(directory.to_owned())
+    });
+    match (found.next(), found.next()) {
+        (Some(directory), None) => Ok(directory),
+        (None, _) => Err(format!("cargo metadata names no source of {name}")),
+        (Some(_), Some(_)) => Err(format!("cargo metadata names two versions of {name}")),
+    }
+}
+
+/// Every word of the Rust files below a directory.
+fn words(directory: &Path) -> Result<HashSet<String>, String> {
+    let mut words = HashSet::new();
+    for path in files(directory)? {
+        if path.extension().is_some_and(|extension| extension == "rs") {
+            let text = read(&path)?;
+            words.extend(text.split(|c: char| c != '_' && !c.is_ascii_alphanumeric()).map(str::to_owned));
+        }
+    }
+    Ok(words)
+}
+
+/// The text with only those functions and variables in its `x11_link!` list that are among `words`.
+fn cut_list(text: &str, words: &HashSet<String>) -> Result<String, String> {
+    let mut lines = text.lines();
+    let mut cut = String::new();
+    let mut keep = |line: &str| cut.extend([line, "\n"]);
+    for line in lines.by_ref() {
+        keep(line);
+        if line.starts_with("x11_link! {") {
+            break;
+        }
+    }
+    let mut kept = 0;
+    for line in lines.by_ref() {
+        let entry = line.trim_start();
+        let rest = entry.strip_prefix("pub fn ").or(entry.strip_prefix("pub static "));
+        match rest.and_then(|rest| rest.split([' ', '(', ':']).next()) {
+            Some(name) if !line.ends_with(',') => return Err(format!("{name} has a line that does not end its entry")),
+            Some(name) if !words.contains(name) => continue,
+            Some(_) => kept += 1,
+            None if ["", "variadic:", "globals:", "}"].contains(&entry) => {}
+            None => return Err(format!("'{entry}' in the list of functions")),
+        }
+        keep(line);
+        if entry == "}" {
+            break;
+        }
+    }
+    lines.for_each(keep);
+    if kept == 0 { Err("no list with a function that minifb names".into()) } else { Ok(cut) }
+}
+
+fn copy_tree(from: &Path, to: &Path) -> Result<(), String> {
+    for path in files(from)? {
+        let copy = to.join(path.strip_prefix(from).unwrap_or(&path));
+        let made = copy.parent().map_or(Ok(()), fs::create_dir_all);
+        made.and_then(|()| fs::copy(&path, &copy))
+            .map_err(|error| format!("cannot write {}: {error}", copy.display()))?;
+    }
+    Ok(())
+}
+
+/// All files below a directory.
+fn files(directory: &Path) -> Result<Vec<PathBuf>, String> {
+    let failed = |error| format!("cannot read {}: {error}", directory.display());
+    let mut found = Vec::new();
+    for entry in fs::read_dir(directory).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_dir() {
+            found.extend(files(&path)?);
+        } else {
+            found.push(path);
+        }
+    }
+    Ok(found)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIST: &str = "use x;\n\nx11_link! { Xlib, x11, [\"libX11.so.6\"], 4,\n  pub fn XOne (_1: c_int) -> (),\n  \
+                        pub fn XTwo () -> c_int,\nvariadic:\n  pub fn XMany (_1: XIM) -> XIC,\nglobals:\n  \
+                        pub static XValue: c_int,\n}\n\npub fn XTwo() {}\n";
+
+    fn words(words: &[&str]) -> HashSet<String> {
+        words.iter().map(|word| (*word).to_owned()).collect()
+    }
+
+    #[test]
+    fn only_what_is_named_stays_in_the_list() {
+        let cut = cut_list(LIST, &words(&["XOne", "XMany"])).unwrap();
+        assert!(cut.contains("fn XOne") && cut.contains("fn XMany"), "{cut}");
+        assert!(!cut.contains("fn XTwo ()") && !cut.contains("XValue"), "{cut}");
+        assert!(
+            cut.ends_with("variadic:\n  pub fn XMany (_1: XIM) -> XIC,\nglobals:\n}\n\npub fn XTwo() {}\n"),
+            "{cut}"
+        );
+        assert_eq!(cut_list(LIST, &words(&["XOne", "XTwo", "XMany", "XValue"])).unwrap(), LIST);
+    }
+
+    #[test]
+    fn a_source_that_looks_otherwise_is_refused() {
+        assert!(cut_list("pub mod xlib;\n", &words(&["XOne"])).is_err());
+        assert!(cut_list(LIST, &words(&["XThree"])).is_err());
+        assert!(cut_list(&LIST.replace(") -> c_int,", ")\n    -> c_int,"), &words(&["XOne"])).is_err());
+        assert!(cut_list(&LIST.replace("variadic:", "#[cfg(x)]"), &words(&["XOne"])).is_err());
+    }
+
+    #[test]
+    fn a_package_is_found_by_its_directory() {
+        let metadata =
+            r#"{"manifest_path":"/r/minifb-0.29.0/Cargo.toml"},{"manifest_path":"/r/minifb-gl-1/Cargo.toml"}"#;
+        assert_eq!(source(metadata, "minifb"), Ok("/r/minifb-0.29.0".into()));
+        assert!(source(metadata, "x11-dl").is_err());
+        assert!(source(&metadata.repeat(2), "minifb").is_err());
+    }
+}
