@@ -29,7 +29,7 @@ pub struct State {
     logistic: Logistic,
     weights: [[[i16; INPUTS]; 512]; MIXERS],
     last: [[i16; MIXERS]; 256],
-    histories: [[u32; 256]; 2 * CONTEXTS],
+    histories: [[[u32; 256]; CONTEXTS]; 2],
     matches: [u32; 256],
     corrections: [[u32; 32]; 2048],
     heads: [u32; 1 << 16],
@@ -46,7 +46,7 @@ impl State {
         logistic: Logistic::ZERO,
         weights: [[[0; INPUTS]; 512]; MIXERS],
         last: [[0; MIXERS]; 256],
-        histories: [[0; 256]; 2 * CONTEXTS],
+        histories: [[[0; 256]; CONTEXTS]; 2],
         matches: [0; 256],
         corrections: [[0; 32]; 2048],
         heads: [0; 1 << 16],
@@ -69,6 +69,8 @@ pub struct Model<'a> {
     position: usize,
     /// Bits of the current byte below a leading one.
     partial: usize,
+    /// Their number.
+    bit: u32,
     match_at: usize,
     match_length: usize,
     /// The byte predicted by the match, with 256 added, or 0.
@@ -109,6 +111,7 @@ impl<'a> Model<'a> {
             code,
             position: 0,
             partial: 1,
+            bit: 0,
             match_at: 0,
             match_length: 0,
             predicted: 0,
@@ -188,20 +191,15 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Number of the bit in its byte, from 0 at the top.
-    fn bit(&self) -> u32 {
-        self.partial.ilog2()
-    }
-
     /// Index in its line of the current bit's slot.
     fn node(&self) -> usize {
-        let bit = self.bit() & 3;
+        let bit = self.bit & 3;
         self.partial & ((1 << bit) - 1) | 1 << bit
     }
 
     /// Probability, in 65536ths, that the next bit is a one.
     pub fn predict(&mut self) -> u32 {
-        let bit = self.bit();
+        let bit = self.bit;
         if bit & 3 == 0 {
             self.look_up();
         }
@@ -210,7 +208,7 @@ impl<'a> Model<'a> {
         let s = &mut *self.s;
         for (i, line) in s.lines.iter().enumerate() {
             let direct = self.table[line & (LINES - 1)][node & 15];
-            let indirect = s.histories[i + class * CONTEXTS][slot::history(direct)];
+            let indirect = s.histories[class & 1][i][slot::history(direct)];
             s.inputs[2 * i] = s.logistic.stretch(slot::probability(direct));
             s.inputs[2 * i + 1] = s.logistic.stretch(slot::probability(indirect));
         }
@@ -218,9 +216,9 @@ impl<'a> Model<'a> {
         self.match_slot = 0;
         s.inputs[INPUTS - 2] = 0;
         s.inputs[INPUTS - 1] = 256;
-        if self.predicted >> (8 - bit) == self.partial {
+        if self.predicted >> (8 - bit & 15) == self.partial {
             length = if self.match_length < 16 { self.match_length } else { (self.match_length / 8 + 14).min(23) };
-            self.match_slot = length * 2 + (self.predicted >> (7 - bit) & 1);
+            self.match_slot = length * 2 + (self.predicted >> (7 - bit & 15) & 1);
             s.inputs[INPUTS - 2] = s.logistic.stretch(slot::probability(s.matches[self.match_slot & 255]));
         }
         self.chosen = [self.partial | class << 8, self.place | class << 7, length | (bit as usize) << 5];
@@ -249,16 +247,17 @@ impl<'a> Model<'a> {
         train(&s.mixed, &mut s.last[(self.place | class << 7) & 255], (target - self.probability) * 3 >> 4);
         for (i, line) in s.lines.iter().enumerate() {
             let direct = &mut self.table[line & (LINES - 1)][node & 15];
-            slot::update(&mut s.histories[i + class * CONTEXTS][slot::history(*direct)], bit);
+            slot::update(&mut s.histories[class & 1][i][slot::history(*direct)], bit);
             slot::update(direct, bit);
         }
         if self.match_slot != 0 {
             slot::update(&mut s.matches[self.match_slot & 255], bit);
         }
         self.partial = self.partial << 1 | bit as usize;
-        if self.partial >= 256 {
+        self.bit += 1;
+        if self.bit == 8 {
             let byte = self.partial as u8;
-            self.partial = 1;
+            (self.partial, self.bit) = (1, 0);
             self.text[self.position & (MOST - 1)] = byte;
             self.position += 1;
             let code = self.is_code();
