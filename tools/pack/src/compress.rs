@@ -1,43 +1,28 @@
 //! The model's use on this side: coding with it, and asking what each byte costs.
 
 use pack_model::coder::{Decoder, Encoder};
-use pack_model::model::{LINES, Line, MOST, Model, Sets, State};
+use pack_model::model::{Model, Sets};
+use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
-/// The memory of a model, on the heap.
-pub struct Memory {
-    table: Box<[Line; LINES]>,
-    text: Box<[u8; MOST]>,
-    state: Box<State>,
-}
-
-impl Default for Memory {
-    fn default() -> Self {
-        Self { table: zeros(), text: zeros(), state: Box::new(State::ZERO) }
-    }
-}
-
-/// An array of zeros that never was on the stack.
-fn zeros<T: Copy + Default, const N: usize>() -> Box<[T; N]>
-where
-    [T; N]: Sized,
-{
-    match vec![T::default(); N].into_boxed_slice().try_into() {
-        Ok(array) => array,
-        Err(_) => unreachable!("the length is the array's"),
-    }
-}
-
-impl Memory {
-    /// A model that knows nothing yet.
-    pub fn model<'a>(&'a mut self, sets: &'a Sets, code: (usize, usize)) -> Model<'a> {
-        Model::new(sets, &mut self.table, &mut self.text, &mut self.state, code)
-    }
+/// A model that knows nothing yet, on the heap: 70 MB that must not pass through the stack.
+#[allow(unsafe_code)]
+fn model(sets: &Sets, code: [u32; 2]) -> Box<Model> {
+    let layout = Layout::new::<Model>();
+    // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers and of one false.
+    let mut model = unsafe {
+        let memory = alloc_zeroed(layout);
+        if memory.is_null() {
+            handle_alloc_error(layout);
+        }
+        Box::from_raw(memory.cast::<Model>())
+    };
+    model.start(sets, code);
+    model
 }
 
 /// Codes `text`.
-pub fn compress(sets: &Sets, text: &[u8], code: (usize, usize)) -> Vec<u8> {
-    let mut memory = Memory::default();
-    let mut model = memory.model(sets, code);
+pub fn compress(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, code);
     let (mut encoder, mut out) = (Encoder::default(), Vec::new());
     for byte in text {
         for i in (0..8).rev() {
@@ -51,21 +36,19 @@ pub fn compress(sets: &Sets, text: &[u8], code: (usize, usize)) -> Vec<u8> {
 }
 
 /// What [`compress`] coded as `packed`, a text of `length` bytes.
-pub fn decompress(sets: &Sets, packed: &[u8], length: usize, code: (usize, usize)) -> Vec<u8> {
-    let mut memory = Memory::default();
-    let mut model = memory.model(sets, code);
+pub fn decompress(sets: &Sets, packed: &[u8], length: usize, code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, code);
     let mut decoder = Decoder::new(packed);
     while model.position() < length {
         let bit = decoder.decode(model.predict());
         model.update(bit);
     }
-    memory.text[..length].to_vec()
+    model.text()[..length].to_vec()
 }
 
 /// Bits that each byte of `text` costs, and what kind of byte the model took it for.
-pub fn costs(sets: &Sets, text: &[u8], code: (usize, usize)) -> Vec<(f32, usize)> {
-    let mut memory = Memory::default();
-    let mut model = memory.model(sets, code);
+pub fn costs(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<(f32, u32)> {
+    let mut model = model(sets, code);
     let mut costs = Vec::new();
     for byte in text {
         let (mut sum, kind) = (0.0, model.kind());

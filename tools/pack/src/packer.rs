@@ -39,7 +39,7 @@ fn prepare(file: &[u8]) -> Result<Trimmed, String> {
 /// Packs an executable. `stub` is the linked unpacker ([`crate::stub::build`]).
 pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     let program = prepare(file)?;
-    let code = (program.code.start, program.code.end);
+    let code = [program.code.start as u32, program.code.end as u32];
     let all = elf::segments(stub)?;
     let text = all.iter().find(|s| s.kind == 1 && !s.file.is_empty()).ok_or("the stub has no code")?;
     let memory = all.iter().find(|s| s.kind == 1 && s.file.is_empty()).ok_or("the stub has no memory")?;
@@ -50,8 +50,8 @@ pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     let image = &stub[text.file.clone()];
 
     let mut payload = Vec::new();
-    for word in [program.bytes.len(), code.0, code.1, program.code_address as usize] {
-        payload.extend((word as u32).to_le_bytes());
+    for word in [program.bytes.len() as u32, code[0], code[1], program.code_address as u32] {
+        payload.extend(word.to_le_bytes());
     }
     payload.extend(compress(&SETS, &program.bytes, code));
 
@@ -96,7 +96,7 @@ impl Costs {
 /// Measures what each byte of `file` costs in `pack`.
 pub fn measure(file: &[u8]) -> Result<Costs, String> {
     let program = prepare(file)?;
-    let code = (program.code.start, program.code.end);
+    let code = [program.code.start as u32, program.code.end as u32];
     let bits = costs(&SETS, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
     Ok(Costs { bits, loads: program.loads })
 }

@@ -33,7 +33,7 @@ pub fn build(rustc: &Path, sources: &Path, work: &Path) -> Result<Vec<u8>, Strin
 const COMMON: [&str; 8] = [
     "--edition=2024",
     "--target=x86_64-unknown-linux-gnu",
-    "-Copt-level=2",
+    "-Copt-level=z",
     "-Cpanic=abort",
     "-Ccodegen-units=1",
     "-Crelocation-model=static",

@@ -1,7 +1,7 @@
 //! Distances of calls, jumps and RIP-relative operands as absolute addresses: what is called, or read, from
 //! many places is then the same four bytes each time, and the same as where its address stands in full.
 
-use crate::parse::{Field, Parser};
+use crate::parse::Parser;
 
 /// Whether distances become addresses or the other way round.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -20,15 +20,11 @@ pub fn convert(code: &mut [u8], address: u32, way: Way) {
     while let Some(&byte) = code.get(at) {
         parser.step(byte);
         at += 1;
-        let to_come = if parser.field == Field::Disp { parser.disp } else { parser.imm };
-        if !parser.relative || to_come != 4 {
+        if parser.relative == 0 || parser.relative != parser.field() {
             continue;
         }
         let Some(bytes) = code.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<4>()) else { return };
-        let mut end = address.wrapping_add(at as u32 + 4);
-        if parser.field == Field::Disp {
-            end = end.wrapping_add(parser.imm as u32);
-        }
+        let mut end = address.wrapping_add(at as u32 + 4 + parser.after_four());
         if way == Way::Relative {
             end = end.wrapping_neg();
         }

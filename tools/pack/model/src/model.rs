@@ -4,153 +4,134 @@ use crate::features::{Features, hash};
 use crate::mix::{Logistic, Weights, all, dot, train};
 use crate::slot;
 
-/// Contexts a byte.
-pub const CONTEXTS: usize = 15;
-/// Inputs of a mixer: two a context, the match, a constant.
-const INPUTS: usize = 2 * CONTEXTS + 2;
-/// Vectors of inputs.
-const VECTORS: usize = INPUTS / 8;
+/// Contexts of a byte. The unpacker's time goes with it; see the crate for what more would bring.
+pub const CONTEXTS: usize = 11;
+/// Inputs of a mixer, in vectors of eight: two of each context, the match, a constant.
+const VECTORS: usize = (2 * CONTEXTS + 2) / 8;
+const MATCH: usize = 2 * CONTEXTS;
 /// Mixers whose results the last one mixes.
 const MIXERS: usize = 3;
-/// Slots that four bits of a byte in one context need: the first holds a check, the others a tree of bits.
-pub type Line = [u32; 16];
-/// Lines of the table: 64 MB.
-pub const LINES: usize = 1 << LINE_BITS;
+/// Slots for four bits of a byte in one context: the first holds a check, the others are a tree of bits.
+type Line = [u32; 16];
 const LINE_BITS: u32 = 20;
-/// Longest input, in bytes.
+/// Longest text, in bytes.
 pub const MOST: usize = 1 << 22;
 /// Bytes that a match must have in common at first.
-const MATCH_MIN: usize = 5;
+const MATCH_MIN: u32 = 5;
+/// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
+const RATES: [i32; 2] = [6, 3];
 
 /// Which features make each context, in code and in data.
 pub type Sets = [[u32; CONTEXTS]; 2];
 
-/// All that the model remembers besides its table and the text. It starts as zeros.
-pub struct State {
+/// The model at work on one text, and all its memory. It starts as zeros; then comes [`Self::start`].
+/// What is used most is first, where the unpacker reaches it with short instructions.
+#[repr(C)]
+pub struct Model {
+    /// Bits of the current byte below a leading one.
+    partial: u32,
+    /// Their number.
+    bit: u32,
+    /// Bytes coded so far.
+    position: u32,
+    code: [u32; 2],
+    /// 0 while the current byte is an instruction's, 1 while it is not.
+    class: u32,
+    /// Index in a line of the current bit's slot.
+    node: u32,
+    match_at: u32,
+    match_length: u32,
+    /// The byte predicted by the match, with 256 added, or 0.
+    predicted: u32,
+    match_slot: u32,
+    chosen: [u32; MIXERS],
+    place: u32,
+    probability: i32,
+    mixed: [[i16; 8]; 1],
+    inputs: [[i16; 8]; VECTORS],
+    /// Hashes of the contexts: their top bits are the line, all of them the check.
+    hashes: [u32; CONTEXTS],
+    sets: Sets,
     features: Features,
     logistic: Logistic,
     weights: [[[Weights; VECTORS]; 512]; MIXERS],
-    last: [[Weights; 1]; 256],
+    last: [[Weights; 1]; 64],
     histories: [[[u32; 256]; CONTEXTS]; 2],
-    matches: [u32; 256],
-    corrections: [[u32; 32]; 2048],
+    matches: [u32; 64],
     heads: [u32; 1 << 16],
-    bases: [u32; CONTEXTS],
-    lines: [usize; CONTEXTS],
-    inputs: [[i16; 8]; VECTORS],
-    mixed: [[i16; 8]; 1],
+    text: [u8; MOST],
+    table: [Line; 1 << LINE_BITS],
 }
 
-impl State {
-    /// The state before the first bit.
+impl Model {
+    /// Before the first bit and before [`Self::start`].
     pub const ZERO: Self = Self {
+        partial: 0,
+        bit: 0,
+        position: 0,
+        code: [0; 2],
+        class: 0,
+        node: 0,
+        match_at: 0,
+        match_length: 0,
+        predicted: 0,
+        match_slot: 0,
+        chosen: [0; MIXERS],
+        place: 0,
+        probability: 0,
+        mixed: [[0; 8]; 1],
+        inputs: [[0; 8]; VECTORS],
+        hashes: [0; CONTEXTS],
+        sets: [[0; CONTEXTS]; 2],
         features: Features::ZERO,
         logistic: Logistic::ZERO,
         weights: [[[[0; 2]; VECTORS]; 512]; MIXERS],
-        last: [[[0; 2]; 1]; 256],
+        last: [[[0; 2]; 1]; 64],
         histories: [[[0; 256]; CONTEXTS]; 2],
-        matches: [0; 256],
-        corrections: [[0; 32]; 2048],
+        matches: [0; 64],
         heads: [0; 1 << 16],
-        bases: [0; CONTEXTS],
-        lines: [0; CONTEXTS],
-        inputs: [[0; 8]; VECTORS],
-        mixed: [[0; 8]; 1],
+        text: [0; MOST],
+        table: [[0; 16]; 1 << LINE_BITS],
     };
-}
 
-/// The model at work on one text.
-pub struct Model<'a> {
-    sets: &'a Sets,
-    table: &'a mut [Line; LINES],
-    /// What was coded so far, zeros behind.
-    text: &'a mut [u8; MOST],
-    s: &'a mut State,
-    code: (usize, usize),
-    /// Bytes coded so far.
-    position: usize,
-    /// Bits of the current byte below a leading one.
-    partial: usize,
-    /// Their number.
-    bit: u32,
-    match_at: usize,
-    match_length: usize,
-    /// The byte predicted by the match, with 256 added, or 0.
-    predicted: usize,
-    chosen: [usize; MIXERS],
-    place: usize,
-    match_slot: usize,
-    correction: [usize; 2],
-    probability: i32,
-}
-
-impl<'a> Model<'a> {
-    /// A model for a text whose bytes from `code.0` to `code.1` are instructions. All memory must be zeros.
-    pub fn new(
-        sets: &'a Sets,
-        table: &'a mut [Line; LINES],
-        text: &'a mut [u8; MOST],
-        s: &'a mut State,
-        code: (usize, usize),
-    ) -> Self {
-        s.logistic.fill();
-        s.weights.as_flattened_mut().as_flattened_mut().fill(all(4000));
-        s.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
-        for row in &mut s.corrections {
-            for (i, c) in row.iter_mut().enumerate() {
-                *c = slot::with(s.logistic.squash((i as i32 * 128 - 1984).clamp(-2047, 2047)), 0);
-            }
-        }
-        let mut model = Self {
-            sets,
-            table,
-            text,
-            s,
-            code,
-            position: 0,
-            partial: 1,
-            bit: 0,
-            match_at: 0,
-            match_length: 0,
-            predicted: 0,
-            chosen: [0; MIXERS],
-            place: 0,
-            match_slot: 0,
-            correction: [0; 2],
-            probability: 0,
-        };
-        model.contexts();
-        model
+    /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
+    pub fn start(&mut self, sets: &Sets, code: [u32; 2]) {
+        self.sets = *sets;
+        self.code = code;
+        self.partial = 1;
+        self.logistic.fill();
+        self.weights.as_flattened_mut().as_flattened_mut().fill(all(5000));
+        self.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
+        self.contexts();
     }
 
-    fn is_code(&self) -> bool {
-        self.position >= self.code.0 && self.position < self.code.1
+    fn byte(&self, at: u32) -> u32 {
+        self.text[at as usize & (MOST - 1)] as u32
     }
 
-    fn byte(&self, at: usize) -> usize {
-        self.text[at & (MOST - 1)] as usize
+    /// The `n`th byte before the current one; zeros precede the text.
+    fn back(&self, n: u32) -> u32 {
+        self.byte(self.position.wrapping_sub(n))
     }
 
     /// Follows or looks up the match and hashes the contexts of the next byte.
     fn contexts(&mut self) {
-        if self.match_length != 0 && self.byte(self.match_at) == self.byte(self.position.wrapping_sub(1)) {
-            self.match_length += 1;
-            self.match_at += 1;
-        } else {
-            self.match_length = 0;
-        }
+        self.class = !(self.position >= self.code[0] && self.position < self.code[1]) as u32;
+        let follows = self.match_length != 0 && self.byte(self.match_at) == self.back(1);
+        self.match_at += 1;
+        self.match_length += 1;
         let mut h = 0;
         for i in 1..=MATCH_MIN {
-            h = hash(h, self.byte(self.position.wrapping_sub(i)) as u32);
+            h = hash(h, self.back(i));
         }
-        let head = &mut self.s.heads[(h >> 16) as usize];
-        let found = *head as usize;
-        *head = self.position as u32;
-        if self.match_length == 0 && found != 0 {
+        let head = &mut self.heads[(h >> 16) as usize];
+        let found = *head;
+        *head = self.position;
+        if !follows {
             self.match_at = found;
+            self.match_length = 0;
             while self.match_length < 32
-                && self.byte(found.wrapping_sub(self.match_length + 1))
-                    == self.byte(self.position.wrapping_sub(self.match_length + 1))
+                && self.byte(found.wrapping_sub(self.match_length + 1)) == self.back(self.match_length + 1)
             {
                 self.match_length += 1;
             }
@@ -159,121 +140,110 @@ impl<'a> Model<'a> {
         if self.match_length != 0 {
             self.predicted = self.byte(self.match_at) | 256;
         }
-        let features = &mut self.s.features;
-        features.f[30] = self.predicted as u32;
-        self.place = features.place();
-        let class = !self.is_code() as usize;
-        for (i, (&set, base)) in self.sets[class].iter().zip(&mut self.s.bases).enumerate() {
-            let mut h = (i + 64 * class) as u32;
+        self.features.f[30] = self.predicted;
+        self.place = self.features.place(self.class == 0) | self.class << 5;
+        for (i, (&set, h)) in self.sets[self.class as usize & 1].iter().zip(&mut self.hashes).enumerate() {
+            *h = i as u32 | self.class << 6;
             let mut rest = set;
             while rest != 0 {
                 let j = rest.trailing_zeros();
                 rest &= rest - 1;
-                h = hash(h, self.s.features.f[j as usize & 31].wrapping_add(j << 24));
+                *h = hash(*h, self.features.f[j as usize & 31].wrapping_add(j << 24));
             }
-            *base = h;
         }
     }
 
     /// Finds the lines of the next four bits.
     fn look_up(&mut self) {
-        let s = &mut *self.s;
         // Two loops, so that the processor waits for all lines at once.
         let mut found = [0; CONTEXTS];
-        for ((base, line), found) in s.bases.iter_mut().zip(&mut s.lines).zip(&mut found) {
-            *base = hash(*base, self.partial as u32);
-            *line = (*base >> (32 - LINE_BITS)) as usize;
-            *found = self.table[*line & (LINES - 1)][0];
+        for (h, found) in self.hashes.iter_mut().zip(&mut found) {
+            *h = hash(*h, self.partial);
+            *found = self.table[(*h >> (32 - LINE_BITS)) as usize][0];
         }
-        for ((&check, &line), &found) in s.bases.iter().zip(&s.lines).zip(&found) {
+        for (&check, found) in self.hashes.iter().zip(found) {
             if found != check {
-                let line = &mut self.table[line & (LINES - 1)];
-                *line = [0; 16];
+                let line = &mut self.table[(check >> (32 - LINE_BITS)) as usize];
+                line.fill(0);
                 line[0] = check;
             }
         }
     }
 
-    /// Index in its line of the current bit's slot.
-    fn node(&self) -> usize {
-        let bit = self.bit & 3;
-        self.partial & ((1 << bit) - 1) | 1 << bit
-    }
-
     /// Probability, in 65536ths, that the next bit is a one.
     pub fn predict(&mut self) -> u32 {
-        let bit = self.bit;
-        if bit & 3 == 0 {
+        if self.bit & 3 == 0 {
             self.look_up();
+            self.node = 1;
         }
-        let node = self.node();
-        let class = !self.is_code() as usize;
-        let s = &mut *self.s;
-        let inputs = s.inputs.as_flattened_mut();
-        for (i, line) in s.lines.iter().enumerate() {
-            let direct = self.table[line & (LINES - 1)][node & 15];
-            let indirect = s.histories[class & 1][i][slot::history(direct)];
-            inputs[2 * i] = s.logistic.stretch(slot::probability(direct));
-            inputs[2 * i + 1] = s.logistic.stretch(slot::probability(indirect));
+        let inputs = self.inputs.as_flattened_mut();
+        let histories = &self.histories[self.class as usize & 1];
+        for (i, (&h, histories)) in self.hashes.iter().zip(histories).enumerate() {
+            let direct = self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
+            inputs[2 * i] = self.logistic.stretch(slot::probability(direct));
+            inputs[2 * i + 1] = self.logistic.stretch(slot::probability(histories[slot::history(direct)]));
         }
         let mut length = 0;
         self.match_slot = 0;
-        inputs[INPUTS - 2] = 0;
-        inputs[INPUTS - 1] = 256;
-        if self.predicted >> (8 - bit & 15) == self.partial {
-            length = if self.match_length < 16 { self.match_length } else { (self.match_length / 8 + 14).min(23) };
-            self.match_slot = length * 2 + (self.predicted >> (7 - bit & 15) & 1);
-            inputs[INPUTS - 2] = s.logistic.stretch(slot::probability(s.matches[self.match_slot & 255]));
+        if self.predicted << self.bit >> 8 == self.partial {
+            length = self.match_length.min(31);
+            self.match_slot = length * 2 + (self.predicted << self.bit >> 7 & 1);
         }
-        self.chosen = [self.partial | class << 8, self.place | class << 7, length | (bit as usize) << 5];
-        for ((mixed, &row), weights) in s.mixed[0].iter_mut().zip(&self.chosen).zip(&s.weights) {
-            *mixed = dot(&s.inputs, &weights[row & 511]) as i16;
+        // Slot 0 never learns, so it is even odds.
+        inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
+        inputs[MATCH + 1] = 256;
+        self.chosen = [self.partial | self.class << 8, self.place, length | self.bit << 5];
+        for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
+            *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
         }
-        let last = dot(&s.mixed, &s.last[(self.place | class << 7) & 255]);
-        self.probability = s.logistic.squash(last);
-        let p = self.probability;
-        p.clamp(16, 65535 - 16) as u32
+        self.probability = self.logistic.squash(dot(&self.mixed, &self.last[self.place as usize & 63]));
+        self.probability.clamp(16, 65536 - 16) as u32
     }
 
     /// Learns the bit.
     pub fn update(&mut self, bit: u32) {
-        let node = self.node();
-        let class = !self.is_code() as usize;
-        let s = &mut *self.s;
         let target = (bit << 16) as i32;
-        for ((&mixed, &row), weights) in s.mixed[0].iter().zip(&self.chosen).zip(&mut s.weights) {
-            let error = (target - s.logistic.squash(mixed as i32)) * 6 >> 4;
-            train(&s.inputs, &mut weights[row & 511], error);
+        for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {
+            let error = (target - self.logistic.squash(mixed as i32)) * RATES[0] >> 4;
+            train(&self.inputs, &mut weights[row as usize & 511], error);
         }
-        train(&s.mixed, &mut s.last[(self.place | class << 7) & 255], (target - self.probability) * 3 >> 4);
-        for (i, line) in s.lines.iter().enumerate() {
-            let direct = &mut self.table[line & (LINES - 1)][node & 15];
-            slot::update(&mut s.histories[class & 1][i][slot::history(*direct)], bit);
+        train(&self.mixed, &mut self.last[self.place as usize & 63], (target - self.probability) * RATES[1] >> 4);
+        let histories = &mut self.histories[self.class as usize & 1];
+        for (&h, histories) in self.hashes.iter().zip(histories) {
+            let direct = &mut self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
+            slot::update(&mut histories[slot::history(*direct)], bit);
             slot::update(direct, bit);
         }
         if self.match_slot != 0 {
-            slot::update(&mut s.matches[self.match_slot & 255], bit);
+            slot::update(&mut self.matches[self.match_slot as usize & 63], bit);
         }
-        self.partial = self.partial << 1 | bit as usize;
+        self.partial = self.partial << 1 | bit;
+        self.node = self.node << 1 | bit;
         self.bit += 1;
         if self.bit == 8 {
             let byte = self.partial as u8;
             (self.partial, self.bit) = (1, 0);
-            self.text[self.position & (MOST - 1)] = byte;
+            self.text[self.position as usize & (MOST - 1)] = byte;
             self.position += 1;
-            let code = self.is_code();
-            self.s.features.push(byte, self.position, code);
+            let code = self.class == 0;
+            self.features.push(byte, self.position, code);
             self.contexts();
         }
     }
 
     /// Bytes coded so far.
     pub fn position(&self) -> usize {
-        self.position
+        self.position as usize
     }
 
-    /// Name-free number of the kind of the next byte, below 256, for statistics.
-    pub fn kind(&self) -> usize {
-        self.place | (!self.is_code() as usize) << 7
+    /// What was coded so far, zeros behind.
+    pub fn text(&mut self) -> &mut [u8; MOST] {
+        &mut self.text
+    }
+
+    /// What the model takes the next byte for: in code its field ([`crate::parse`]), with 16 added in relative
+    /// numbers and after them; in data 32 or more.
+    pub fn kind(&self) -> u32 {
+        self.place
     }
 }

@@ -11,7 +11,7 @@ mod sys;
 use pack_model::address::{Way, convert};
 use pack_model::coder::Decoder;
 use pack_model::features::hash;
-use pack_model::model::{MOST, Model};
+use pack_model::model::MOST;
 use pack_model::tuned::SETS;
 
 /// Exit status of every refusal: a shell's "found, but cannot be run".
@@ -24,17 +24,18 @@ fn main(stack: &sys::Stack) -> ! {
     }
     let image = sys::image();
     let Some(head) = Head::read(image) else { sys::fail(b"paprsek: this file is damaged\n", CANNOT) };
-    let memory = sys::memory();
-    let mut model = Model::new(&SETS, &mut memory.table, &mut memory.text, &mut memory.state, head.code);
+    let model = sys::model();
+    model.start(&SETS, head.code);
     let mut decoder = Decoder::new(head.packed);
     while model.position() < head.length {
         let bit = decoder.decode(model.predict());
         model.update(bit);
     }
-    if let Some(code) = memory.text.get_mut(head.code.0..head.code.1) {
+    let text = model.text();
+    if let Some(code) = text.get_mut(head.code[0] as usize..head.code[1] as usize) {
         convert(code, head.address, Way::Relative);
     }
-    run::run(memory.text.get(..head.length).unwrap_or(&[]), stack)
+    run::run(text.get(..head.length).unwrap_or(&[]), stack)
 }
 
 /// The payload: four words, the coded bytes, and the checksum of all before.
@@ -42,7 +43,7 @@ struct Head {
     /// Bytes unpacked.
     length: usize,
     /// Where in them instructions start and end.
-    code: (usize, usize),
+    code: [u32; 2],
     /// Where the first instruction will be in memory.
     address: u32,
     packed: &'static [u8],
@@ -53,8 +54,8 @@ impl Head {
     fn read(image: &'static [u8]) -> Option<Self> {
         let (image, sum) = image.split_last_chunk()?;
         let (words, packed) = image.get(sys::payload_offset()..)?.split_first_chunk::<16>()?;
-        let word = |i| u32::from_le_bytes([words[i], words[i + 1], words[i + 2], words[i + 3]]) as usize;
-        let head = Self { length: word(0), code: (word(4), word(8)), address: word(12) as u32, packed };
+        let word = |i| u32::from_le_bytes([words[i], words[i + 1], words[i + 2], words[i + 3]]);
+        let head = Self { length: word(0) as usize, code: [word(4), word(8)], address: word(12), packed };
         let found = image.iter().fold(0, |sum, &byte| hash(sum, byte as u32));
         (found == u32::from_le_bytes(*sum) && head.length <= MOST).then_some(head)
     }

@@ -4,7 +4,7 @@
 use core::arch::x86_64::{__cpuid, __cpuid_count};
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
-use pack_model::model::{LINES, Line, MOST, State};
+use pack_model::model::Model;
 
 // The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
 global_asm!(
@@ -32,24 +32,17 @@ fn panic(_: &core::panic::PanicInfo) -> ! {
     no_panic_may_be_left()
 }
 
-/// The model's memory; the unpacked text is in it.
-pub struct Memory {
-    pub state: State,
-    pub text: [u8; MOST],
-    pub table: [Line; LINES],
-}
-
-struct Shared(UnsafeCell<Memory>);
+struct Shared(UnsafeCell<Model>);
 // SAFETY: there is one thread.
 unsafe impl Sync for Shared {}
-static MEMORY: Shared = Shared(UnsafeCell::new(Memory { state: State::ZERO, text: [0; MOST], table: [[0; 16]; LINES] }));
+static MODEL: Shared = Shared(UnsafeCell::new(Model::ZERO));
 
-/// The memory, all zeros. To be called once.
-pub fn memory() -> &'static mut Memory {
-    // MADV_HUGEPAGE, on x86-64 in 2 MB: a fifth of the time goes without; where it is refused, nothing is lost.
-    call(28, MEMORY.0.get() as usize, size_of::<Memory>(), 14, 0, 0);
+/// The model, all zeros. To be called once.
+pub fn model() -> &'static mut Model {
+    // MADV_HUGEPAGE: with pages of 2 MB a fifth of the time goes; where it is refused, nothing is lost.
+    call(28, MODEL.0.get() as usize, size_of::<Model>(), 14);
     // SAFETY: the only caller calls once, in the only thread.
-    unsafe { &mut *MEMORY.0.get() }
+    unsafe { &mut *MODEL.0.get() }
 }
 
 const BASE: usize = 0x400000;
@@ -82,12 +75,12 @@ pub fn has_avx2() -> bool {
     state & 6 == 6
 }
 
-fn call(number: usize, a: usize, b: usize, c: usize, d: usize, e: usize) -> isize {
+fn call(number: usize, a: usize, b: usize, c: usize) -> isize {
     let result;
     // SAFETY: the callers below pass what the call in question asks for, and no call among them writes memory.
     unsafe {
-        asm!("syscall", inlateout("rax") number => result, in("rdi") a, in("rsi") b, in("rdx") c, in("r10") d,
-            in("r8") e, out("rcx") _, out("r11") _, options(nostack));
+        asm!("syscall", inlateout("rax") number => result, in("rdi") a, in("rsi") b, in("rdx") c, out("rcx") _,
+            out("r11") _, options(nostack));
     }
     result
 }
@@ -96,14 +89,14 @@ fn call(number: usize, a: usize, b: usize, c: usize, d: usize, e: usize) -> isiz
 pub fn fail(line: &[u8], status: i32) -> ! {
     write_all(2, line);
     loop {
-        call(231, status as usize, 0, 0, 0, 0);
+        call(231, status as usize, 0, 0);
     }
 }
 
 /// Writes all of `bytes`; false if that fails.
 pub fn write_all(file: isize, mut bytes: &[u8]) -> bool {
     while !bytes.is_empty() {
-        let written = call(1, file as usize, bytes.as_ptr() as usize, bytes.len(), 0, 0);
+        let written = call(1, file as usize, bytes.as_ptr() as usize, bytes.len());
         match bytes.get(written as usize..) {
             Some(rest) if written > 0 => bytes = rest,
             _ => return false,
@@ -114,33 +107,33 @@ pub fn write_all(file: isize, mut bytes: &[u8]) -> bool {
 
 /// memfd_create: a file in memory, or a negative error.
 pub fn memory_file(flags: usize) -> isize {
-    call(319, c"paprsek".as_ptr() as usize, flags, 0, 0, 0)
+    call(319, c"paprsek".as_ptr() as usize, flags, 0)
 }
 
 /// getpid.
 pub fn process() -> u32 {
-    call(39, 0, 0, 0, 0, 0) as u32
+    call(39, 0, 0, 0) as u32
 }
 
 /// Creates a file that only its owner may read, write and run; an error if there is one of this name.
 pub fn create(path: &Path) -> isize {
     // O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC
-    call(2, path.0.as_ptr() as usize, 0o2_000_301, 0o700, 0, 0)
+    call(2, path.0.as_ptr() as usize, 0o2_000_301, 0o700)
 }
 
 /// Opens a file for reading.
 pub fn open(path: &Path) -> isize {
-    call(2, path.0.as_ptr() as usize, 0o2_000_000, 0, 0, 0)
+    call(2, path.0.as_ptr() as usize, 0o2_000_000, 0)
 }
 
 /// Removes a file's name.
 pub fn unlink(path: &Path) {
-    call(87, path.0.as_ptr() as usize, 0, 0, 0, 0);
+    call(87, path.0.as_ptr() as usize, 0, 0);
 }
 
 /// Closes a file.
 pub fn close(file: isize) {
-    call(3, file as usize, 0, 0, 0, 0);
+    call(3, file as usize, 0, 0);
 }
 
 /// The end of the stack as the kernel made it: argc, then the arguments, 0, the environment, 0.
@@ -181,23 +174,31 @@ impl Stack {
 /// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH, which needs no /proc.
 /// Comes back if that fails.
 pub fn execute(file: isize, stack: &Stack) {
-    call(322, file as usize, c"".as_ptr() as usize, stack.word(1) as usize, stack.environment() as usize, 0x1000);
+    // SAFETY: reads the lists that the kernel itself made.
+    unsafe {
+        asm!("syscall", inlateout("rax") 322_usize => _, in("rdi") file, in("rsi") c"".as_ptr(), in("rdx") stack.word(1),
+            in("r10") stack.environment(), in("r8") 0x1000, out("rcx") _, out("r11") _, options(nostack));
+    }
 }
 
 /// A path, zero-terminated.
-pub struct Path([u8; 256]);
+pub struct Path([u8; 512]);
 
 impl Path {
     /// A hidden file of this number in a directory. A name too long is cut, and then cannot be created.
     pub fn new(directory: &[u8], mut number: u32) -> Self {
-        let mut path = Path([0; 256]);
-        let digits = core::iter::from_fn(|| {
-            number = number.rotate_left(4);
-            Some(b'a' + (number & 15) as u8)
-        });
-        let name = directory.iter().copied().chain(*b"/.paprsek-").chain(digits.take(8));
-        for (to, from) in path.0[..255].iter_mut().zip(name) {
-            *to = from;
+        let mut path = Path([0; 512]);
+        let mut end = 0;
+        for part in [directory, b"/.paprsek-"] {
+            for &byte in part {
+                path.0[end & 255] = byte;
+                end += 1;
+            }
+        }
+        while number != 0 {
+            path.0[end & 511] = b'a' + (number & 15) as u8;
+            number >>= 4;
+            end += 1;
         }
         path
     }
