@@ -1,3 +1,10 @@
 //! Builds the intro for size, packs it, and says where the bytes go.
 
+pub mod build;
+pub mod compress;
+pub mod elf;
+pub mod packer;
+pub mod stub;
 pub mod table;
+pub mod toolchain;
+mod x11;

@@ -1,24 +1,103 @@
-//! Builds the intro for size and packs it.
+//! `pack`: builds the intro for size, packs it into `target/intro/paprsek` and says where its bytes go.
+//! `pack FILE -o OUT`: packs any executable.
 
-mod build;
-mod toolchain;
-mod x11;
-
-use std::path::Path;
+use pack::packer::{self, Packed};
+use pack::table::{Profile, Row, View, markdown};
+use pack::toolchain::Toolchain;
+use pack::{build, elf, stub};
+use std::ffi::OsString;
+use std::fmt::Write;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use toolchain::Toolchain;
+use std::{env, fs, io};
 
 fn main() -> ExitCode {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
-    let target = std::env::args_os().nth(1).map_or(root.join("target/intro"), Into::into);
-    match Toolchain::find().and_then(|toolchain| build::build(root, &toolchain, &target)) {
-        Ok(path) => {
-            println!("{}", path.display());
-            ExitCode::SUCCESS
-        }
+    let arguments: Vec<_> = env::args_os().skip(1).collect();
+    let said = match &arguments[..] {
+        [] => intro(),
+        [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
+        _ => Err("usage: pack, or pack FILE -o OUT".into()),
+    };
+    let printed = said.and_then(|said| {
+        io::Write::write_all(&mut io::stdout(), said.as_bytes()).map_err(|error| format!("stdout: {error}"))
+    });
+    match printed {
+        Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("pack: {why}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Builds and packs the intro; gives the table of its modules.
+fn intro() -> Result<String, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target"))).join("intro");
+    let toolchain = Toolchain::find()?;
+    let program = read(&build::build(&root, &toolchain, &target.join("build"))?)?;
+    let packed = packer::pack(&program, &unpacker(&toolchain, &target)?)?;
+    write(&target.join("paprsek.elf"), &elf::trim(&program)?.bytes)?;
+    write(&target.join("paprsek"), &packed.bytes)?;
+
+    let costs = packer::measure(&program)?;
+    let mut rows = Profile::read(&program)?.rows(View::Owner, &|address| Some(costs.bits(address)));
+    let coded: f64 = rows.iter().map(|row| row.packed).sum();
+    let rest = packed.bytes.len() as f64 - coded;
+    rows.push(Row { name: "unpacker".into(), bytes: (packed.headers + packed.stub) as u64, packed: rest });
+    let table = markdown(&rows);
+    write(&target.join("size.md"), table.as_bytes())?;
+    write(&target.join("size.toml"), modules(&table).as_bytes())?;
+    Ok(format!("{table}\n{}", sizes(&packed)))
+}
+
+/// Packs any executable.
+fn any(file: &Path, out: &Path) -> Result<String, String> {
+    let program = read(file)?;
+    let work = env::temp_dir().join(format!("pack-{}", std::process::id()));
+    let stub = Toolchain::find().and_then(|toolchain| unpacker(&toolchain, &work));
+    // What is left there harms nobody.
+    let _ = fs::remove_dir_all(&work);
+    let packed = packer::pack(&program, &stub?)?;
+    write(out, &packed.bytes)?;
+    Ok(sizes(&packed))
+}
+
+fn unpacker(toolchain: &Toolchain, work: &Path) -> Result<Vec<u8>, String> {
+    fs::create_dir_all(work).map_err(|error| format!("{}: {error}", work.display()))?;
+    stub::build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), work)
+}
+
+/// The lines of the table, rounded as it is, for a program to read.
+fn modules(table: &str) -> String {
+    let mut text = String::new();
+    for line in table.lines().skip(2) {
+        let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
+        if let [name, bytes, packed] = cells[..]
+            && name != "total"
+        {
+            let _ = writeln!(text, "[[module]]\nname = {name:?}\nbytes = {bytes}\npacked = {packed}");
+        }
+    }
+    text
+}
+
+fn sizes(packed: &Packed) -> String {
+    let Packed { bytes, trimmed, headers, stub, payload } = packed;
+    let total = bytes.len();
+    format!("program {trimmed}\nheaders {headers}\nunpacker {stub}\ncoded program {payload}\npacked {total}\n")
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Writes an executable, whole or not at all.
+fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let part: PathBuf = path.with_extension("part");
+    let written = fs::write(&part, bytes)
+        .and_then(|()| fs::set_permissions(&part, fs::Permissions::from_mode(0o755)))
+        .and_then(|()| fs::rename(&part, path));
+    written.map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -1,0 +1,249 @@
+//! The predictor: the probability of the next bit, given all before.
+
+use crate::features::{Features, hash};
+use crate::mix::{Logistic, Weights, all, dot, train};
+use crate::slot;
+
+/// Contexts of a byte. The unpacker's time goes with it; see the crate for what more would bring.
+pub const CONTEXTS: usize = 11;
+/// Inputs of a mixer, in vectors of eight: two of each context, the match, a constant.
+const VECTORS: usize = (2 * CONTEXTS + 2) / 8;
+const MATCH: usize = 2 * CONTEXTS;
+/// Mixers whose results the last one mixes.
+const MIXERS: usize = 3;
+/// Slots for four bits of a byte in one context: the first holds a check, the others are a tree of bits.
+type Line = [u32; 16];
+const LINE_BITS: u32 = 20;
+/// Longest text, in bytes.
+pub const MOST: usize = 1 << 22;
+/// Bytes that a match must have in common at first.
+const MATCH_MIN: u32 = 5;
+/// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
+const RATES: [i32; 2] = [6, 3];
+
+/// Which features make each context, in code and in data.
+pub type Sets = [[u32; CONTEXTS]; 2];
+
+/// The model at work on one text, and all its memory. It starts as zeros; then comes [`Self::start`].
+/// What is used most is first, where the unpacker reaches it with short instructions.
+#[repr(C)]
+pub struct Model {
+    /// Bits of the current byte below a leading one.
+    partial: u32,
+    /// Their number.
+    bit: u32,
+    /// Bytes coded so far.
+    position: u32,
+    code: [u32; 2],
+    /// 0 while the current byte is an instruction's, 1 while it is not.
+    class: u32,
+    /// Index in a line of the current bit's slot.
+    node: u32,
+    match_at: u32,
+    match_length: u32,
+    /// The byte predicted by the match, with 256 added, or 0.
+    predicted: u32,
+    match_slot: u32,
+    chosen: [u32; MIXERS],
+    place: u32,
+    probability: i32,
+    mixed: [[i16; 8]; 1],
+    inputs: [[i16; 8]; VECTORS],
+    /// Hashes of the contexts: their top bits are the line, all of them the check.
+    hashes: [u32; CONTEXTS],
+    sets: Sets,
+    features: Features,
+    logistic: Logistic,
+    weights: [[[Weights; VECTORS]; 512]; MIXERS],
+    last: [[Weights; 1]; 64],
+    histories: [[[u32; 256]; CONTEXTS]; 2],
+    matches: [u32; 64],
+    heads: [u32; 1 << 16],
+    text: [u8; MOST],
+    table: [Line; 1 << LINE_BITS],
+}
+
+impl Model {
+    /// Before the first bit and before [`Self::start`].
+    pub const ZERO: Self = Self {
+        partial: 0,
+        bit: 0,
+        position: 0,
+        code: [0; 2],
+        class: 0,
+        node: 0,
+        match_at: 0,
+        match_length: 0,
+        predicted: 0,
+        match_slot: 0,
+        chosen: [0; MIXERS],
+        place: 0,
+        probability: 0,
+        mixed: [[0; 8]; 1],
+        inputs: [[0; 8]; VECTORS],
+        hashes: [0; CONTEXTS],
+        sets: [[0; CONTEXTS]; 2],
+        features: Features::ZERO,
+        logistic: Logistic::ZERO,
+        weights: [[[[0; 2]; VECTORS]; 512]; MIXERS],
+        last: [[[0; 2]; 1]; 64],
+        histories: [[[0; 256]; CONTEXTS]; 2],
+        matches: [0; 64],
+        heads: [0; 1 << 16],
+        text: [0; MOST],
+        table: [[0; 16]; 1 << LINE_BITS],
+    };
+
+    /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
+    pub fn start(&mut self, sets: &Sets, code: [u32; 2]) {
+        self.sets = *sets;
+        self.code = code;
+        self.partial = 1;
+        self.logistic.fill();
+        self.weights.as_flattened_mut().as_flattened_mut().fill(all(5000));
+        self.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
+        self.contexts();
+    }
+
+    fn byte(&self, at: u32) -> u32 {
+        self.text[at as usize & (MOST - 1)] as u32
+    }
+
+    /// The `n`th byte before the current one; zeros precede the text.
+    fn back(&self, n: u32) -> u32 {
+        self.byte(self.position.wrapping_sub(n))
+    }
+
+    /// Follows or looks up the match and hashes the contexts of the next byte.
+    fn contexts(&mut self) {
+        self.class = !(self.position >= self.code[0] && self.position < self.code[1]) as u32;
+        let follows = self.match_length != 0 && self.byte(self.match_at) == self.back(1);
+        self.match_at += 1;
+        self.match_length += 1;
+        let mut h = 0;
+        for i in 1..=MATCH_MIN {
+            h = hash(h, self.back(i));
+        }
+        let head = &mut self.heads[(h >> 16) as usize];
+        let found = *head;
+        *head = self.position;
+        if !follows {
+            self.match_at = found;
+            self.match_length = 0;
+            while self.match_length < 32
+                && self.byte(found.wrapping_sub(self.match_length + 1)) == self.back(self.match_length + 1)
+            {
+                self.match_length += 1;
+            }
+        }
+        self.predicted = 0;
+        if self.match_length != 0 {
+            self.predicted = self.byte(self.match_at) | 256;
+        }
+        self.features.f[30] = self.predicted;
+        self.place = self.features.place(self.class == 0) | self.class << 5;
+        for (i, (&set, h)) in self.sets[self.class as usize & 1].iter().zip(&mut self.hashes).enumerate() {
+            *h = i as u32 | self.class << 6;
+            let mut rest = set;
+            while rest != 0 {
+                let j = rest.trailing_zeros();
+                rest &= rest - 1;
+                *h = hash(*h, self.features.f[j as usize & 31].wrapping_add(j << 24));
+            }
+        }
+    }
+
+    /// Finds the lines of the next four bits.
+    fn look_up(&mut self) {
+        // Two loops, so that the processor waits for all lines at once.
+        let mut found = [0; CONTEXTS];
+        for (h, found) in self.hashes.iter_mut().zip(&mut found) {
+            *h = hash(*h, self.partial);
+            *found = self.table[(*h >> (32 - LINE_BITS)) as usize][0];
+        }
+        for (&check, found) in self.hashes.iter().zip(found) {
+            if found != check {
+                let line = &mut self.table[(check >> (32 - LINE_BITS)) as usize];
+                line.fill(0);
+                line[0] = check;
+            }
+        }
+    }
+
+    /// Probability, in 65536ths, that the next bit is a one.
+    pub fn predict(&mut self) -> u32 {
+        if self.bit & 3 == 0 {
+            self.look_up();
+            self.node = 1;
+        }
+        let inputs = self.inputs.as_flattened_mut();
+        let histories = &self.histories[self.class as usize & 1];
+        for (i, (&h, histories)) in self.hashes.iter().zip(histories).enumerate() {
+            let direct = self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
+            inputs[2 * i] = self.logistic.stretch(slot::probability(direct));
+            inputs[2 * i + 1] = self.logistic.stretch(slot::probability(histories[slot::history(direct)]));
+        }
+        let mut length = 0;
+        self.match_slot = 0;
+        if self.predicted << self.bit >> 8 == self.partial {
+            length = self.match_length.min(31);
+            self.match_slot = length * 2 + (self.predicted << self.bit >> 7 & 1);
+        }
+        // Slot 0 never learns, so it is even odds.
+        inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
+        inputs[MATCH + 1] = 256;
+        self.chosen = [self.partial | self.class << 8, self.place, length | self.bit << 5];
+        for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
+            *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
+        }
+        self.probability = self.logistic.squash(dot(&self.mixed, &self.last[self.place as usize & 63]));
+        self.probability.clamp(16, 65536 - 16) as u32
+    }
+
+    /// Learns the bit.
+    pub fn update(&mut self, bit: u32) {
+        let target = (bit << 16) as i32;
+        for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {
+            let error = (target - self.logistic.squash(mixed as i32)) * RATES[0] >> 4;
+            train(&self.inputs, &mut weights[row as usize & 511], error);
+        }
+        train(&self.mixed, &mut self.last[self.place as usize & 63], (target - self.probability) * RATES[1] >> 4);
+        let histories = &mut self.histories[self.class as usize & 1];
+        for (&h, histories) in self.hashes.iter().zip(histories) {
+            let direct = &mut self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
+            slot::update(&mut histories[slot::history(*direct)], bit);
+            slot::update(direct, bit);
+        }
+        if self.match_slot != 0 {
+            slot::update(&mut self.matches[self.match_slot as usize & 63], bit);
+        }
+        self.partial = self.partial << 1 | bit;
+        self.node = self.node << 1 | bit;
+        self.bit += 1;
+        if self.bit == 8 {
+            let byte = self.partial as u8;
+            (self.partial, self.bit) = (1, 0);
+            self.text[self.position as usize & (MOST - 1)] = byte;
+            self.position += 1;
+            let code = self.class == 0;
+            self.features.push(byte, self.position, code);
+            self.contexts();
+        }
+    }
+
+    /// Bytes coded so far.
+    pub fn position(&self) -> usize {
+        self.position as usize
+    }
+
+    /// What was coded so far, zeros behind.
+    pub fn text(&mut self) -> &mut [u8; MOST] {
+        &mut self.text
+    }
+
+    /// What the model takes the next byte for: in code its field ([`crate::parse`]), with 16 added in relative
+    /// numbers and after them; in data 32 or more.
+    pub fn kind(&self) -> u32 {
+        self.place
+    }
+}

@@ -1,0 +1,159 @@
+//! Where in an x86-64 instruction the next byte stands. Lengths after the opcode maps of Intel's manual,
+//! volume 2, appendix A; 64-bit mode only, VEX included, EVEX not.
+
+/// A prefix, or the opcode of an instruction without VEX.
+pub const OP: u32 = 0;
+/// Operands.
+pub const MODRM: u32 = 1;
+/// Base, index and scale.
+pub const SIB: u32 = 2;
+/// A displacement of one byte.
+pub const DISP8: u32 = 3;
+/// The first of four bytes of a displacement; the others follow in numbers too.
+pub const DISP32: u32 = 4;
+/// An immediate, or a jump's distance, of one byte.
+pub const IMM8: u32 = 8;
+/// The first of four bytes of an immediate or of a distance.
+pub const IMM32: u32 = 9;
+/// The opcode after an escape byte or VEX.
+pub const OP_MORE: u32 = 15;
+
+/// Bytes of these fields to come: a queue in groups of four bits, the next one lowest.
+const FOUR_OF_DISP: u64 = 0x7654;
+const FOUR_OF_IMM: u64 = 0xcba9;
+/// The second of the three bytes of a VEX prefix (13), its last (14), the opcode.
+const AFTER_C4: u64 = 0xfed;
+
+/// State of the parser between two bytes. It starts as zeros.
+#[derive(Clone, Copy)]
+pub struct Parser {
+    /// Fields to come, as far as they are known.
+    queue: u64,
+    /// Opcode map: 0 one byte, 1 `0F`, 2 `0F 38`, 3 `0F 3A`.
+    pub map: u32,
+    /// The opcode, once known.
+    pub op: u32,
+    /// Operands byte, 0 until known.
+    pub modrm: u32,
+    /// REX, or the last byte of VEX.
+    pub rex: u32,
+    /// The last legacy prefix: `66`, `F2`, `F3`, a segment; `C5` for VEX.
+    pub prefix: u32,
+    /// The field whose four bytes are relative to the end of the instruction, or 0.
+    pub relative: u32,
+    /// The last byte ended an instruction, which the other fields still describe.
+    pub done: bool,
+}
+
+/// One bit for each opcode of maps 0 and 1: does it have operands?
+const HAS_MODRM: [u32; 16] = [0x0f0f_0f0f, 0x0f0f_0f0f, 0, 0x0000_0a08, 0x0000_ffff, 0, 0xff0f_00c3, 0xc0c0_0000, 0xffff_b41f, 0xff00_ffff, 0xffff_ffff, 0xff7f_ffff, 0xffff_0000, 0xffff_f8f8, 0xffff_00ff, 0xffff_ffff];
+/// Does it have an immediate of one byte?
+const HAS_IMM8: [u32; 16] = [0x1010_1010, 0x1010_1010, 0, 0xffff_0c00, 0x0000_0009, 0x00ff_0100, 0x0000_2043, 0x0000_08ff, 0, 0, 0, 0x000f_0000, 0, 0x0400_1010, 0x0000_0074, 0];
+/// Does it have an immediate or a distance of four bytes?
+const HAS_IMM32: [u32; 16] = [0x2020_2020, 0x2020_2020, 0, 0x0000_0300, 0x0000_0002, 0xff00_0200, 0x0000_0080, 0x0000_0300, 0, 0, 0, 0, 0x0000_ffff, 0, 0, 0];
+
+fn has(table: &[u32; 16], index: u32) -> bool {
+    table[(index >> 5) as usize & 15] >> (index & 31) & 1 != 0
+}
+
+impl Parser {
+    /// At the start of an instruction.
+    pub const START: Self = Self { queue: 0, map: 0, op: 0, modrm: 0, rex: 0, prefix: 0, relative: 0, done: false };
+
+    /// What comes next.
+    pub fn field(&self) -> u32 {
+        (self.queue & 15) as u32
+    }
+
+    /// Bytes to come after the four of the current field.
+    pub fn after_four(&self) -> u32 {
+        (67 - (self.queue >> 16).leading_zeros()) / 4
+    }
+
+    /// Takes one byte.
+    pub fn step(&mut self, byte: u8) {
+        if self.done {
+            *self = Self::START;
+        }
+        let byte = byte as u32;
+        let field = self.field();
+        self.queue >>= 4;
+        match field {
+            OP | OP_MORE => {
+                if self.map == 0 {
+                    match byte {
+                        0x40..=0x4f => self.rex = byte,
+                        0x26 | 0x2e | 0x36 | 0x3e | 0x64..=0x67 | 0xf0 | 0xf2 | 0xf3 => self.prefix = byte,
+                        0xc4 => self.queue = AFTER_C4,
+                        0xc5 => (self.map, self.queue) = (1, AFTER_C4 >> 4),
+                        0x0f => (self.map, self.queue) = (1, OP_MORE as u64),
+                        _ => self.opcode(byte),
+                    }
+                    // No opcode yet; that is never the end.
+                    if self.op != byte {
+                        return;
+                    }
+                } else if self.map == 1 && self.prefix != 0xc5 && byte & 0xfd == 0x38 {
+                    (self.map, self.queue) = (2 + (byte >> 1 & 1), OP_MORE as u64);
+                } else {
+                    self.opcode(byte);
+                }
+            }
+            MODRM => {
+                self.modrm = byte;
+                // TEST, alone of its group, has an immediate.
+                if self.map == 0 && self.op & 0xfe == 0xf6 && byte & 0x30 == 0 {
+                    self.queue = if self.op == 0xf6 { IMM8 as u64 } else { self.wide() };
+                }
+                if byte & 0xc7 == 5 {
+                    self.relative = DISP32;
+                }
+                if byte & 0xc7 == 5 || byte >> 6 == 2 {
+                    self.queue = self.queue << 16 | FOUR_OF_DISP;
+                }
+                if byte >> 6 == 1 {
+                    self.queue = self.queue << 4 | DISP8 as u64;
+                }
+                if byte < 0xc0 && byte & 7 == 4 {
+                    self.queue = self.queue << 4 | SIB as u64;
+                }
+            }
+            SIB => {
+                if byte & 7 == 5 && self.modrm < 0x40 {
+                    self.queue = self.queue << 16 | FOUR_OF_DISP;
+                }
+            }
+            13 => self.map = byte & 3,
+            14 => (self.rex, self.prefix) = (byte, 0xc5),
+            _ => {}
+        }
+        self.done = self.queue == 0;
+    }
+
+    /// An operand as wide as the operands, which the prefix `66` makes two bytes.
+    fn wide(&self) -> u64 {
+        if self.prefix == 0x66 { FOUR_OF_IMM >> 8 } else { FOUR_OF_IMM }
+    }
+
+    /// Takes the opcode proper.
+    fn opcode(&mut self, byte: u32) {
+        self.op = byte;
+        let index = byte | self.map << 8;
+        if self.map == 3 || self.map < 2 && has(&HAS_IMM8, index) {
+            self.queue = IMM8 as u64;
+        }
+        if self.map < 2 && has(&HAS_IMM32, index) {
+            self.queue = self.wide();
+            if index & 0xfe == 0xe8 || index & 0x1f0 == 0x180 {
+                self.relative = IMM32;
+                self.queue = FOUR_OF_IMM;
+            }
+            if index & 0xf8 == 0xb8 && self.rex & 8 != 0 {
+                self.queue |= FOUR_OF_IMM << 16;
+            }
+        }
+        if self.map > 1 || has(&HAS_MODRM, index) {
+            self.queue = self.queue << 4 | MODRM as u64;
+        }
+    }
+}

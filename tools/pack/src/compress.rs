@@ -1,0 +1,64 @@
+//! The model's use on this side: coding with it, and asking what each byte costs.
+
+use pack_model::coder::{Decoder, Encoder};
+use pack_model::model::{Model, Sets};
+use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
+
+/// A model that knows nothing yet, on the heap: 70 MB that must not pass through the stack.
+#[allow(unsafe_code)]
+fn model(sets: &Sets, code: [u32; 2]) -> Box<Model> {
+    let layout = Layout::new::<Model>();
+    // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers and of one false.
+    let mut model = unsafe {
+        let memory = alloc_zeroed(layout);
+        if memory.is_null() {
+            handle_alloc_error(layout);
+        }
+        Box::from_raw(memory.cast::<Model>())
+    };
+    model.start(sets, code);
+    model
+}
+
+/// Codes `text`.
+pub fn compress(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, code);
+    let (mut encoder, mut out) = (Encoder::default(), Vec::new());
+    for byte in text {
+        for i in (0..8).rev() {
+            let bit = (byte >> i & 1) as u32;
+            encoder.encode(bit, model.predict(), |byte| out.push(byte));
+            model.update(bit);
+        }
+    }
+    out.push(encoder.finish());
+    out
+}
+
+/// What [`compress`] coded as `packed`, a text of `length` bytes.
+pub fn decompress(sets: &Sets, packed: &[u8], length: usize, code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, code);
+    let mut decoder = Decoder::new(packed);
+    while model.position() < length {
+        let bit = decoder.decode(model.predict());
+        model.update(bit);
+    }
+    model.text()[..length].to_vec()
+}
+
+/// Bits that each byte of `text` costs, and what kind of byte the model took it for.
+pub fn costs(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<(f32, u32)> {
+    let mut model = model(sets, code);
+    let mut costs = Vec::new();
+    for byte in text {
+        let (mut sum, kind) = (0.0, model.kind());
+        for i in (0..8).rev() {
+            let bit = byte >> i & 1;
+            let p = model.predict() as f32 / 65536.0;
+            sum -= if bit != 0 { p } else { 1.0 - p }.log2();
+            model.update(bit as u32);
+        }
+        costs.push((sum, kind));
+    }
+    costs
+}

@@ -1,0 +1,102 @@
+//! Puts the unpacker and the coded program into one executable.
+
+use crate::compress::{compress, costs};
+use crate::elf::{self, HEADER, SEGMENT, Trimmed};
+use pack_model::address::{Way, convert};
+use pack_model::features::hash;
+use pack_model::model::MOST;
+use pack_model::tuned::SETS;
+
+/// Where the packed file is mapped; the unpacker is linked for it (`stub.ld`).
+const BASE: u64 = 0x40_0000;
+/// The file's own headers: the unpacker's code follows.
+const HEADERS: usize = HEADER + 2 * SEGMENT;
+
+/// A packed executable and where its bytes went.
+pub struct Packed {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// Bytes of the program before coding.
+    pub trimmed: usize,
+    /// Bytes of ELF headers.
+    pub headers: usize,
+    /// Bytes of the unpacker.
+    pub stub: usize,
+    /// Bytes of the coded program, with its lengths and checksum.
+    pub payload: usize,
+}
+
+/// The program as it is coded: trimmed, with absolute addresses.
+fn prepare(file: &[u8]) -> Result<Trimmed, String> {
+    let mut trimmed = elf::trim(file)?;
+    if trimmed.bytes.len() > MOST {
+        return Err(format!("{} bytes, but the unpacker's memory ends at {MOST}", trimmed.bytes.len()));
+    }
+    convert(&mut trimmed.bytes[trimmed.code.clone()], trimmed.code_address as u32, Way::Absolute);
+    Ok(trimmed)
+}
+
+/// Packs an executable. `stub` is the linked unpacker ([`crate::stub::build`]).
+pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
+    let program = prepare(file)?;
+    let code = [program.code.start as u32, program.code.end as u32];
+    let all = elf::segments(stub)?;
+    let text = all.iter().find(|s| s.kind == 1 && !s.file.is_empty()).ok_or("the stub has no code")?;
+    let memory = all.iter().find(|s| s.kind == 1 && s.file.is_empty()).ok_or("the stub has no memory")?;
+    if text.address != BASE + HEADERS as u64 {
+        return Err("the stub is not linked as it should be".into());
+    }
+    let entry = u64::from_le_bytes(stub[24..32].try_into().expect("segments() has read the header"));
+    let image = &stub[text.file.clone()];
+
+    let mut payload = Vec::new();
+    for word in [program.bytes.len() as u32, code[0], code[1], program.code_address as u32] {
+        payload.extend(word.to_le_bytes());
+    }
+    payload.extend(compress(&SETS, &program.bytes, code));
+
+    let length = (HEADERS + image.len() + payload.len() + 4) as u64;
+    let mut bytes = b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x02\0\x3e\0\x01\0\0\0".to_vec();
+    bytes.extend(entry.to_le_bytes());
+    bytes.extend((HEADER as u64).to_le_bytes());
+    bytes.extend([0; 12]);
+    for half in [HEADER, SEGMENT, 2, 0, 0, 0] {
+        bytes.extend((half as u16).to_le_bytes());
+    }
+    for (flags, address, in_file, in_memory) in [(5u32, BASE, length, length), (6, memory.address, 0, memory.memory)] {
+        bytes.extend(1u32.to_le_bytes());
+        bytes.extend(flags.to_le_bytes());
+        for word in [0, address, address, in_file, in_memory, 0x1000] {
+            bytes.extend(word.to_le_bytes());
+        }
+    }
+    bytes.extend(image);
+    bytes.extend(&payload);
+    let sum = bytes.iter().fold(0, |sum, &byte| hash(sum, byte as u32));
+    bytes.extend(sum.to_le_bytes());
+    Ok(Packed { bytes, trimmed: program.bytes.len(), headers: HEADERS, stub: image.len(), payload: payload.len() + 4 })
+}
+
+/// What the coded program costs, byte by byte.
+pub struct Costs {
+    /// Bits, by offset in the file that was packed.
+    pub bits: Vec<f32>,
+    loads: Vec<elf::Segment>,
+}
+
+impl Costs {
+    /// Bits that the byte at a virtual address costs; 0 where nothing of the file is.
+    pub fn bits(&self, address: u64) -> f32 {
+        let within = |s: &&elf::Segment| address >= s.address && address - s.address < s.file.len() as u64;
+        let offset = |s: &elf::Segment| s.file.start + (address - s.address) as usize;
+        self.loads.iter().find(within).and_then(|s| self.bits.get(offset(s))).copied().unwrap_or(0.0)
+    }
+}
+
+/// Measures what each byte of `file` costs in `pack`.
+pub fn measure(file: &[u8]) -> Result<Costs, String> {
+    let program = prepare(file)?;
+    let code = [program.code.start as u32, program.code.end as u32];
+    let bits = costs(&SETS, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
+    Ok(Costs { bits, loads: program.loads })
+}

@@ -1,0 +1,47 @@
+//! Builds the unpacker.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Compiles and links the unpacker with this `rustc` (1.89 or later; stable does) in the directory `work`, from the
+/// sources in `sources`, which is this crate's own directory. Returns the linked ELF file.
+pub fn build(rustc: &Path, sources: &Path, work: &Path) -> Result<Vec<u8>, String> {
+    let library = work.join("libpack_model.rlib");
+    let linked = work.join("stub.elf");
+    run(Command::new(rustc)
+        .args(COMMON)
+        .args(["--crate-name=pack_model", "--crate-type=rlib", "-Cembed-bitcode=yes"])
+        .arg(sources.join("model/src/lib.rs"))
+        .arg("-o")
+        .arg(&library))?;
+    let script = format!("-Clink-arg=-Wl,-T,{}", sources.join("stub/stub.ld").display());
+    run(Command::new(rustc)
+        .args(COMMON)
+        .args(["--crate-name=pack_stub", "--crate-type=bin", "-Clto=fat", &script])
+        .args(["-nostartfiles", "-nostdlib", "-static", "-no-pie"].map(|arg| format!("-Clink-arg={arg}")))
+        .args(["--build-id=none", "--gc-sections"].map(|arg| format!("-Clink-arg=-Wl,{arg}")))
+        .arg("--extern")
+        .arg(format!("pack_model={}", library.display()))
+        .arg(sources.join("stub/src/lib.rs"))
+        .arg("-o")
+        .arg(&linked))?;
+    std::fs::read(&linked).map_err(|error| format!("{}: {error}", linked.display()))
+}
+
+/// For any x86-64 processor, so that the unpacker can say on an old one that the program will not run; in place of
+/// the programs of the flags in the environment, which may ask for more.
+const COMMON: [&str; 8] = [
+    "--edition=2024",
+    "--target=x86_64-unknown-linux-gnu",
+    "-Copt-level=z",
+    "-Cpanic=abort",
+    "-Ccodegen-units=1",
+    "-Crelocation-model=static",
+    "-Cforce-unwind-tables=no",
+    "-Cdebug-assertions=off",
+];
+
+fn run(command: &mut Command) -> Result<(), String> {
+    let output = command.output().map_err(|error| format!("{:?}: {error}", command.get_program()))?;
+    if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
+}
