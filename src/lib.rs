@@ -7,6 +7,7 @@ pub mod camera;
 pub mod color;
 pub mod math;
 pub mod noise;
+mod pool;
 pub mod quality;
 pub mod scenes;
 pub mod tile;

@@ -23,6 +23,8 @@ const PERIOD: Duration = Duration::from_nanos(16_666_667);
 const POLL: Duration = Duration::from_millis(10);
 /// A still is sent again this often: the display forgets what another window covers.
 const REFRESH: Duration = Duration::from_millis(200);
+/// Stack of the renderer's thread, bytes: the standard size. Said here, it is not looked for in the environment.
+const STACK: usize = 2 << 20;
 /// Seconds that an arrow key moves.
 const SEEK: f64 = 5.0;
 
@@ -75,7 +77,10 @@ impl Screen {
             lock(&theirs).ended = Some(ended);
         };
         // Never joined: when the window goes, the process goes, in the middle of a frame if need be.
-        thread::Builder::new().spawn(render).map_err(|error| format!("cannot start threads: {error}"))?;
+        thread::Builder::new()
+            .stack_size(STACK)
+            .spawn(render)
+            .map_err(|error| format!("cannot start threads: {error}"))?;
 
         let mut shown: Option<Instant> = None;
         while self.window.is_open() {

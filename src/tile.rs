@@ -1,6 +1,7 @@
-//! How a frame is cut into tiles and run: the only file that names rayon.
+//! How a frame is cut into tiles and run.
 
 use crate::color::{self, Transfer};
+use crate::pool::Pool;
 use crate::quality::Quality;
 use crate::scenes::{Scene, Shot};
 use fearless_simd::{Level, Simd, dispatch};
@@ -116,7 +117,7 @@ pub struct Picture {
 
 /// Renders frames on a fixed number of threads at one SIMD level.
 pub struct Renderer {
-    pool: rayon::ThreadPool,
+    pool: Pool,
     level: Level,
 }
 
@@ -125,14 +126,9 @@ impl Renderer {
     ///
     /// The calling thread becomes a worker where it can. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
-        let build = |own: bool| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            if own { pool.use_current_thread() } else { pool }.build()
-        };
-        let pool = build(true).or_else(|_| build(false)).map_err(|e| format!("cannot start threads: {e}"))?;
         // An executable for processors with AVX2 only need not look for it.
         let known = cfg!(all(target_feature = "avx2", not(feature = "full")));
-        Ok(Renderer { pool, level: if known { Level::baseline() } else { Level::new() } })
+        Ok(Renderer { pool: Pool::new(threads)?, level: if known { Level::baseline() } else { Level::new() } })
     }
 
     /// The same renderer at another SIMD level.
@@ -142,7 +138,7 @@ impl Renderer {
 
     /// Threads in use.
     pub fn threads(&self) -> usize {
-        self.pool.current_num_threads()
+        self.pool.threads()
     }
 
     /// The SIMD level in use.
@@ -193,7 +189,7 @@ impl Renderer {
                 }
             }
         };
-        Stats { samples: self.pool.broadcast(|_| work()).into_iter().sum() }
+        Stats { samples: self.pool.sum(work) }
     }
 }
 
