@@ -95,6 +95,7 @@ impl Model {
     };
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
+    #[inline(never)]
     pub fn start(&mut self, sets: &Sets, code: [u32; 2]) {
         self.sets = *sets;
         self.code = code;
@@ -154,6 +155,7 @@ impl Model {
     }
 
     /// Finds the lines of the next four bits.
+    #[inline(never)]
     fn look_up(&mut self) {
         // Two loops, so that the processor waits for all lines at once.
         let mut found = [0; CONTEXTS];
@@ -171,6 +173,7 @@ impl Model {
     }
 
     /// Probability, in 65536ths, that the next bit is a one.
+    #[inline(never)]
     pub fn predict(&mut self) -> u32 {
         if self.bit & 3 == 0 {
             self.look_up();
@@ -201,6 +204,7 @@ impl Model {
     }
 
     /// Learns the bit.
+    #[inline(never)]
     pub fn update(&mut self, bit: u32) {
         let target = (bit << 16) as i32;
         for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {
