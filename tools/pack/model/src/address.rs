@@ -14,6 +14,7 @@ pub enum Way {
 
 /// Converts all of `code`, whose first byte is at `address`. The parser looks at no converted byte except
 /// to count it, so both ways find the same places and one undoes the other on any bytes whatsoever.
+#[inline(never)]
 pub fn convert(code: &mut [u8], address: u32, way: Way) {
     let mut parser = Parser::START;
     let mut at = 0;

@@ -40,6 +40,7 @@ impl Features {
     }
 
     /// Takes one byte. `position` is that of the next byte, which is `code` or is not.
+    #[inline(never)]
     pub fn push(&mut self, byte: u8, position: u32, code: bool) {
         let f = &mut self.f;
         let value = byte as u32;

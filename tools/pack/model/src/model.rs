@@ -7,10 +7,10 @@ use crate::slot;
 /// Contexts of a byte. The unpacker's time goes with it; see the crate for what more would bring.
 pub const CONTEXTS: usize = 11;
 /// Inputs of a mixer, in vectors of eight: two of each context, the match, a constant.
-const VECTORS: usize = (2 * CONTEXTS + 2) / 8;
-const MATCH: usize = 2 * CONTEXTS;
+const VECTORS: usize = (3 * CONTEXTS + 7) / 8;
+const MATCH: usize = 3 * CONTEXTS;
 /// Mixers whose results the last one mixes.
-const MIXERS: usize = 3;
+const MIXERS: usize = 4;
 /// Slots for four bits of a byte in one context: the first holds a check, the others are a tree of bits.
 type Line = [u32; 16];
 const LINE_BITS: u32 = 20;
@@ -95,12 +95,13 @@ impl Model {
     };
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
+    #[inline(never)]
     pub fn start(&mut self, sets: &Sets, code: [u32; 2]) {
         self.sets = *sets;
         self.code = code;
         self.partial = 1;
         self.logistic.fill();
-        self.weights.as_flattened_mut().as_flattened_mut().fill(all(5000));
+        self.weights.as_flattened_mut().as_flattened_mut().fill(all(2300));
         self.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
         self.contexts();
     }
@@ -130,7 +131,9 @@ impl Model {
         if !follows {
             self.match_at = found;
             self.match_length = 0;
-            while self.match_length < 32
+            // Position 0 would match itself.
+            while found != 0
+                && self.match_length < 32
                 && self.byte(found.wrapping_sub(self.match_length + 1)) == self.back(self.match_length + 1)
             {
                 self.match_length += 1;
@@ -154,6 +157,7 @@ impl Model {
     }
 
     /// Finds the lines of the next four bits.
+    #[inline(never)]
     fn look_up(&mut self) {
         // Two loops, so that the processor waits for all lines at once.
         let mut found = [0; CONTEXTS];
@@ -171,6 +175,7 @@ impl Model {
     }
 
     /// Probability, in 65536ths, that the next bit is a one.
+    #[inline(never)]
     pub fn predict(&mut self) -> u32 {
         if self.bit & 3 == 0 {
             self.look_up();
@@ -180,8 +185,9 @@ impl Model {
         let histories = &self.histories[self.class as usize & 1];
         for (i, (&h, histories)) in self.hashes.iter().zip(histories).enumerate() {
             let direct = self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
-            inputs[2 * i] = self.logistic.stretch(slot::probability(direct));
-            inputs[2 * i + 1] = self.logistic.stretch(slot::probability(histories[slot::history(direct)]));
+            inputs[3 * i] = self.logistic.stretch(slot::probability(direct));
+            inputs[3 * i + 1] = ((slot::probability(direct) - 0x8000) >> 5) as i16;
+            inputs[3 * i + 2] = self.logistic.stretch(slot::probability(histories[slot::history(direct)]));
         }
         let mut length = 0;
         self.match_slot = 0;
@@ -192,7 +198,7 @@ impl Model {
         // Slot 0 never learns, so it is even odds.
         inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
         inputs[MATCH + 1] = 256;
-        self.chosen = [self.partial | self.class << 8, self.place, length | self.bit << 5];
+        self.chosen = [self.partial | self.class << 8, self.place | self.bit << 6, length | self.bit << 5, self.features.f[0] | self.class << 8];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
             *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
         }
@@ -201,6 +207,7 @@ impl Model {
     }
 
     /// Learns the bit.
+    #[inline(never)]
     pub fn update(&mut self, bit: u32) {
         let target = (bit << 16) as i32;
         for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {

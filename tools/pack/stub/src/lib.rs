@@ -14,16 +14,13 @@ use pack_model::features::hash;
 use pack_model::model::MOST;
 use pack_model::tuned::SETS;
 
-/// Exit status of every refusal: a shell's "found, but cannot be run".
-const CANNOT: i32 = 126;
-
 /// Comes straight from `_start`, with the stack as the kernel left it: argc, argv, 0, envp, 0.
 fn main(stack: &sys::Stack) -> ! {
     if !sys::has_avx2() {
-        sys::fail(b"paprsek: needs a processor with AVX2 (x86-64-v3, from 2013 on)\n", CANNOT);
+        sys::fail(b"paprsek: needs a processor with AVX2 (x86-64-v3, from 2013 on)\n");
     }
     let image = sys::image();
-    let Some(head) = Head::read(image) else { sys::fail(b"paprsek: this file is damaged\n", CANNOT) };
+    let Some(head) = Head::read(image) else { sys::fail(b"paprsek: this file is damaged\n") };
     let model = sys::model();
     model.start(&SETS, head.code);
     let mut decoder = Decoder::new(head.packed);

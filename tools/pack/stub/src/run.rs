@@ -1,18 +1,14 @@
 //! Runs a program that is in memory.
 
-use crate::sys::{self, Path, Stack};
+use crate::sys::{self, Stack, Text};
 
 const EINVAL: isize = -22;
 const EEXIST: isize = -17;
 
-/// Variables that may name a directory for a temporary file, and directories if they do not.
-const VARIABLES: [&[u8]; 2] = [b"XDG_RUNTIME_DIR=", b"TMPDIR="];
-const DIRECTORIES: [&[u8]; 2] = [b"/tmp", b"/var/tmp"];
-
 /// Runs `program` in place of this process: from memory, else from a temporary file.
 ///
 /// The file has lost its name before it runs, so nothing stays behind unless this process is killed in the
-/// few milliseconds between. Memory files may be missing (before Linux 3.17), forbidden (`vm.memfd_noexec`,
+/// few milliseconds between. Memory files may be missing (before Linux 3.17) or forbidden (`vm.memfd_noexec`,
 /// seccomp), and a directory may be mounted `noexec`; then the next place is tried.
 pub fn run(program: &[u8], stack: &Stack) -> ! {
     // MFD_CLOEXEC | MFD_EXEC; the latter is unknown before Linux 6.3.
@@ -20,36 +16,37 @@ pub fn run(program: &[u8], stack: &Stack) -> ! {
     if file == EINVAL {
         file = sys::memory_file(0x01);
     }
-    if file >= 0 && sys::write_all(file, program) {
+    if sys::write_all(file, program) {
         sys::execute(file, stack);
     }
-    let named = VARIABLES.iter().filter_map(|name| stack.variable(name));
-    for directory in named.chain(DIRECTORIES) {
-        run_from(directory, program, stack);
-    }
-    sys::fail(b"paprsek: neither memory nor a temporary directory may hold a program to run\n", crate::CANNOT)
+    run_from(stack.variable(b"XDG_RUNTIME_DIR="), program, stack);
+    run_from(stack.variable(b"TMPDIR="), program, stack);
+    run_from(Text::from(c"/tmp"), program, stack);
+    run_from(Text::from(c"/var/tmp"), program, stack);
+    sys::fail(b"paprsek: neither memory nor a temporary directory may hold a program to run\n")
 }
 
 /// Comes back if that is not possible.
-fn run_from(directory: &[u8], program: &[u8], stack: &Stack) {
+#[inline(never)]
+fn run_from(directory: Text, program: &[u8], stack: &Stack) {
+    let directory = sys::open(directory);
     let mut number = sys::process();
     loop {
-        let path = Path::new(directory, number);
-        let file = sys::create(&path);
-        if file == EEXIST {
-            // Another name; the digits are those of the low bits, so a few million are to be had.
-            number = number.wrapping_add(0x10001);
-            continue;
+        let mut name = *b".paprsek-........\0";
+        for (i, letter) in name[9..17].iter_mut().enumerate() {
+            *letter = b'a' + (number >> (4 * i) & 15) as u8;
         }
-        if file < 0 {
-            return;
+        let file = sys::create(directory, &name);
+        if file == EEXIST {
+            number += 0x10000;
+            continue;
         }
         let complete = sys::write_all(file, program);
         // A file open for writing cannot be run.
         sys::close(file);
-        let file = sys::open(&path);
-        sys::unlink(&path);
-        if complete && file >= 0 {
+        let file = sys::open_in(directory, &name);
+        sys::unlink(directory, &name);
+        if complete {
             sys::execute(file, stack);
         }
         return;

@@ -4,6 +4,7 @@
 use core::arch::x86_64::{__cpuid, __cpuid_count};
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
+use core::ffi::CStr;
 use pack_model::model::Model;
 
 // The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
@@ -42,7 +43,7 @@ pub fn model() -> &'static mut Model {
     // MADV_HUGEPAGE: with pages of 2 MB a fifth of the time goes; where it is refused, nothing is lost.
     call(28, MODEL.0.get() as usize, size_of::<Model>(), 14);
     // SAFETY: the only caller calls once, in the only thread.
-    unsafe { &mut *MODEL.0.get() }
+    unsafe { &mut *core::hint::black_box(MODEL.0.get()) }
 }
 
 const BASE: usize = 0x400000;
@@ -75,9 +76,10 @@ pub fn has_avx2() -> bool {
     state & 6 == 6
 }
 
+/// The calls below pass what the kernel asks for, and none of them makes it write to memory.
 fn call(number: usize, a: usize, b: usize, c: usize) -> isize {
     let result;
-    // SAFETY: the callers below pass what the call in question asks for, and no call among them writes memory.
+    // SAFETY: see above.
     unsafe {
         asm!("syscall", inlateout("rax") number => result, in("rdi") a, in("rsi") b, in("rdx") c, out("rcx") _,
             out("r11") _, options(nostack));
@@ -85,15 +87,25 @@ fn call(number: usize, a: usize, b: usize, c: usize) -> isize {
     result
 }
 
-/// One line to stderr, and the end.
-pub fn fail(line: &[u8], status: i32) -> ! {
+fn call_five(number: usize, a: usize, b: usize, c: usize, d: usize, e: usize) -> isize {
+    let result;
+    // SAFETY: see above.
+    unsafe {
+        asm!("syscall", inlateout("rax") number => result, in("rdi") a, in("rsi") b, in("rdx") c, in("r10") d,
+            in("r8") e, out("rcx") _, out("r11") _, options(nostack));
+    }
+    result
+}
+
+/// One line to stderr, and the end with the status of a shell's "found, but cannot be run".
+pub fn fail(line: &[u8]) -> ! {
     write_all(2, line);
     loop {
-        call(231, status as usize, 0, 0);
+        call(231, 126, 0, 0);
     }
 }
 
-/// Writes all of `bytes`; false if that fails.
+/// Writes all of `bytes`; false if that fails, as it does where `file` is an error.
 pub fn write_all(file: isize, mut bytes: &[u8]) -> bool {
     while !bytes.is_empty() {
         let written = call(1, file as usize, bytes.as_ptr() as usize, bytes.len());
@@ -111,24 +123,42 @@ pub fn memory_file(flags: usize) -> isize {
 }
 
 /// getpid.
-pub fn process() -> u32 {
-    call(39, 0, 0, 0) as u32
+pub fn process() -> usize {
+    call(39, 0, 0, 0) as usize
+}
+
+/// A zero-terminated string, or null, which the kernel takes for an error.
+#[derive(Clone, Copy)]
+pub struct Text(*const u8);
+
+impl From<&'static CStr> for Text {
+    fn from(text: &'static CStr) -> Self {
+        Self(text.as_ptr().cast())
+    }
+}
+
+/// A name of a temporary file, zero-terminated.
+type Name = [u8; 18];
+
+/// Opens a directory in order to name files in it (O_PATH).
+pub fn open(directory: Text) -> isize {
+    call(2, directory.0 as usize, 0o12_000_000, 0)
 }
 
 /// Creates a file that only its owner may read, write and run; an error if there is one of this name.
-pub fn create(path: &Path) -> isize {
-    // O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC
-    call(2, path.0.as_ptr() as usize, 0o2_000_301, 0o700)
+pub fn create(directory: isize, name: &Name) -> isize {
+    // O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC; the mode is 0700.
+    call_five(257, directory as usize, name.as_ptr() as usize, 0o2_000_301, 0o700, 0)
 }
 
 /// Opens a file for reading.
-pub fn open(path: &Path) -> isize {
-    call(2, path.0.as_ptr() as usize, 0o2_000_000, 0)
+pub fn open_in(directory: isize, name: &Name) -> isize {
+    call(257, directory as usize, name.as_ptr() as usize, 0o2_000_000)
 }
 
 /// Removes a file's name.
-pub fn unlink(path: &Path) {
-    call(87, path.0.as_ptr() as usize, 0, 0);
+pub fn unlink(directory: isize, name: &Name) {
+    call(263, directory as usize, name.as_ptr() as usize, 0);
 }
 
 /// Closes a file.
@@ -151,19 +181,17 @@ impl Stack {
     }
 
     /// The value of the variable whose name, with the equals sign, is given.
-    pub fn variable(&self, name: &[u8]) -> Option<&[u8]> {
+    pub fn variable(&self, name: &[u8]) -> Text {
         let mut at = self.environment();
         loop {
             // SAFETY: the kernel ends each string with a zero byte and their list with a zero; reading stops there.
             unsafe {
-                if *at == 0 {
-                    return None;
-                }
                 let text = *at as *const u8;
+                if text.is_null() {
+                    return Text(text);
+                }
                 if name.iter().enumerate().all(|(i, &byte)| *text.add(i) == byte) {
-                    let value = text.add(name.len());
-                    let length = (0..256).take_while(|&i| *value.add(i) != 0).count();
-                    return Some(core::slice::from_raw_parts(value, length));
+                    return Text(text.add(name.len()));
                 }
                 at = at.add(1);
             }
@@ -174,34 +202,8 @@ impl Stack {
 /// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH, which needs no /proc.
 /// Comes back if that fails.
 pub fn execute(file: isize, stack: &Stack) {
-    // SAFETY: reads the lists that the kernel itself made.
-    unsafe {
-        asm!("syscall", inlateout("rax") 322_usize => _, in("rdi") file, in("rsi") c"".as_ptr(), in("rdx") stack.word(1),
-            in("r10") stack.environment(), in("r8") 0x1000, out("rcx") _, out("r11") _, options(nostack));
-    }
-}
-
-/// A path, zero-terminated.
-pub struct Path([u8; 512]);
-
-impl Path {
-    /// A hidden file of this number in a directory. A name too long is cut, and then cannot be created.
-    pub fn new(directory: &[u8], mut number: u32) -> Self {
-        let mut path = Path([0; 512]);
-        let mut end = 0;
-        for part in [directory, b"/.paprsek-"] {
-            for &byte in part {
-                path.0[end & 255] = byte;
-                end += 1;
-            }
-        }
-        while number != 0 {
-            path.0[end & 511] = b'a' + (number & 15) as u8;
-            number >>= 4;
-            end += 1;
-        }
-        path
-    }
+    let (arguments, environment) = (stack.word(1) as usize, stack.environment() as usize);
+    call_five(322, file as usize, c"".as_ptr() as usize, arguments, environment, 0x1000);
 }
 
 // What the compiler calls for loops over bytes. The string instructions are small, and fast enough.

@@ -1,0 +1,133 @@
+//! Packed programs, run for real. Their source is C, since whoever links Rust has a C compiler.
+
+use pack::{packer, stub};
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+/// memfd_create and execveat.
+const MEMFD_CREATE: &str = "319";
+const EXECVEAT: &str = "322";
+const CANNOT: Option<i32> = Some(126);
+
+fn here() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn work() -> &'static Path {
+    Path::new(env!("CARGO_TARGET_TMPDIR"))
+}
+
+fn compile(source: &str, out: &str, options: &[&str]) -> PathBuf {
+    let out = work().join(out);
+    let status = Command::new("cc").args(options).arg(here().join("tests").join(source)).arg("-o").arg(&out).status();
+    assert!(status.expect("cc runs").success(), "cc fails on {source}");
+    out
+}
+
+/// A file to run; it was written by another process, so that no child of this one may hold it open for writing.
+fn executable(name: &str, bytes: &[u8]) -> PathBuf {
+    let (plain, path) = (work().join(format!("{name}.bytes")), work().join(name));
+    fs::write(&plain, bytes).expect("the work directory is writable");
+    let status = Command::new("cp").arg(&plain).arg(&path).status();
+    assert!(status.expect("cp runs").success());
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).expect("own file");
+    path
+}
+
+fn unpacker() -> &'static [u8] {
+    static STUB: OnceLock<Vec<u8>> = OnceLock::new();
+    STUB.get_or_init(|| {
+        let work = work().join("stub");
+        fs::create_dir_all(&work).expect("the work directory is writable");
+        stub::build(Path::new("rustc"), here(), &work).expect("the unpacker compiles")
+    })
+}
+
+fn subject(name: &str, options: &[&str]) -> Vec<u8> {
+    let file = fs::read(compile("subject.c", name, options)).expect("just written");
+    packer::pack(&file, unpacker()).expect("an ordinary program").bytes
+}
+
+fn small() -> &'static [u8] {
+    static PACKED: OnceLock<Vec<u8>> = OnceLock::new();
+    PACKED.get_or_init(|| subject("subject", &["-O2", "-no-pie"]))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn check(output: &Output, name: &str) {
+    assert_eq!(text(&output.stdout), format!("arguments: [{name}] [7] [a b] []\nenvironment: passed\n"));
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(7), String::new()));
+}
+
+#[test]
+fn arguments_environment_and_status_pass_through() {
+    for (name, options) in [("plain", vec!["-no-pie"]), ("pie", vec!["-O2", "-pie", "-fPIE"])] {
+        let path = executable(&format!("{name}.packed"), &subject(name, &options));
+        let output = Command::new(path).arg0("other name").args(["7", "a b", ""]).env("PACK_TEST", "passed").output();
+        check(&output.expect("it runs"), "other name");
+    }
+}
+
+#[test]
+fn without_memory_files_it_runs_from_a_temporary_file_and_leaves_none() {
+    let refuse = compile("refuse.c", "refuse", &[]);
+    let path = executable("fallback.packed", small());
+    let directory = work().join("temporary");
+    fs::create_dir_all(&directory).expect("the work directory is writable");
+    for (variable, other) in [("XDG_RUNTIME_DIR", "TMPDIR"), ("TMPDIR", "XDG_RUNTIME_DIR")] {
+        let mut command = Command::new(&refuse);
+        command.arg(MEMFD_CREATE).arg(&path).args(["7", "a b", ""]).env("PACK_TEST", "passed");
+        // The one variable holds; the other names nothing.
+        command.env(variable, &directory).env(other, "/nowhere");
+        check(&command.output().expect("it runs"), path.to_str().expect("a plain name"));
+        assert_eq!(fs::read_dir(&directory).expect("it is there").count(), 0, "a file stayed behind");
+    }
+}
+
+#[test]
+fn where_nothing_may_run_it_says_so() {
+    let refuse = compile("refuse.c", "refuse_all", &[]);
+    let path = executable("nothing.packed", small());
+    let output = Command::new(refuse).arg(EXECVEAT).arg(path).output().expect("it runs");
+    assert_eq!(output.status.code(), CANNOT);
+    assert!(text(&output.stderr).starts_with("paprsek: neither memory nor"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn damage_is_reported() {
+    let whole = small();
+    // What comes before the payload is the code that looks for damage.
+    let start = packer::pack(&fs::read(work().join("subject")).expect("small() made it"), unpacker());
+    let start = start.map(|p| p.headers + p.stub).expect("an ordinary program");
+    for i in 0..24 {
+        let mut bytes = whole.to_vec();
+        let at = start + (bytes.len() - 1 - start) * i / 23;
+        bytes[at] ^= 1 << (i % 8);
+        let output = Command::new(executable("damaged", &bytes)).output().expect("it starts");
+        assert_eq!(text(&output.stderr), "paprsek: this file is damaged\n", "byte {at}");
+        assert_eq!(output.status.code(), CANNOT);
+    }
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let file = fs::read(compile("subject.c", "bad", &[])).expect("just written");
+    assert!(packer::pack(b"", unpacker()).is_err());
+    assert!(packer::pack(b"#!/bin/sh\n", unpacker()).is_err());
+    for end in (0..2000).step_by(61) {
+        assert!(packer::pack(&file[..end], unpacker()).is_err(), "cut after {end} bytes");
+    }
+    // Each byte of the headers at its worst: whatever comes of it, no panic.
+    for at in 0..64 + 56 * 4 {
+        let mut bytes = file.clone();
+        bytes[at] = 255;
+        let _ = pack::elf::trim(&bytes);
+    }
+}
