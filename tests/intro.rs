@@ -8,9 +8,15 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
-/// The packed intro, built by `tools/pack`; `None` where its tests are to be skipped.
+/// The packed intro, built once by `tools/pack`; `None` where its tests are to be skipped.
 fn intro() -> Option<PathBuf> {
+    static INTRO: OnceLock<Option<PathBuf>> = OnceLock::new();
+    INTRO.get_or_init(build).clone()
+}
+
+fn build() -> Option<PathBuf> {
     if std::env::var_os("PAPRSEK_SKIP_INTRO").is_some() {
         return None;
     }

@@ -45,4 +45,3 @@ fn main() -> Result<(), String> {
     let _ = std::io::stdout().write_all(text.as_bytes());
     Ok(())
 }
-

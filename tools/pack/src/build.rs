@@ -9,6 +9,8 @@ const TARGET: &str = "x86_64-unknown-linux-gnu";
 
 /// Flags of the compiler, for our code and the standard library alike.
 const FLAGS: &[&str] = &[
+    // The plain build is where warnings are errors.
+    "-Awarnings",
     // A panic ends the process without a word: no messages, no unwinding, no tables for it.
     "-Zunstable-options",
     "-Cpanic=immediate-abort",

@@ -55,18 +55,19 @@ fn intro() -> Result<String, String> {
 /// Packs any executable.
 fn any(file: &Path, out: &Path) -> Result<String, String> {
     let program = read(file)?;
-    let work = env::temp_dir().join(format!("pack-{}", std::process::id()));
-    let stub = Toolchain::find().and_then(|toolchain| unpacker(&toolchain, &work));
-    // What is left there harms nobody.
-    let _ = fs::remove_dir_all(&work);
-    let packed = packer::pack(&program, &stub?)?;
+    let packed = packer::pack(&program, &unpacker(&Toolchain::find()?, &env::temp_dir())?)?;
     write(out, &packed.bytes)?;
     Ok(sizes(&packed))
 }
 
-fn unpacker(toolchain: &Toolchain, work: &Path) -> Result<Vec<u8>, String> {
-    fs::create_dir_all(work).map_err(|error| format!("{}: {error}", work.display()))?;
-    stub::build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), work)
+/// The linked unpacker, built in a directory of its own below `place`.
+fn unpacker(toolchain: &Toolchain, place: &Path) -> Result<Vec<u8>, String> {
+    let work = place.join(format!("unpacker-{}", std::process::id()));
+    fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
+    let stub = stub::build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), &work);
+    // What is left there harms nobody.
+    let _ = fs::remove_dir_all(&work);
+    stub
 }
 
 /// The lines of the table, rounded as it is, for a program to read.
@@ -95,9 +96,12 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
 
 /// Writes an executable, whole or not at all.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    let part: PathBuf = path.with_extension("part");
+    let part: PathBuf = path.with_extension(format!("part-{}", std::process::id()));
     let written = fs::write(&part, bytes)
         .and_then(|()| fs::set_permissions(&part, fs::Permissions::from_mode(0o755)))
         .and_then(|()| fs::rename(&part, path));
+    if written.is_err() {
+        let _ = fs::remove_file(&part);
+    }
     written.map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -198,7 +198,12 @@ impl Model {
         // Slot 0 never learns, so it is even odds.
         inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
         inputs[MATCH + 1] = 256;
-        self.chosen = [self.partial | self.class << 8, self.place | self.bit << 6, length | self.bit << 5, self.features.f[0] | self.class << 8];
+        self.chosen = [
+            self.partial | self.class << 8,
+            self.place | self.bit << 6,
+            length | self.bit << 5,
+            self.features.f[0] | self.class << 8,
+        ];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
             *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
         }

@@ -66,7 +66,8 @@ pub fn payload_offset() -> usize {
 pub fn has_avx2() -> bool {
     // FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT.
     const WANTED: [u32; 3] = [1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29, 1 << 3 | 1 << 5 | 1 << 8, 1 << 5];
-    let found = [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
+    let found =
+        [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
     if (0..3).any(|i| found[i] & WANTED[i] != WANTED[i]) {
         return false;
     }
