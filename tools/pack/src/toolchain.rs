@@ -6,13 +6,11 @@ use std::process::Command;
 /// The oldest compiler that knows `-Cpanic=immediate-abort`: minor version.
 const OLDEST: u32 = 92;
 
-/// Cargo, the compiler and where they are.
+/// Cargo and the compiler.
 #[derive(Debug)]
 pub struct Toolchain {
     /// The directory that `rustc --print sysroot` names.
     pub sysroot: PathBuf,
-    /// First line of `rustc --version`.
-    pub version: String,
 }
 
 impl Toolchain {
@@ -36,7 +34,7 @@ impl Toolchain {
     fn at(sysroot: PathBuf) -> Option<Toolchain> {
         sysroot.join("lib/rustlib/src/rust/library/std/Cargo.toml").exists().then_some(())?;
         let version = said(Command::new(sysroot.join("bin/rustc")).arg("--version"))?;
-        (minor(&version)? >= OLDEST).then_some(Toolchain { sysroot, version })
+        (minor(&version)? >= OLDEST).then_some(Toolchain { sysroot })
     }
 
     /// The compiler.
