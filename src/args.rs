@@ -6,25 +6,20 @@ use paprsek::scenes::{self, Scene};
 use std::ffi::{OsStr, OsString};
 use std::path::PathBuf;
 
-/// The text of `--help`, in pieces.
-pub const HELP: &[&str] = &[
-    "\
+/// The text of `--help`.
+pub const HELP: &str = "\
 paprsek [SCENE] [options]      play the intro (or loop one SCENE) in a window; Esc or closing it ends
   --size WxH                   render size, default 1280x720          --threads N    default: all cores
   --at S | --from S --to S     one instant, or a range, in seconds     --fps N        frames per second of a capture, default 30
-",
-    #[cfg(feature = "full")]
-    "  --bench                      no window: time every scene (or SCENE); a table, or JSON lines with --json
-",
-    "  --capture DIR | -            no window: PPM files frame-000000.ppm ... in DIR, or one stream of PPMs to stdout
+  --bench                      no window: time every scene (or SCENE); a table, or JSON lines with --json
+  --capture DIR | -            no window: PPM files frame-000000.ppm ... in DIR, or one stream of PPMs to stdout
   --quality fast|default|exact|reference
                                fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
                                exact: no shortcut, one sample at each pixel centre;
                                reference: no shortcut, 64 samples a pixel
   --list  --help  --version
 keys: Esc ends, Space pauses, Left and Right seek 5 s
-",
-];
+";
 
 /// Options that take a value, and what that is; the order is that of [`Args::read`].
 const VALUED: [(&str, &str); 8] = [
@@ -39,15 +34,7 @@ const VALUED: [(&str, &str); 8] = [
 ];
 
 /// Options that take none, in the same way.
-const FLAGS: &[&str] = &[
-    "help",
-    "version",
-    "list",
-    #[cfg(feature = "full")]
-    "bench",
-    #[cfg(feature = "full")]
-    "json",
-];
+const FLAGS: &[&str] = &["help", "version", "list", "bench", "json"];
 
 /// Longest side of a picture, pixels.
 const MAX_SIDE: usize = 16384;

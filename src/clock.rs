@@ -29,7 +29,7 @@ impl Clock {
     }
 
     /// The same clock, but ending with the scene instead of looping.
-    #[cfg(feature = "full")]
+    #[cfg(all(unix, feature = "terminal"))]
     pub fn once(self) -> Clock {
         let still = self.since.is_none();
         Clock { end: self.end.or((!still).then_some(self.duration)), ..self }

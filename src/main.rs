@@ -1,7 +1,6 @@
 //! The intro executable: arguments, then play, bench or capture.
 
 mod args;
-#[cfg(feature = "full")]
 mod bench;
 mod canvas;
 mod capture;
@@ -10,7 +9,7 @@ mod clock;
 mod last_word;
 mod number;
 mod present;
-#[cfg(all(unix, feature = "full"))]
+#[cfg(all(unix, feature = "terminal"))]
 mod terminal;
 
 use args::{Args, Mode};
@@ -32,39 +31,26 @@ fn main() -> ExitCode {
 fn run(args: &Args) -> Result<(), String> {
     match &args.mode {
         Mode::Play => play(args),
-        #[cfg(feature = "full")]
         Mode::Bench { json } => bench::run(args, *json),
-        #[cfg(not(feature = "full"))]
-        Mode::Bench { .. } => Ok(()),
         Mode::Capture(directory) => capture::run(args, directory.as_deref()),
-        Mode::Help => print(&args::HELP.concat()),
+        Mode::Help => print(args::HELP),
         Mode::Version => print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
         Mode::List => print(&scenes::all().iter().map(|s| format!("{:<16} {}\n", s.name, s.about)).collect::<String>()),
     }
 }
 
-/// In a window; without one in the terminal; without that the benchmark, so that something useful happens anywhere.
+/// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens anywhere.
 fn play(args: &Args) -> Result<(), String> {
     let why = match present::Screen::open(args.size) {
         Ok(screen) => return screen.play(args),
         Err(why) => why,
     };
-    elsewhere(args, &why)
-}
-
-#[cfg(feature = "full")]
-fn elsewhere(args: &Args, why: &str) -> Result<(), String> {
-    #[cfg(unix)]
+    #[cfg(all(unix, feature = "terminal"))]
     if terminal::shows_colour() {
         return terminal::play(args);
     }
-    complain(&format!("no display ({why}), no colour terminal: running the benchmark"));
+    complain(&format!("no display ({why}): running the benchmark"));
     bench::run(args, false)
-}
-
-#[cfg(not(feature = "full"))]
-fn elsewhere(_: &Args, why: &str) -> Result<(), String> {
-    Err(format!("no display ({why}); --capture DIR writes pictures instead"))
 }
 
 fn print(text: &str) -> Result<(), String> {

@@ -48,7 +48,6 @@ pub fn decimal(text: &str) -> Option<f64> {
 }
 
 /// A figure with three decimals; negative values print as zero.
-#[cfg(any(test, feature = "full"))]
 pub fn fixed(value: f64) -> String {
     let thousandths = (value * 1000.0 + 0.5) as u64;
     format!("{}.{:03}", thousandths / 1000, thousandths % 1000)

@@ -126,8 +126,8 @@ impl Renderer {
     ///
     /// The calling thread becomes a worker where it can. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
-        // An executable for processors with AVX2 only need not look for it.
-        let known = cfg!(all(target_feature = "avx2", not(feature = "full")));
+        // What was built for processors with AVX2 need not look for it: 0.8 kB packed.
+        let known = cfg!(target_feature = "avx2");
         Ok(Renderer { pool: Pool::new(threads)?, level: if known { Level::baseline() } else { Level::new() } })
     }
 

@@ -1,0 +1,27 @@
+//! Threads that stay: the only file that names rayon.
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// A fixed number of threads that work together.
+pub struct Pool(ThreadPool);
+
+impl Pool {
+    /// `threads` threads (0: all cores), the calling one among them where it can be. Fails where they cannot start.
+    pub fn new(threads: usize) -> Result<Pool, String> {
+        let build = |own: bool| {
+            let pool = ThreadPoolBuilder::new().num_threads(threads);
+            if own { pool.use_current_thread() } else { pool }.build()
+        };
+        build(true).or_else(|_| build(false)).map(Pool).map_err(|e| format!("cannot start threads: {e}"))
+    }
+
+    /// Threads in use.
+    pub fn threads(&self) -> usize {
+        self.0.current_num_threads()
+    }
+
+    /// Does `work` on every thread at once; the sum of what it gives.
+    pub fn sum(&self, work: impl Fn() -> u64 + Sync) -> u64 {
+        self.0.broadcast(|_| work()).into_iter().sum()
+    }
+}
