@@ -94,14 +94,15 @@ fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) 
         times.ms.push((frame_began.elapsed().as_secs_f64() * 1000.0).max(1e-3));
         times.samples += stats.samples;
     }
-    times.ms.sort_by(f64::total_cmp);
+    times.ms.sort_unstable_by(f64::total_cmp);
     times
 }
 
 /// The instant of a frame: steps through the range, and from its start again.
 fn instant(start: f64, end: f64, number: usize) -> f64 {
-    let length = end - start;
-    if length > 0.0 { start + (number as f64 * STEP) % length } else { start }
+    // Counted in steps: the remainder of a float is long division in software.
+    let steps = ((end - start) / STEP).ceil().max(1.0) as usize;
+    start + (number % steps) as f64 * STEP
 }
 
 fn print(text: &str) -> Result<(), String> {

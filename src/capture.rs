@@ -42,12 +42,25 @@ fn make(directory: &Path) {
 fn write_file(directory: &Path, number: usize, frame: &Frame) -> Result<(), String> {
     let path = directory.join(format!("frame-{number:06}.ppm"));
     let part = directory.join(format!("frame-{number:06}.{}.part", std::process::id()));
-    let written = File::create(&part).and_then(|mut file| write_ppm(&mut file, frame));
+    let written = create(&part).and_then(|mut file| write_ppm(&mut file, frame));
     written.and_then(|()| fs::rename(&part, &path)).map_err(|error| {
         // The first error is the one to report; the part may not even exist.
         let _ = fs::remove_file(&part);
         format!("cannot write {}: {error}", name(&path))
     })
+}
+
+/// An empty file. `File::create` names its errors in words, and brings the tables of Unicode for that.
+#[cfg(unix)]
+fn create(path: &Path) -> io::Result<File> {
+    use rustix::fs::{CWD, Mode, OFlags, openat};
+    let flags = OFlags::CREATE | OFlags::TRUNC | OFlags::WRONLY | OFlags::CLOEXEC;
+    Ok(openat(CWD, path, flags, Mode::from_raw_mode(0o666))?.into())
+}
+
+#[cfg(not(unix))]
+fn create(path: &Path) -> io::Result<File> {
+    File::create(path)
 }
 
 /// What an error calls a path.
