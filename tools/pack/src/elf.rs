@@ -94,8 +94,7 @@ pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
     let all = segments(elf)?;
     let loads: Vec<_> = all.iter().filter(|s| s.kind == LOAD).cloned().collect();
     let end = loads.iter().map(|s| s.file.end).max().ok_or("nothing in it is loaded")?;
-    let executable =
-        loads.iter().find(|s| s.flags & EXECUTABLE != 0).ok_or("nothing in it can be executed")?;
+    let executable = loads.iter().find(|s| s.flags & EXECUTABLE != 0).ok_or("nothing in it can be executed")?;
     let at = number(elf, 32, 8)? as usize;
     let headers = at..at + all.len() * SEGMENT;
     if headers.end > end || headers.start < HEADER {
@@ -125,9 +124,8 @@ pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
 
     // What the file says of its sections is only trusted within the segment that can be executed.
     let within = executable.file.clone();
-    let code = code_sections(elf)?.map_or(within.clone(), |c| {
-        c.start.clamp(within.start, within.end)..c.end.clamp(within.start, within.end)
-    });
+    let code = code_sections(elf)?
+        .map_or(within.clone(), |c| c.start.clamp(within.start, within.end)..c.end.clamp(within.start, within.end));
     let code_address = executable.address.wrapping_add((code.start - within.start) as u64);
     Ok(Trimmed { bytes, code, code_address, loads })
 }

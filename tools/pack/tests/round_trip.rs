@@ -49,30 +49,30 @@ fn calls_to_one_place_become_alike() {
 #[test]
 fn instructions_end_where_they_end() {
     let instructions: [&[u8]; 24] = [
-        b"\x90",                                 // nop
-        b"\x00\xc0",                             // add al, al
-        b"\x48\x89\xe5",                         // mov rbp, rsp
-        b"\x48\x8b\x44\x24\x08",                 // mov rax, [rsp + 8]
-        b"\x48\x8d\x05\x10\x00\x00\x00",         // lea rax, [rip + 16]
-        b"\x81\x3d\x01\x00\x00\x00\x02\0\0\0",   // cmp dword [rip + 1], 2
-        b"\x66\xc7\x00\x01\x00",                 // mov word [rax], 1
+        b"\x90",                                     // nop
+        b"\x00\xc0",                                 // add al, al
+        b"\x48\x89\xe5",                             // mov rbp, rsp
+        b"\x48\x8b\x44\x24\x08",                     // mov rax, [rsp + 8]
+        b"\x48\x8d\x05\x10\x00\x00\x00",             // lea rax, [rip + 16]
+        b"\x81\x3d\x01\x00\x00\x00\x02\0\0\0",       // cmp dword [rip + 1], 2
+        b"\x66\xc7\x00\x01\x00",                     // mov word [rax], 1
         b"\x48\xb8\x01\x02\x03\x04\x05\x06\x07\x08", // mov rax, imm64
-        b"\xe8\x00\x00\x00\x00",                 // call
-        b"\x0f\x84\x00\x00\x00\x00",             // je
-        b"\x74\x00",                             // je, short
-        b"\xf6\xc1\x01",                         // test cl, 1
-        b"\xf7\xc1\x01\x00\x00\x00",             // test ecx, 1
-        b"\xf7\xd9",                             // neg ecx
-        b"\x8b\x04\x25\x00\x00\x40\x00",         // mov eax, [0x400000]
-        b"\xf3\x0f\x10\x45\xfc",                 // movss xmm0, [rbp - 4]
-        b"\x66\x0f\x3a\x0f\xc1\x08",             // palignr xmm0, xmm1, 8
-        b"\x0f\x38\xf0\x07",                     // movbe eax, [rdi]
-        b"\xc5\xf8\x77",                         // vzeroupper
-        b"\xc5\xfc\x58\x44\x24\x20",             // vaddps ymm0, ymm0, [rsp + 32]
-        b"\xc5\xfc\xc6\xc1\x1b",                 // vshufps ymm0, ymm0, ymm1, 27
-        b"\xc4\xe2\x7d\x18\x05\x00\x00\x00\x00", // vbroadcastss ymm0, [rip]
-        b"\xc4\xe3\x7d\x19\xc1\x01",             // vextractf128 xmm1, ymm0, 1
-        b"\xc4\xe2\x75\xb8\x84\x88\x00\x01\0\0", // vfmadd231ps ymm0, ymm1, [rax + 4 * rcx + 256]
+        b"\xe8\x00\x00\x00\x00",                     // call
+        b"\x0f\x84\x00\x00\x00\x00",                 // je
+        b"\x74\x00",                                 // je, short
+        b"\xf6\xc1\x01",                             // test cl, 1
+        b"\xf7\xc1\x01\x00\x00\x00",                 // test ecx, 1
+        b"\xf7\xd9",                                 // neg ecx
+        b"\x8b\x04\x25\x00\x00\x40\x00",             // mov eax, [0x400000]
+        b"\xf3\x0f\x10\x45\xfc",                     // movss xmm0, [rbp - 4]
+        b"\x66\x0f\x3a\x0f\xc1\x08",                 // palignr xmm0, xmm1, 8
+        b"\x0f\x38\xf0\x07",                         // movbe eax, [rdi]
+        b"\xc5\xf8\x77",                             // vzeroupper
+        b"\xc5\xfc\x58\x44\x24\x20",                 // vaddps ymm0, ymm0, [rsp + 32]
+        b"\xc5\xfc\xc6\xc1\x1b",                     // vshufps ymm0, ymm0, ymm1, 27
+        b"\xc4\xe2\x7d\x18\x05\x00\x00\x00\x00",     // vbroadcastss ymm0, [rip]
+        b"\xc4\xe3\x7d\x19\xc1\x01",                 // vextractf128 xmm1, ymm0, 1
+        b"\xc4\xe2\x75\xb8\x84\x88\x00\x01\0\0",     // vfmadd231ps ymm0, ymm1, [rax + 4 * rcx + 256]
     ];
     let mut parser = Parser::START;
     for instruction in instructions {

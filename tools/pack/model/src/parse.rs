@@ -46,11 +46,62 @@ pub struct Parser {
 }
 
 /// One bit for each opcode of maps 0 and 1: does it have operands?
-const HAS_MODRM: [u32; 16] = [0x0f0f_0f0f, 0x0f0f_0f0f, 0, 0x0000_0a08, 0x0000_ffff, 0, 0xff0f_00c3, 0xc0c0_0000, 0xffff_b41f, 0xff00_ffff, 0xffff_ffff, 0xff7f_ffff, 0xffff_0000, 0xffff_f8f8, 0xffff_00ff, 0xffff_ffff];
+const HAS_MODRM: [u32; 16] = [
+    0x0f0f_0f0f,
+    0x0f0f_0f0f,
+    0,
+    0x0000_0a08,
+    0x0000_ffff,
+    0,
+    0xff0f_00c3,
+    0xc0c0_0000,
+    0xffff_b41f,
+    0xff00_ffff,
+    0xffff_ffff,
+    0xff7f_ffff,
+    0xffff_0000,
+    0xffff_f8f8,
+    0xffff_00ff,
+    0xffff_ffff,
+];
 /// Does it have an immediate of one byte?
-const HAS_IMM8: [u32; 16] = [0x1010_1010, 0x1010_1010, 0, 0xffff_0c00, 0x0000_0009, 0x00ff_0100, 0x0000_2043, 0x0000_08ff, 0, 0, 0, 0x000f_0000, 0, 0x0400_1010, 0x0000_0074, 0];
+const HAS_IMM8: [u32; 16] = [
+    0x1010_1010,
+    0x1010_1010,
+    0,
+    0xffff_0c00,
+    0x0000_0009,
+    0x00ff_0100,
+    0x0000_2043,
+    0x0000_08ff,
+    0,
+    0,
+    0,
+    0x000f_0000,
+    0,
+    0x0400_1010,
+    0x0000_0074,
+    0,
+];
 /// Does it have an immediate or a distance of four bytes?
-const HAS_IMM32: [u32; 16] = [0x2020_2020, 0x2020_2020, 0, 0x0000_0300, 0x0000_0002, 0xff00_0200, 0x0000_0080, 0x0000_0300, 0, 0, 0, 0, 0x0000_ffff, 0, 0, 0];
+const HAS_IMM32: [u32; 16] = [
+    0x2020_2020,
+    0x2020_2020,
+    0,
+    0x0000_0300,
+    0x0000_0002,
+    0xff00_0200,
+    0x0000_0080,
+    0x0000_0300,
+    0,
+    0,
+    0,
+    0,
+    0x0000_ffff,
+    0,
+    0,
+    0,
+];
 
 fn has(table: &[u32; 16], index: u32) -> bool {
     table[(index >> 5) as usize & 15] >> (index & 31) & 1 != 0
@@ -118,11 +169,7 @@ impl Parser {
                     self.queue = self.queue << 4 | SIB as u64;
                 }
             }
-            SIB => {
-                if byte & 7 == 5 && self.modrm < 0x40 {
-                    self.queue = self.queue << 16 | FOUR_OF_DISP;
-                }
-            }
+            SIB if byte & 7 == 5 && self.modrm < 0x40 => self.queue = self.queue << 16 | FOUR_OF_DISP,
             13 => self.map = byte & 3,
             14 => (self.rex, self.prefix) = (byte, 0xc5),
             _ => {}

@@ -66,7 +66,8 @@ pub fn payload_offset() -> usize {
 pub fn has_avx2() -> bool {
     // FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT.
     const WANTED: [u32; 3] = [1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29, 1 << 3 | 1 << 5 | 1 << 8, 1 << 5];
-    let found = [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
+    let found =
+        [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
     if (0..3).any(|i| found[i] & WANTED[i] != WANTED[i]) {
         return false;
     }
@@ -199,11 +200,22 @@ impl Stack {
     }
 }
 
-/// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH, which needs no /proc.
-/// Comes back if that fails.
+/// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH, which needs no /proc; where
+/// that is missing (before Linux 3.19, emulators), execve by the file's number in /proc. Comes back if both fail.
 pub fn execute(file: isize, stack: &Stack) {
     let (arguments, environment) = (stack.word(1) as usize, stack.environment() as usize);
     call_five(322, file as usize, c"".as_ptr() as usize, arguments, environment, 0x1000);
+    let mut path = *b"/proc/self/fd////////\0";
+    let mut number = file as u32;
+    // Decimals from the end; a path may have more slashes than it needs.
+    for digit in path[14..21].iter_mut().rev() {
+        *digit = b'0' + (number % 10) as u8;
+        number /= 10;
+        if number == 0 {
+            break;
+        }
+    }
+    call(59, path.as_ptr() as usize, arguments, environment);
 }
 
 // What the compiler calls for loops over bytes. The string instructions are small, and fast enough.
