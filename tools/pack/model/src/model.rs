@@ -4,7 +4,7 @@ use crate::features::{Features, hash};
 use crate::mix::{Logistic, Weights, all, dot, train};
 use crate::slot;
 
-/// Contexts of a byte. The unpacker's time goes with it; see the crate for what more would bring.
+/// Contexts of a byte. The unpacker's time goes with it; one more makes 0.3 % less.
 pub const CONTEXTS: usize = 10;
 /// Inputs of a mixer, in vectors of eight: three of each context, the match, a constant.
 const VECTORS: usize = (3 * CONTEXTS + 2).div_ceil(8);
