@@ -1,6 +1,6 @@
 //! Puts the unpacker and the coded program into one executable.
 
-use crate::compress::{compress, costs};
+use crate::compress::{compress, costs, decompress};
 use crate::elf::{self, HEADER, SEGMENT, Trimmed};
 use pack_model::address::{Way, convert};
 use pack_model::features::hash;
@@ -53,7 +53,11 @@ pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     for word in [program.bytes.len() as u32, code[0], code[1], program.code_address as u32] {
         payload.extend(word.to_le_bytes());
     }
-    payload.extend(compress(&SETS, &program.bytes, code));
+    let coded = compress(&SETS, &program.bytes, code);
+    if decompress(&SETS, &coded, program.bytes.len(), code) != program.bytes {
+        return Err("the coded program does not decode".into());
+    }
+    payload.extend(coded);
 
     let length = (HEADERS + image.len() + payload.len() + 4) as u64;
     let mut bytes = b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x02\0\x3e\0\x01\0\0\0".to_vec();

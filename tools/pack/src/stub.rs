@@ -28,8 +28,8 @@ pub fn build(rustc: &Path, sources: &Path, work: &Path) -> Result<Vec<u8>, Strin
     std::fs::read(&linked).map_err(|error| format!("{}: {error}", linked.display()))
 }
 
-/// For any x86-64 processor, so that the unpacker can say on an old one that the program will not run; in place of
-/// the programs of the flags in the environment, which may ask for more.
+/// For any x86-64 processor, so that the unpacker can say on an old one that the program will not run.
+/// Level `s` costs 110 bytes more and is not faster, 2 costs nearly 3 kB for a tenth of the time.
 const COMMON: [&str; 8] = [
     "--edition=2024",
     "--target=x86_64-unknown-linux-gnu",

@@ -92,10 +92,19 @@ fn without_memory_files_it_runs_from_a_temporary_file_and_leaves_none() {
 }
 
 #[test]
-fn where_nothing_may_run_it_says_so() {
-    let refuse = compile("refuse.c", "refuse_all", &[]);
+fn without_execveat_it_runs_by_its_number() {
+    let refuse = compile("refuse.c", "refuse_execveat", &[]);
+    let path = executable("number.packed", small());
+    let mut command = Command::new(refuse);
+    command.arg(EXECVEAT).arg(&path).args(["7", "a b", ""]).env("PACK_TEST", "passed");
+    check(&command.output().expect("it runs"), path.to_str().expect("a plain name"));
+}
+
+#[test]
+fn where_nothing_can_be_written_it_says_so() {
     let path = executable("nothing.packed", small());
-    let output = Command::new(refuse).arg(EXECVEAT).arg(path).output().expect("it runs");
+    let script = "trap '' XFSZ; ulimit -f 0; exec \"$0\"";
+    let output = Command::new("sh").arg("-c").arg(script).arg(path).output().expect("it runs");
     assert_eq!(output.status.code(), CANNOT);
     assert!(text(&output.stderr).starts_with("paprsek: neither memory nor"), "{}", text(&output.stderr));
 }

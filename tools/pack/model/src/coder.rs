@@ -2,7 +2,7 @@
 
 /// Splits the interval from `low` to `high` at the probability (65536ths) of a one.
 fn split(low: u32, high: u32, probability: u32) -> u32 {
-    low + ((high - low) as u64 * probability as u64 >> 16) as u32
+    low + (((high - low) as u64 * probability as u64) >> 16) as u32
 }
 
 /// Writes bits.

@@ -59,7 +59,7 @@ impl Features {
         p.step(byte);
         let opcode = p.map << 8 | p.op;
         let d = &mut self.displacements[place & 511];
-        if before >= DISP8 && before < IMM8 {
+        if (DISP8..IMM8).contains(&before) {
             *d = *d << 8 | value;
         }
         let o = &mut self.operands[opcode as usize & 1023];

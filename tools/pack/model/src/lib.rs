@@ -1,10 +1,22 @@
 //! The context-mixing model that packing and unpacking share: every probability the one computes,
 //! the other must compute again, so there is one source of it. Integers only, no allocation, no `std`.
 //!
-//! Many contexts, each a subset of a few features of what came before ([`features`]), look up adaptive
-//! probabilities ([`slot`]); three mixers weigh them, a fourth weighs the mixers ([`mix`]), and a correction
-//! by context follows. The method is that of Mahoney's PAQ; that the parser of x86 sits inside the model,
-//! instead of streams split by a filter, is that of its executable models.
+//! Some contexts, each a subset of a few features of what came before ([`features`]), look up adaptive
+//! probabilities ([`slot`]); three mixers weigh them, and a fourth weighs the mixers ([`mix`]). The method is that
+//! of Mahoney's PAQ; that a parser of x86 ([`parse`]) sits inside the model, instead of a filter that splits
+//! streams, is that of its executable models.
+//!
+//! Tried, on a program of 339 kB (xz with its x86 filter: 130,810 bytes; zpaq -m5: 115,501):
+//!
+//! - addresses left relative: 4.7 % more; absolute ones with their highest byte first: 0.1 % more;
+//! - the probability of a slot without that of its history, or the other way round: 3 % more each;
+//! - 23 contexts chosen by hand: as good as 11 found by search, at twice the time;
+//! - a correction by context behind the mixers (SSE), five variants: 0.0 to 0.1 % more;
+//! - histories that start at what their bits suggest, instead of even odds: no difference;
+//! - one mixer instead of three: 3.3 % more; a fourth one, by the length of the match: 0.05 % less;
+//! - without the linear input of each context: 0.4 % more;
+//! - a table of 2^18 or 2^22 lines instead of 2^20: 3 % more, 1.2 % less (but 256 MB). It has 2^19 now, for time:
+//!   0.45 % more.
 #![no_std]
 
 pub mod address;

@@ -169,11 +169,7 @@ impl Parser {
                     self.queue = self.queue << 4 | SIB as u64;
                 }
             }
-            SIB => {
-                if byte & 7 == 5 && self.modrm < 0x40 {
-                    self.queue = self.queue << 16 | FOUR_OF_DISP;
-                }
-            }
+            SIB if byte & 7 == 5 && self.modrm < 0x40 => self.queue = self.queue << 16 | FOUR_OF_DISP,
             13 => self.map = byte & 3,
             14 => (self.rex, self.prefix) = (byte, 0xc5),
             _ => {}

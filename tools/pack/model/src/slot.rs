@@ -33,7 +33,7 @@ pub fn with(probability: i32, count: u32) -> u32 {
 /// Learns one bit.
 pub fn update(slot: &mut u32, bit: u32) {
     let (p, n, h) = ((*slot >> 13) as i32 ^ 0x4_0000, (*slot >> 8 & 31) as i32, *slot & 255);
-    let p = p + (((0x7_ffff & -(bit as i32)) - p) as i64 * RATES[n as usize & 31] as i64 >> 16) as i32;
+    let p = p + ((((0x7_ffff & -(bit as i32)) - p) as i64 * RATES[n as usize & 31] as i64) >> 16) as i32;
     let n = n + (n < LIMIT) as i32;
     // The bit that falls out of eight goes on as the leading one.
     let h = h.max(1) << 1 | bit;
