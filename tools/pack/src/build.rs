@@ -40,28 +40,37 @@ const MATHS: &str = "acos asin atan atan2 cos cosh erf erfc exp exp2 expm1 hypot
 const SETTINGS: &[&str] = &["profile.release.strip=false", "profile.release.debug='line-tables-only'"];
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
+/// Its code is the same wherever `root` is, as long as `target` is below it at the same place.
 pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBuf, String> {
+    let whole = |path: &Path| {
+        let made = fs::create_dir_all(path).and_then(|()| path.canonicalize());
+        made.map_err(|error| format!("cannot make {}: {error}", path.display()))
+    };
+    let (root, target) = (whole(root)?, whole(target)?);
     let crates = target.join("x11-dl");
-    x11::cut(&metadata(root, toolchain)?, &crates)?;
+    x11::cut(&metadata(&root, toolchain)?, &crates)?;
     let libraries = target.join("libraries");
     libm(&libraries)?;
-    let mut cargo = toolchain.cargo(root);
+    let mut cargo = toolchain.cargo(&root);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
     cargo.args(["--no-default-features", "--features", "x11"]);
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
-    cargo.arg("--target-dir").arg(target);
+    cargo.arg("--target-dir").arg(&target);
     for setting in SETTINGS {
         cargo.args(["--config", setting]);
     }
     cargo.arg("--config").arg(format!("paths=[{:?}]", crates.display().to_string()));
-    let search = format!("-Clink-arg=-L{}", libraries.display());
-    cargo.env("CARGO_ENCODED_RUSTFLAGS", [FLAGS, &[&search]].concat().join("\x1f"));
+    cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
     // minifb's one file in C asks for -O3; the last word counts.
     cargo.env("CFLAGS", "-Os");
     // x11-dl would note where this machine keeps its libraries; the loader knows better on the next.
     cargo.env("PKG_CONFIG", "false");
     // The executable alone, not the library: the shell is to be small, frames are to be fast.
     cargo.args(["--", "-Copt-level=z"]);
+    // Cargo names crates by their flags, and by names the linker sorts: so no flag has a path of this machine. The
+    // compiler runs in `root`.
+    let libraries = libraries.strip_prefix(&root).unwrap_or(&libraries);
+    cargo.arg(format!("-Clink-arg=-L{}", libraries.display()));
     run(&mut cargo)?;
     Ok(target.join(TARGET).join("release/paprsek"))
 }
