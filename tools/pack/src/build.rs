@@ -2,6 +2,7 @@
 
 use crate::toolchain::Toolchain;
 use crate::x11;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -38,26 +39,32 @@ const SETTINGS: &[&str] = &[
 ];
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
+/// Its code is the same wherever `root` is, as long as `target` is below it at the same place.
 pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBuf, String> {
+    let whole = |path: &Path| {
+        let made = fs::create_dir_all(path).and_then(|()| path.canonicalize());
+        made.map_err(|error| format!("cannot make {}: {error}", path.display()))
+    };
+    let (root, target) = (whole(root)?, whole(target)?);
     let crates = target.join("x11-dl");
-    x11::cut(&metadata(root, toolchain)?, &crates)?;
-    let mut cargo = toolchain.cargo(root);
+    x11::cut(&metadata(&root, toolchain)?, &crates)?;
+    let mut cargo = toolchain.cargo(&root);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
     cargo.args(["--no-default-features", "--features", "x11"]);
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
-    cargo.arg("--target-dir").arg(target);
+    cargo.arg("--target-dir").arg(&target);
     for setting in SETTINGS {
         cargo.args(["--config", setting]);
     }
     cargo.arg("--config").arg(format!("paths=[{:?}]", crates.display().to_string()));
-    let linker = format!("-Clinker={}", root.join("tools/pack/cc").display());
-    cargo.env("CARGO_ENCODED_RUSTFLAGS", [FLAGS, &[&linker]].concat().join("\x1f"));
-    // The executable's own files are the shell around the renderer: size alone counts there.
-    cargo.args(["--", "-Copt-level=z"]);
+    cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
     // minifb's one file in C asks for -O3; the last word counts.
     cargo.env("CFLAGS", "-Os");
     // x11-dl would note where this machine keeps its libraries; the loader knows better on the next.
     cargo.env("PKG_CONFIG", "false");
+    // The executable's own files are the shell around the renderer, where size alone counts; and it is linked.
+    // The linker has no part in FLAGS: cargo names crates by their flags, and no name may depend on a path.
+    cargo.args(["--", "-Copt-level=z", "-Clinker=tools/pack/cc"]);
     run(&mut cargo)?;
     Ok(target.join(TARGET).join("release/paprsek"))
 }
