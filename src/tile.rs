@@ -148,7 +148,8 @@ impl Renderer {
 
     /// The SIMD level in use, as the benchmark names it: `avx512`, `avx2`, `sse4.2`, `sse2`, `neon`, `scalar`.
     pub fn simd(&self) -> &'static str {
-        match self.level {
+        // What runs, which a build may hold below what the machine has.
+        match dispatch!(self.level, simd => simd.level()) {
             #[cfg(target_arch = "x86_64")]
             Level::Avx512(_) => "avx512",
             #[cfg(target_arch = "x86_64")]
