@@ -57,13 +57,18 @@ impl Grid {
     }
 
     /// Asks for the sample at a lattice point, if it is not there yet.
+    #[inline(always)]
     pub fn want(&mut self, x: usize, y: usize) {
-        let entry = &mut self.lattice[y * LATTICE + x];
-        if entry.0 != self.generation {
-            *entry = (self.generation, self.xs.len() as u32);
-            self.xs.push(self.first.0 + x as u32 as f32 * self.step);
-            self.ys.push(self.first.1 + y as u32 as f32 * self.step);
+        // Most corners are there, from a neighbour: that much is asked on the spot.
+        if self.lattice[y * LATTICE + x].0 != self.generation {
+            self.add(x, y);
         }
+    }
+
+    fn add(&mut self, x: usize, y: usize) {
+        self.lattice[y * LATTICE + x] = (self.generation, self.xs.len() as u32);
+        self.xs.push(self.first.0 + x as u32 as f32 * self.step);
+        self.ys.push(self.first.1 + y as u32 as f32 * self.step);
     }
 
     /// Asks for a sample off the lattice: pixels of the picture.
