@@ -239,8 +239,8 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
             let pixel = square.y / unit * Tile::SIZE + square.x / unit;
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
-            let mut mean = *corners[0];
-            mean.numbers = foretell(simd, corners);
+            let Sample { chain, count, object, .. } = *corners[0];
+            let mean = Sample { chain, count, object, numbers: foretell(simd, corners) };
             fill::add(simd, job, tile, deferred, pixel, &mean, 1.0, &footprint);
         } else {
             fill::interpolate(simd, job, tile, deferred, ramps, grid, square);

@@ -46,8 +46,10 @@ impl Groups {
         let groups = &mut self.list[..self.count];
         for group in &mut *groups {
             let k = 1.0 / group.share;
-            for number in &mut group.mean.numbers {
-                *number *= k;
+            for i in (0..group.mean.used()).step_by(F::<S>::LEN) {
+                let range = i..i + F::<S>::LEN;
+                let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
+                (sum * k).store_slice(&mut group.mean.numbers[range]);
             }
         }
         groups
@@ -63,7 +65,10 @@ impl Groups {
         let group = &mut self.list[at];
         if at == self.count {
             self.count += 1;
-            *group = Group { share: 0.0, mean: Sample { numbers: [0.0; NUMBERS], ..*sample } };
+            // Field by field: a whole sample would be copied twice.
+            group.share = 0.0;
+            (group.mean.chain, group.mean.count, group.mean.object) = (sample.chain, sample.count, sample.object);
+            group.mean.numbers = [0.0; NUMBERS];
         }
         group.share += weight;
         for i in (0..sample.used()).step_by(F::<S>::LEN) {
