@@ -242,7 +242,7 @@ fn check_levels(points: &[Vec3; BLOCK]) {
     };
     for (name, level) in common::levels() {
         let mut out = [0.0; BLOCK];
-        dispatch!(level, simd => noise_block(simd, &x, &y, &z, &mut out));
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
         same("noise", name, &out, &noise);
         for octaves in [0, 1, 5] {
             dispatch!(level, simd => fbm_block(simd, &x, &y, &z, octaves, &mut out));

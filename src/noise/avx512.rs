@@ -61,18 +61,18 @@ fn load_table(simd: Avx512, table: &[u8; 256]) -> [u8x64<Avx512>; 4] {
     ]
 }
 
-/// The cells of group `g`, modulo 256 in the low byte.
+/// The cells of group `g` of coordinates times `zoom`, modulo 256 in the low byte.
 #[inline(always)]
-fn cell(simd: Avx512, x: &[f32; BLOCK], g: usize) -> u32x16<Avx512> {
+fn cell(simd: Avx512, x: &[f32; BLOCK], zoom: f32, g: usize) -> u32x16<Avx512> {
     // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
-    load::<_, Floats>(simd, x, g).floor().to_int::<i32x16<_>>().bitcast()
+    (load::<_, Floats>(simd, x, g) * zoom).floor().to_int::<i32x16<_>>().bitcast()
 }
 
-/// The cells of 64 coordinates modulo 256, in the order of bytes above.
+/// The cells of 64 coordinates times `zoom`, modulo 256, in the order of bytes above.
 #[inline(always)]
-fn cells(simd: Avx512, x: &[f32; BLOCK]) -> u8x64<Avx512> {
-    let low = (cell(simd, x, 0) & 0xff) | ((cell(simd, x, 1) & 0xff) << 8);
-    (low | ((cell(simd, x, 2) & 0xff) << 16) | (cell(simd, x, 3) << 24)).bitcast()
+fn cells(simd: Avx512, x: &[f32; BLOCK], zoom: f32) -> u8x64<Avx512> {
+    let low = (cell(simd, x, zoom, 0) & 0xff) | ((cell(simd, x, zoom, 1) & 0xff) << 8);
+    (low | ((cell(simd, x, zoom, 2) & 0xff) << 16) | (cell(simd, x, zoom, 3) << 24)).bitcast()
 }
 
 /// The product of a gradient and the offset (x, y, z).
@@ -82,11 +82,11 @@ fn gradient(simd: Avx512, tables: &[Floats; 3], hash: u32x16<Avx512>, x: Floats,
     component(simd, tables[0], hash).mul_add(x, component(simd, tables[1], hash).mul_add(y, z))
 }
 
-/// Perlin's noise at 64 points.
+/// Perlin's noise at 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], out: &mut [f32; BLOCK]) {
+pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], zoom: f32, out: &mut [f32; BLOCK]) {
     let table = load_table(simd, &super::PERMUTATION);
-    let (ix, iy, iz) = (cells(simd, x), cells(simd, y), cells(simd, z));
+    let (ix, iy, iz) = (cells(simd, x, zoom), cells(simd, y, zoom), cells(simd, z, zoom));
     let a = lookup(simd, table, ix) + iy;
     let b = lookup(simd, table, ix + 1) + iy;
     let (aa, ab) = (lookup(simd, table, a) + iz, lookup(simd, table, a + 1) + iz);
@@ -105,6 +105,7 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
 
     for g in 0..BLOCK / Floats::LEN {
         let (x, y, z): (Floats, Floats, Floats) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
+        let (x, y, z) = (x * zoom, y * zoom, z * zoom);
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (x1, y1) = (x - 1.0, y - 1.0);

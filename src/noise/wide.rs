@@ -57,27 +57,32 @@ pub(super) fn lerp<S: Simd, F: SimdFloat<S, Element = f32>>(t: F, a: F, b: F) ->
     a + t * (b - a)
 }
 
-/// Perlin's improved noise at 64 points: the bits of [`super::noise`].
+/// Perlin's improved noise at 64 points times `zoom`: the bits of [`super::noise`] there.
 #[simd]
-pub fn noise_block<S: Simd>(simd: S, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], out: &mut [f32; BLOCK]) {
+pub fn noise_block<S: Simd>(
+    simd: S,
+    x: &[f32; BLOCK],
+    y: &[f32; BLOCK],
+    z: &[f32; BLOCK],
+    zoom: f32,
+    out: &mut [f32; BLOCK],
+) {
     match simd.level() {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(simd) => super::avx512::noise64(simd, x, y, z, out),
+        Level::Avx512(simd) => super::avx512::noise64(simd, x, y, z, zoom, out),
         #[cfg(target_arch = "x86_64")]
         Level::Avx2(avx2) => noise64(
             avx2,
-            x,
-            y,
-            z,
+            [x, y, z],
+            zoom,
             out,
             #[inline(always)]
             |codes| component_avx2(avx2, codes),
         ),
         _ => noise64(
             simd,
-            x,
-            y,
-            z,
+            [x, y, z],
+            zoom,
             out,
             #[inline(always)]
             |codes| ((codes << 30).bitcast::<S::i32s>() >> 30).to_float(),
@@ -102,16 +107,15 @@ fearless_simd::kernel!(
 #[inline(always)]
 fn noise64<S: Simd>(
     simd: S,
-    x: &[f32; BLOCK],
-    y: &[f32; BLOCK],
-    z: &[f32; BLOCK],
+    [x, y, z]: [&[f32; BLOCK]; 3],
+    zoom: f32,
     out: &mut [f32; BLOCK],
     component: impl Fn(S::u32s) -> S::f32s,
 ) {
     let [mut ix, mut iy, mut iz] = [[0u32; BLOCK]; 3];
-    cells(simd, x, &mut ix);
-    cells(simd, y, &mut iy);
-    cells(simd, z, &mut iz);
+    cells(simd, x, zoom, &mut ix);
+    cells(simd, y, zoom, &mut iy);
+    cells(simd, z, zoom, &mut iz);
     let mut codes = [[0u32; BLOCK]; 4];
     for i in 0..BLOCK {
         let (iy, iz) = (iy[i], iz[i]);
@@ -126,6 +130,7 @@ fn noise64<S: Simd>(
     let mut i = 0;
     while i < BLOCK / S::f32s::LEN {
         let (x, y, z): (S::f32s, S::f32s, S::f32s) = (load(simd, x, i), load(simd, y, i), load(simd, z, i));
+        let (x, y, z) = (x * zoom, y * zoom, z * zoom);
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (aa, ba): (S::u32s, S::u32s) = (load(simd, &codes[0], i), load(simd, &codes[1], i));
@@ -170,16 +175,16 @@ fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     component(code) * x + (component(code >> 2) * y + component(code >> 4) * z)
 }
 
-/// The cells of coordinates, modulo 256.
+/// The cells of coordinates times `zoom`, modulo 256.
 #[inline(always)]
-fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], cells: &mut [u32; BLOCK]) {
+fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], zoom: f32, cells: &mut [u32; BLOCK]) {
     // The x86 conversion gives 0x80000000 where it overflows: the right byte, since such floats are multiples of 256.
     // Others saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
     let mut i = 0;
     while i < BLOCK / S::f32s::LEN {
         let mut cell: S::f32s = load(simd, x, i);
-        cell = cell.floor();
+        cell = (cell * zoom).floor();
         if saturates {
             cell -= (cell * (1.0 / 256.0)).floor() * 256.0;
         }
@@ -237,32 +242,18 @@ fn sum_octaves<S: Simd>(
     out: &mut [f32; BLOCK],
     shape: impl Fn(S::f32s) -> S::f32s,
 ) {
-    let mut p = [*p[0], *p[1], *p[2]];
     let mut octave = [0.0; BLOCK];
-    let mut amplitude = 0.5;
+    let (mut amplitude, mut zoom) = (0.5, 1.0);
     *out = [0.0; BLOCK];
     for _ in 0..octaves {
-        noise_block(simd, &p[0], &p[1], &p[2], &mut octave);
+        noise_block(simd, p[0], p[1], p[2], zoom, &mut octave);
         let mut i = 0;
         while i < BLOCK / S::f32s::LEN {
             let sum: S::f32s = load(simd, out, i);
             store(sum + shape(load(simd, &octave, i)) * amplitude, out, i);
             i += 1;
         }
-        double(simd, &mut p[0]);
-        double(simd, &mut p[1]);
-        double(simd, &mut p[2]);
         amplitude *= 0.5;
-    }
-}
-
-/// Doubles every element.
-#[inline(always)]
-fn double<S: Simd>(simd: S, x: &mut [f32; BLOCK]) {
-    let mut i = 0;
-    while i < BLOCK / S::f32s::LEN {
-        let half: S::f32s = load(simd, x, i);
-        store(half + half, x, i);
-        i += 1;
+        zoom *= 2.0;
     }
 }

@@ -192,10 +192,10 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
             noise::fbm_block(simd, x, y, z, octaves, &mut field)
         }
         (Pattern::Turbulence { octaves }, Some(_)) => {
-            octaves_in(simd, local, &foot, octaves, true, &mut field, &mut lost);
+            octaves_in(simd, &local, &foot, octaves, true, &mut field, &mut lost);
         }
         (Pattern::Clouds { octaves } | Pattern::Marble { octaves, .. } | Pattern::Wood { octaves, .. }, Some(_)) => {
-            octaves_in(simd, local, &foot, octaves, false, &mut field, &mut lost);
+            octaves_in(simd, &local, &foot, octaves, false, &mut field, &mut lost);
         }
     }
     let mut i = 0;
@@ -257,7 +257,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
 #[simd]
 fn octaves_in<S: Simd>(
     simd: S,
-    mut p: Block3,
+    p: &Block3,
     foot: &[f32; BLOCK],
     octaves: u32,
     absolute: bool,
@@ -276,7 +276,7 @@ fn octaves_in<S: Simd>(
         let mut n = [0.0; BLOCK];
         // Beyond ten cells less than a thirtieth is left of an octave.
         if least * frequency < 10.0 {
-            noise::noise_block(simd, &p[0], &p[1], &p[2], &mut n);
+            noise::noise_block(simd, &p[0], &p[1], &p[2], frequency, &mut n);
         }
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
@@ -288,9 +288,6 @@ fn octaves_in<S: Simd>(
             store(load::<S, F<S>>(simd, field, i) + n * amplitude, field, i);
             let variance = gone * (amplitude * amplitude * SIGMA * SIGMA);
             store(load::<S, F<S>>(simd, lost, i) + variance, lost, i);
-            for axis in &mut p {
-                store(load::<S, F<S>>(simd, axis, i) * 2.0, axis, i);
-            }
             i += 1;
         }
         amplitude *= 0.5;
