@@ -36,8 +36,8 @@ impl Groups {
             weigh(grid, Square { x: left, y: top, size: half }, 0.25, (x, y), &mut weights);
         }
         self.count = 0;
-        for (row, weights) in weights.iter().enumerate() {
-            for (column, &weight) in weights.iter().enumerate() {
+        for (row, weights) in weights[..=unit].iter().enumerate() {
+            for (column, &weight) in weights[..=unit].iter().enumerate() {
                 if weight > 0.0 {
                     self.add(simd, grid.at(x + column, y + row), weight);
                 }

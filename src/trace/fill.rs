@@ -8,7 +8,7 @@ use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
 use super::texture::{self, Block3};
 use crate::block::{BLOCK, load, store};
 use crate::tile::Tile;
-use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
 /// Adds `share` of a sample to a pixel, its textures averaged over their `footprint`s.
@@ -58,6 +58,9 @@ pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
     }
     footprints
 }
+
+/// Pixels that lie side by side in squares of that size and larger ones, and are added together.
+const ROW: usize = 8;
 
 /// Where the pixels of a square lie between its corners.
 #[derive(Clone)]
@@ -244,8 +247,15 @@ pub fn interpolate<S: Simd>(
         let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
         for (plane, values) in planes.into_iter().zip(&plain) {
             // Added, not set: a queue of textures may have been emptied into these pixels already.
-            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
-                plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
+            if size >= ROW {
+                for (offsets, values) in ramp.pixel.as_chunks::<ROW>().0.iter().zip(values.as_chunks::<ROW>().0) {
+                    let row = &mut plane[first + offsets[0] as usize..][..ROW];
+                    (f32x8::from_slice(simd, row) + f32x8::from_slice(simd, values)).store_slice(row);
+                }
+            } else {
+                for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
+                    plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
+                }
             }
         }
         if tile.solids_matter {
