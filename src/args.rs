@@ -34,7 +34,7 @@ const VALUED: [(&str, &str); 8] = [
 ];
 
 /// Options that take none, in the same way.
-const FLAGS: &[&str] = &["help", "version", "list", "bench", "json"];
+const FLAGS: [&str; 5] = ["help", "version", "list", "bench", "json"];
 
 /// Longest side of a picture, pixels.
 const MAX_SIDE: usize = 16384;
@@ -182,8 +182,8 @@ struct Words {
     scene: Option<OsString>,
     /// One for each of [`VALUED`].
     values: [Option<OsString>; VALUED.len()],
-    /// One for each that [`FLAGS`] may hold.
-    flags: [bool; 5],
+    /// One for each of [`FLAGS`].
+    flags: [bool; FLAGS.len()],
 }
 
 impl Words {
