@@ -89,12 +89,12 @@ impl Screen {
                 if !desk.fresh {
                     desk = shared.1.wait_timeout(desk, POLL).unwrap_or_else(PoisonError::into_inner).0;
                 }
-                if let Some(ended) = desk.ended.take() {
-                    return ended;
-                }
                 let fresh = take(&mut desk.fresh);
                 if fresh {
                     swap(&mut desk.frame, &mut frame);
+                } else if let Some(ended) = desk.ended.take() {
+                    // The last frame has been shown.
+                    return ended;
                 }
                 fresh
             };
