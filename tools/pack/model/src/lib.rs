@@ -22,6 +22,7 @@
 pub mod address;
 pub mod coder;
 pub mod features;
+pub mod first;
 pub mod mix;
 pub mod model;
 pub mod parse;

@@ -5,13 +5,20 @@ use core::arch::x86_64::{__cpuid, __cpuid_count};
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
+use pack_model::first;
 use pack_model::model::Model;
 
-// The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
 global_asm!(
-    ".pushsection .text._start,\"ax\"",
-    ".globl _start",
-    "_start:",
+    include_str!("first.s"),
+    contexts = const first::CONTEXTS,
+    multiplier = const first::MULTIPLIER,
+    table_bits = const first::TABLE_BITS,
+    prior = const first::PRIOR,
+);
+
+// The second stage. The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
+global_asm!(
+    ".pushsection .text._second,\"ax\"",
     "mov rdi, rsp",
     "call {entry}",
     ".popsection",
@@ -19,7 +26,7 @@ global_asm!(
 );
 
 extern "C" fn entry(stack: *const usize) -> ! {
-    // SAFETY: `_start` passes the stack pointer that the kernel set up, which nothing changes.
+    // SAFETY: the code above passes the stack pointer that the kernel set up, which nothing changes.
     crate::main(unsafe { &*stack.cast() })
 }
 
@@ -56,10 +63,8 @@ pub fn image() -> &'static [u8] {
 
 /// Where in the image the payload starts.
 pub fn payload_offset() -> usize {
-    let address: usize;
-    // SAFETY: loads a constant that the linker script defines.
-    unsafe { asm!("mov {:e}, offset payload", out(reg) address, options(pure, nomem, nostack, preserves_flags)) };
-    address - BASE
+    // SAFETY: the packer writes it there, in the physical address of the program header, which means nothing else.
+    unsafe { *((BASE + 88) as *const usize) }
 }
 
 /// Does the processor have all of x86-64-v3, and does the system keep its registers?
