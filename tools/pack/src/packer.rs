@@ -28,10 +28,11 @@ pub struct Packed {
 }
 
 /// The program as it is coded: trimmed, with absolute addresses.
-fn prepare(file: &[u8]) -> Result<Trimmed, String> {
+fn prepare(file: &[u8], primer: &[u8]) -> Result<Trimmed, String> {
     let mut trimmed = elf::trim(file)?;
-    if trimmed.bytes.len() > MOST {
-        return Err(format!("{} bytes, but the unpacker's memory ends at {MOST}", trimmed.bytes.len()));
+    let most = MOST - primer.len();
+    if trimmed.bytes.len() > most {
+        return Err(format!("{} bytes, but the unpacker has room for {most}", trimmed.bytes.len()));
     }
     convert(&mut trimmed.bytes[trimmed.code.clone()], trimmed.code_address as u32, Way::Absolute);
     Ok(trimmed)
@@ -39,16 +40,19 @@ fn prepare(file: &[u8]) -> Result<Trimmed, String> {
 
 /// Packs an executable. `stub` is the linked unpacker ([`crate::stub::build`]).
 pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
-    let program = prepare(file)?;
+    let [one, two] = stages(stub)?;
+    let program = prepare(file, two)?;
     let code = [program.code.start as u32, program.code.end as u32];
-    let unpacker = unpacker(stub)?;
+    let mut unpacker = one.to_vec();
+    unpacker.extend(first::compress(two));
 
     let mut payload = Vec::new();
-    for word in [program.bytes.len() as u32, code[0], code[1], program.code_address as u32] {
-        payload.extend(word.to_le_bytes());
+    for offset in [program.bytes.len() as u32, code[0], code[1]] {
+        payload.extend((two.len() as u32 + offset).to_le_bytes());
     }
-    let coded = compress(&SETS, &program.bytes, code);
-    if decompress(&SETS, &coded, program.bytes.len(), code) != program.bytes {
+    payload.extend((program.code_address as u32).to_le_bytes());
+    let coded = compress(&SETS, two, &program.bytes, code);
+    if decompress(&SETS, two, &coded, program.bytes.len(), code) != program.bytes {
         return Err("the coded program does not decode".into());
     }
     payload.extend(coded);
@@ -81,8 +85,8 @@ pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     })
 }
 
-/// The unpacker as it is in the file: the first stage, and the second one coded for it.
-fn unpacker(stub: &[u8]) -> Result<Vec<u8>, String> {
+/// The two stages of the unpacker. The first is in the file as it is; the second is coded for it.
+fn stages(stub: &[u8]) -> Result<[&[u8]; 2], String> {
     let all = elf::segments(stub)?;
     let mut stages = all.iter().filter(|s| s.kind == 1 && s.flags & 1 != 0);
     let (Some(one), Some(two)) = (stages.next(), stages.next()) else { return Err("the stub lacks a stage".into()) };
@@ -90,9 +94,7 @@ fn unpacker(stub: &[u8]) -> Result<Vec<u8>, String> {
     if (entry, one.address) != (BASE + HEADERS as u64, BASE + HEADERS as u64) {
         return Err("the stub is not linked as it should be".into());
     }
-    let mut bytes = stub[one.file.clone()].to_vec();
-    bytes.extend(first::compress(&stub[two.file.clone()]));
-    Ok(bytes)
+    Ok([one, two].map(|s| &stub[s.file.clone()]))
 }
 
 /// What the coded program costs, byte by byte.
@@ -111,10 +113,11 @@ impl Costs {
     }
 }
 
-/// Measures what each byte of `file` costs in `pack`.
-pub fn measure(file: &[u8]) -> Result<Costs, String> {
-    let program = prepare(file)?;
+/// Measures what each byte of `file` costs in `pack` with this unpacker.
+pub fn measure(file: &[u8], stub: &[u8]) -> Result<Costs, String> {
+    let [_, primer] = stages(stub)?;
+    let program = prepare(file, primer)?;
     let code = [program.code.start as u32, program.code.end as u32];
-    let bits = costs(&SETS, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
+    let bits = costs(&SETS, primer, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
     Ok(Costs { bits, loads: program.loads })
 }

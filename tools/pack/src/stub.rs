@@ -1,7 +1,18 @@
 //! Builds the unpacker.
 
+use crate::toolchain::Toolchain;
 use std::path::Path;
 use std::process::Command;
+
+/// The linked unpacker, built in a directory of its own below `place`.
+pub fn unpacker(toolchain: &Toolchain, place: &Path) -> Result<Vec<u8>, String> {
+    let work = place.join(format!("unpacker-{}", std::process::id()));
+    std::fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
+    let stub = build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), &work);
+    // What is left there harms nobody.
+    let _ = std::fs::remove_dir_all(&work);
+    stub
+}
 
 /// Compiles and links the unpacker with this `rustc` (1.89 or later; stable does) in the directory `work`, from the
 /// sources in `sources`, which is this crate's own directory. Returns the linked ELF file.

@@ -22,9 +22,10 @@ fn main(stack: &sys::Stack) -> ! {
     let image = sys::image();
     let Some(head) = Head::read(image) else { sys::fail(b"paprsek: this file is damaged\n") };
     let model = sys::model();
-    model.start(&SETS, head.code);
+    let primer = sys::code();
+    model.start(&SETS, primer, head.code);
     let mut decoder = Decoder::new(head.packed);
-    while model.position() < head.length {
+    while model.position() < head.end {
         let bit = decoder.decode(model.predict());
         model.update(bit);
     }
@@ -32,14 +33,14 @@ fn main(stack: &sys::Stack) -> ! {
     if let Some(code) = text.get_mut(head.code[0] as usize..head.code[1] as usize) {
         convert(code, head.address, Way::Relative);
     }
-    run::run(text.get(..head.length).unwrap_or(&[]), stack)
+    run::run(text.get(primer.len()..head.end).unwrap_or(&[]), stack)
 }
 
 /// The payload: four words, the coded bytes, and the checksum of all before.
 struct Head {
-    /// Bytes unpacked.
-    length: usize,
-    /// Where in them instructions start and end.
+    /// Bytes unpacked, behind the primer, which is this code.
+    end: usize,
+    /// Where in both instructions start and end.
     code: [u32; 2],
     /// Where the first instruction will be in memory.
     address: u32,
@@ -52,8 +53,8 @@ impl Head {
         let (image, sum) = image.split_last_chunk()?;
         let (words, packed) = image.get(sys::payload_offset()..)?.split_first_chunk::<16>()?;
         let word = |i| u32::from_le_bytes([words[i], words[i + 1], words[i + 2], words[i + 3]]);
-        let head = Self { length: word(0) as usize, code: [word(4), word(8)], address: word(12), packed };
+        let head = Self { end: word(0) as usize, code: [word(4), word(8)], address: word(12), packed };
         let found = image.iter().fold(0, |sum, &byte| hash(sum, byte as u32));
-        (found == u32::from_le_bytes(*sum) && head.length <= MOST).then_some(head)
+        (found == u32::from_le_bytes(*sum) && head.end <= MOST).then_some(head)
     }
 }

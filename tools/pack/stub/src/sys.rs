@@ -54,11 +54,23 @@ pub fn model() -> &'static mut Model {
 }
 
 const BASE: usize = 0x400000;
+const SECOND: usize = 0x10000008;
 
 /// This file as it is mapped: the first segment, whose length stands in the first program header.
 pub fn image() -> &'static [u8] {
     // SAFETY: the packer has the file mapped from BASE on, as many bytes as the word at 64 + 32 says.
     unsafe { core::slice::from_raw_parts(BASE as *const u8, *((BASE + 96) as *const usize)) }
+}
+
+/// The second stage, this code.
+pub fn code() -> &'static [u8] {
+    let end: usize;
+    // SAFETY: loads a constant that the linker script defines, as it does the address of the first byte; nothing
+    // there changes any more.
+    unsafe {
+        asm!("mov {:e}, offset second_end", out(reg) end, options(pure, nomem, nostack, preserves_flags));
+        core::slice::from_raw_parts(SECOND as *const u8, end - SECOND)
+    }
 }
 
 /// Where in the image the payload starts.
