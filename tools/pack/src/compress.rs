@@ -1,6 +1,7 @@
 //! The model's use on this side: coding with it, and asking what each byte costs.
 
-use pack_model::coder::{Decoder, Encoder};
+use crate::encoder::Encoder;
+use pack_model::coder::Decoder;
 use pack_model::model::{Model, Sets};
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
@@ -24,16 +25,16 @@ fn model(sets: &Sets, primer: &[u8], code: [u32; 2]) -> Box<Model> {
 /// Codes `text`, whose instructions `code` counts from its start.
 pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<u8> {
     let mut model = model(sets, primer, code);
-    let (mut encoder, mut out) = (Encoder::default(), Vec::new());
+    let mut encoder = Encoder::default();
     for byte in text {
         for i in (0..8).rev() {
             let bit = (byte >> i & 1) as u32;
-            encoder.encode(bit, model.predict(), |byte| out.push(byte));
+            let p = model.predict();
+            encoder.encode(bit == 1, [65536 - p, p]);
             model.update(bit);
         }
     }
-    out.push(encoder.finish());
-    out
+    encoder.finish()
 }
 
 /// What [`compress`], with the same primer, coded as `packed`, a text of `length` bytes.

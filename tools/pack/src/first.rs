@@ -2,54 +2,8 @@
 //! each context counts zeros and ones, and the sums of all counts, those of longer contexts weighing more, are the
 //! odds (as in Mentor's Crinkler, after Mahoney's PAQ1).
 
+use crate::encoder::Encoder;
 use pack_model::first::{CONTEXTS, MULTIPLIER, PRIOR, TABLE_BITS};
-
-/// A range coder that gives single bits.
-struct Encoder {
-    /// Finished bits, but for carries; the first is always zero.
-    bits: Vec<u8>,
-    low: u32,
-    range: u32,
-}
-
-impl Encoder {
-    fn encode(&mut self, bit: usize, [zeros, ones]: [u32; 2]) {
-        let split = (self.range as u64 * ones as u64 / (zeros + ones) as u64) as u32;
-        if bit == 1 {
-            self.range = split;
-        } else {
-            self.add(split);
-            self.range -= split;
-        }
-        while self.range >> 31 == 0 {
-            self.range <<= 1;
-            self.shift();
-        }
-    }
-
-    fn add(&mut self, value: u32) {
-        let (low, carry) = self.low.overflowing_add(value);
-        self.low = low;
-        if carry {
-            let last = self.bits.iter().rposition(|&bit| bit == 0).unwrap_or(0);
-            self.bits[last] = 1;
-            self.bits[last + 1..].fill(0);
-        }
-    }
-
-    fn shift(&mut self) {
-        self.bits.push((self.low >> 31) as u8);
-        self.low <<= 1;
-    }
-
-    /// Eight bits to a byte, the first one lowest. Any bits may follow.
-    fn finish(mut self) -> Vec<u8> {
-        self.add(1 << 30);
-        self.shift();
-        self.shift();
-        self.bits[1..].chunks(8).map(|bits| bits.iter().rev().fold(0, |byte, bit| byte << 1 | bit)).collect()
-    }
-}
 
 /// The hash of the bits so far below a leading one and of those bytes before that `context` names, and their number.
 fn hash(context: u8, partial: usize, before: &[u8]) -> (u32, u32) {
@@ -62,7 +16,7 @@ fn hash(context: u8, partial: usize, before: &[u8]) -> (u32, u32) {
 /// Codes `text`.
 pub fn compress(text: &[u8]) -> Vec<u8> {
     let mut counts = vec![[0u16; 2]; 1 << TABLE_BITS];
-    let mut encoder = Encoder { bits: Vec::new(), low: 0, range: 1 << 31 };
+    let mut encoder = Encoder::default();
     for (at, byte) in text.iter().enumerate() {
         let mut partial = 1;
         for i in (0..8).rev() {
@@ -73,7 +27,7 @@ pub fn compress(text: &[u8]) -> Vec<u8> {
                 let pair = counts[(hash >> (32 - TABLE_BITS)) as usize];
                 sums = [0, 1].map(|i| sums[i] + ((pair[i] as u32) << weight));
             }
-            encoder.encode(bit, sums);
+            encoder.encode(bit == 1, sums);
             // As the decoder does, from the last context to the first, some of which may share a pair.
             for (hash, _) in found.into_iter().rev() {
                 let pair = &mut counts[(hash >> (32 - TABLE_BITS)) as usize];

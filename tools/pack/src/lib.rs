@@ -3,6 +3,7 @@
 pub mod build;
 pub mod compress;
 pub mod elf;
+pub mod encoder;
 pub mod first;
 pub mod packer;
 pub mod stub;

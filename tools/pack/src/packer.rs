@@ -69,7 +69,7 @@ pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     // All of the file, readable and executable. Its physical address, of no use to the kernel, tells the unpacker
     // where the payload is.
     bytes.extend([1, 0, 0, 0, 5, 0, 0, 0]);
-    for word in [0, BASE, payload_at as u64, length, length, 0x1000] {
+    for word in [0, BASE, BASE + payload_at as u64, length, length, 0x1000] {
         bytes.extend(word.to_le_bytes());
     }
     bytes.extend(&unpacker);

@@ -96,14 +96,13 @@ impl Model {
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
     /// The text begins with `primer`, instructions that both sides have: they teach, and need not be coded.
-    #[inline(never)]
     pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 2]) {
         self.sets = *sets;
         self.code = [0, !0];
         self.partial = 1;
         self.logistic.fill();
-        self.weights.as_flattened_mut().as_flattened_mut().fill(all(1600));
-        self.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
+        self.weights.as_flattened_mut().as_flattened_mut().fill(const { all(1600) });
+        self.last.as_flattened_mut().fill(const { all((16384 / MIXERS) as i16) });
         self.contexts();
         for &byte in primer {
             for i in (0..8).rev() {

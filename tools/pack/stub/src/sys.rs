@@ -1,7 +1,8 @@
 //! The kernel, the processor, and memory: all that is unsafe.
 #![allow(unsafe_code)]
 
-use core::arch::x86_64::{__cpuid, __cpuid_count};
+use crate::Head;
+use core::arch::x86_64::__cpuid_count;
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
@@ -56,10 +57,35 @@ pub fn model() -> &'static mut Model {
 const BASE: usize = 0x400000;
 const SECOND: usize = 0x10000008;
 
-/// This file as it is mapped: the first segment, whose length stands in the first program header.
-pub fn image() -> &'static [u8] {
-    // SAFETY: the packer has the file mapped from BASE on, as many bytes as the word at 64 + 32 says.
-    unsafe { core::slice::from_raw_parts(BASE as *const u8, *((BASE + 96) as *const usize)) }
+/// The file's length and the address of the payload, words of the first program header that the packer writes.
+fn words() -> (usize, usize) {
+    // SAFETY: the headers are mapped, as all of the file is.
+    unsafe { (*((BASE + 96) as *const usize), *((BASE + 88) as *const usize)) }
+}
+
+/// Is all of this file there? A part that is missing cannot be read without SIGBUS. MADV_POPULATE_READ tells (EFAULT)
+/// from Linux 5.14 on; before, it is an error of another kind.
+pub fn is_whole() -> bool {
+    call(28, BASE, words().0, 22) != -14
+}
+
+/// This file as it is mapped, and the checksum at its end.
+pub fn image() -> (&'static [u8], u32) {
+    let length = words().0 - 4;
+    // SAFETY: so many bytes are mapped, and four more.
+    unsafe {
+        (core::slice::from_raw_parts(BASE as *const u8, length), ((BASE + length) as *const u32).read_unaligned())
+    }
+}
+
+/// The payload, to be asked for where the checksum is right: the head, and the coded bytes up to the end of the file.
+pub fn payload() -> (Head, &'static [u8]) {
+    let (length, at) = words();
+    // SAFETY: the packer has written it so, and nothing has changed since.
+    unsafe {
+        let coded = at + size_of::<Head>();
+        ((at as *const Head).read_unaligned(), core::slice::from_raw_parts(coded as *const u8, BASE + length - coded))
+    }
 }
 
 /// The second stage, this code.
@@ -73,20 +99,20 @@ pub fn code() -> &'static [u8] {
     }
 }
 
-/// Where in the image the payload starts.
-pub fn payload_offset() -> usize {
-    // SAFETY: the packer writes it there, in the physical address of the program header, which means nothing else.
-    unsafe { *((BASE + 88) as *const usize) }
-}
-
 /// Does the processor have all of x86-64-v3, and does the system keep its registers?
 pub fn has_avx2() -> bool {
-    // FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT.
-    const WANTED: [u32; 3] = [1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29, 1 << 3 | 1 << 5 | 1 << 8, 1 << 5];
-    let found =
-        [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
-    if (0..3).any(|i| found[i] & WANTED[i] != WANTED[i]) {
-        return false;
+    // What cpuid must say in ebx and ecx: FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT. A processor that
+    // has what the first page says knows the others.
+    const WANTED: [(u32, u32, u32); 3] = [
+        (1, 0, 1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29),
+        (7, 1 << 3 | 1 << 5 | 1 << 8, 0),
+        (0x8000_0001, 0, 1 << 5),
+    ];
+    for (page, ebx, ecx) in WANTED {
+        let found = __cpuid_count(page, 0);
+        if ebx & !found.ebx | ecx & !found.ecx != 0 {
+            return false;
+        }
     }
     let state: u32;
     // SAFETY: OSXSAVE, just seen, says that the instruction exists; it changes these registers only.
