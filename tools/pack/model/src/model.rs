@@ -181,7 +181,7 @@ impl Model {
         }
     }
 
-    /// Probability, in 65536ths, that the next bit is a one.
+    /// Probability, in 65536ths, that the next bit is a one. What can be squashed keeps away from 0 and 1.
     #[inline(never)]
     pub fn predict(&mut self) -> u32 {
         if self.bit & 3 == 0 {
@@ -204,12 +204,12 @@ impl Model {
         inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
         inputs[MATCH + 1] = 1024;
         self.chosen =
-            [self.partial | self.class << 8, self.place | self.bit << 6, self.features.f[0] | self.class << 8];
+            [self.partial | self.predicted & 256, self.place | self.bit << 6, self.features.f[0] | self.class << 8];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
             *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
         }
         self.probability = self.logistic.squash(dot(&self.mixed, &self.last[self.place as usize & 63]));
-        self.probability.clamp(16, 65536 - 16) as u32
+        self.probability as u32
     }
 
     /// Learns the bit.
