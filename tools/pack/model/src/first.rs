@@ -3,7 +3,7 @@
 
 /// Contexts: one byte each, whose bits say which bytes before the current one belong to it, the highest the last
 /// byte. The lowest must be zero and no other, and there must be eight.
-pub const CONTEXTS: u64 = 0x9860_40a0_e0c0_8000;
+pub const CONTEXTS: u64 = 0x9060_40a8_a0c0_8000;
 /// The hash multiplies by this for each byte.
 pub const MULTIPLIER: u32 = 0x9e37_79b1;
 /// Logarithm of the number of pairs of counts.
