@@ -134,7 +134,7 @@ impl Parser {
                 if self.map == 0 {
                     match byte {
                         0x40..=0x4f => self.rex = byte,
-                        // Of the segments those that mean something, and 2E in long NOPs; F1 is no prefix, but nobody uses it.
+                        // The segments that mean something, and 2E, which long NOPs have. F1 is rare.
                         0x2e | 0x64..=0x67 | 0xf0..=0xf3 => self.prefix = byte,
                         0xc4 => self.queue = AFTER_C4,
                         0xc5 => (self.map, self.queue) = (1, AFTER_C4 >> 4),
