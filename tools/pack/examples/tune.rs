@@ -24,7 +24,7 @@ impl Random {
 type Text = (Vec<u8>, [u32; 2]);
 
 fn bytes(sets: &Sets, texts: &[Text]) -> f64 {
-    let cost = |text: &Text| costs(sets, &text.0, text.1).iter().map(|c| c.0 as f64).sum::<f64>();
+    let cost = |text: &Text| costs(sets, &[], &text.0, text.1).iter().map(|c| c.0 as f64).sum::<f64>();
     texts.iter().map(cost).sum::<f64>() / 8.0
 }
 

@@ -1,12 +1,13 @@
 //! The model's use on this side: coding with it, and asking what each byte costs.
 
-use pack_model::coder::{Decoder, Encoder};
+use crate::encoder::Encoder;
+use pack_model::coder::Decoder;
 use pack_model::model::{Model, Sets};
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
 /// A model that knows nothing yet, on the heap: 70 MB that must not pass through the stack.
 #[allow(unsafe_code)]
-fn model(sets: &Sets, code: [u32; 2]) -> Box<Model> {
+fn model(sets: &Sets, primer: &[u8], code: [u32; 2]) -> Box<Model> {
     let layout = Layout::new::<Model>();
     // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers and of one false.
     let mut model = unsafe {
@@ -16,39 +17,40 @@ fn model(sets: &Sets, code: [u32; 2]) -> Box<Model> {
         }
         Box::from_raw(memory.cast::<Model>())
     };
-    model.start(sets, code);
+    let at = primer.len() as u32;
+    model.start(sets, primer, [at + code[0], at + code[1]]);
     model
 }
 
-/// Codes `text`.
-pub fn compress(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<u8> {
-    let mut model = model(sets, code);
-    let (mut encoder, mut out) = (Encoder::default(), Vec::new());
+/// Codes `text`, whose instructions `code` counts from its start.
+pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, primer, code);
+    let mut encoder = Encoder::default();
     for byte in text {
         for i in (0..8).rev() {
             let bit = (byte >> i & 1) as u32;
-            encoder.encode(bit, model.predict(), |byte| out.push(byte));
+            let p = model.predict();
+            encoder.encode(bit == 1, [65536 - p, p]);
             model.update(bit);
         }
     }
-    out.push(encoder.finish());
-    out
+    encoder.finish()
 }
 
-/// What [`compress`] coded as `packed`, a text of `length` bytes.
-pub fn decompress(sets: &Sets, packed: &[u8], length: usize, code: [u32; 2]) -> Vec<u8> {
-    let mut model = model(sets, code);
+/// What [`compress`], with the same primer, coded as `packed`, a text of `length` bytes.
+pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code: [u32; 2]) -> Vec<u8> {
+    let mut model = model(sets, primer, code);
     let mut decoder = Decoder::new(packed);
-    while model.position() < length {
+    while model.position() < primer.len() + length {
         let bit = decoder.decode(model.predict());
         model.update(bit);
     }
-    model.text()[..length].to_vec()
+    model.text()[primer.len()..][..length].to_vec()
 }
 
 /// Bits that each byte of `text` costs, and what kind of byte the model took it for.
-pub fn costs(sets: &Sets, text: &[u8], code: [u32; 2]) -> Vec<(f32, u32)> {
-    let mut model = model(sets, code);
+pub fn costs(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<(f32, u32)> {
+    let mut model = model(sets, primer, code);
     let mut costs = Vec::new();
     for byte in text {
         let (mut sum, kind) = (0.0, model.kind());

@@ -1,5 +1,7 @@
 //! Reads an ELF64 executable and leaves out what running it does not need.
 
+mod needless;
+
 use std::ops::Range;
 
 /// Size of the ELF header, of a program header and of a section header, in bytes.
@@ -14,6 +16,9 @@ const SECTION: usize = 64;
 const KEPT: [u32; 5] = [1, 2, 3, 7, 0x6474_e551];
 const LOAD: u32 = 1;
 const PHDR: u32 = 6;
+const GNU_EH_FRAME: u32 = 0x6474_e550;
+/// Flag of a section that is loaded.
+const ALLOC: u64 = 2;
 const EXECUTABLE: u32 = 1;
 
 /// A program header.
@@ -72,24 +77,45 @@ pub fn segments(elf: &[u8]) -> Result<Vec<Segment>, String> {
     Ok(all)
 }
 
-/// File ranges of the sections that hold instructions, as far as section headers tell.
-fn code_sections(elf: &[u8]) -> Result<Option<Range<usize>>, String> {
-    let (at, count) = (number(elf, 40, 8)? as usize, number(elf, 60, 2)? as usize);
-    let mut code: Option<Range<usize>> = None;
-    for i in 0..if at == 0 { 0 } else { count } {
-        let at = at.checked_add(i * SECTION).ok_or("section headers out of range")?;
-        // PROGBITS with the flag EXECINSTR.
-        if number(elf, at + 4, 4)? == 1 && number(elf, at + 8, 8)? & 4 != 0 {
-            let start = number(elf, at + 24, 8)? as usize;
-            let end = start.checked_add(number(elf, at + 32, 8)? as usize).ok_or("a section out of range")?;
-            let old = code.unwrap_or(start..end);
-            code = Some(old.start.min(start)..old.end.max(end));
-        }
-    }
-    Ok(code)
+/// What a section header says of bytes that are loaded.
+struct Section {
+    kind: u64,
+    flags: u64,
+    file: Range<usize>,
+    name: Vec<u8>,
 }
 
-/// Drops section headers, whatever no loaded segment covers, and needless program headers.
+/// The sections that are loaded from the file, as far as section headers tell.
+fn sections(elf: &[u8]) -> Result<Vec<Section>, String> {
+    const NOBITS: u64 = 8;
+    let (table, count, names) = (number(elf, 40, 8)? as usize, number(elf, 60, 2)? as usize, number(elf, 62, 2)?);
+    let header = |i: usize| table.checked_add(i * SECTION).ok_or("section headers out of range");
+    let mut all = Vec::new();
+    for i in 0..if table == 0 { 0 } else { count } {
+        let at = header(i)?;
+        let (kind, flags) = (number(elf, at + 4, 4)?, number(elf, at + 8, 8)?);
+        if kind == NOBITS || flags & ALLOC == 0 {
+            continue;
+        }
+        let start = number(elf, at + 24, 8)? as usize;
+        let end = start.checked_add(number(elf, at + 32, 8)? as usize).ok_or("a section out of range")?;
+        let name = (number(elf, header(names as usize)? + 24, 8)? as usize).checked_add(number(elf, at, 4)? as usize);
+        let name = name.and_then(|name| elf.get(name..)).unwrap_or(&[]);
+        let name = name.split(|&byte| byte == 0).next().unwrap_or(&[]).to_vec();
+        all.push(Section { kind, flags, file: start..end, name });
+    }
+    Ok(all)
+}
+
+/// File range of the sections that hold instructions.
+fn code_sections(sections: &[Section]) -> Option<Range<usize>> {
+    const PROGBITS: u64 = 1;
+    const EXECINSTR: u64 = 4;
+    let code = sections.iter().filter(|s| s.kind == PROGBITS && s.flags & EXECINSTR != 0).map(|s| s.file.clone());
+    code.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end))
+}
+
+/// Drops section headers, whatever no loaded segment covers, needless program headers, and what nobody reads.
 pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
     let all = segments(elf)?;
     let loads: Vec<_> = all.iter().filter(|s| s.kind == LOAD).cloned().collect();
@@ -122,9 +148,11 @@ pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
     bytes[40..48].fill(0);
     bytes[58..64].fill(0);
 
+    let sections = sections(elf)?;
+    needless::clear(&mut bytes, &sections, all.iter().any(|s| s.kind == GNU_EH_FRAME));
     // What the file says of its sections is only trusted within the segment that can be executed.
     let within = executable.file.clone();
-    let code = code_sections(elf)?
+    let code = code_sections(&sections)
         .map_or(within.clone(), |c| c.start.clamp(within.start, within.end)..c.end.clamp(within.start, within.end));
     let code_address = executable.address.wrapping_add((code.start - within.start) as u64);
     Ok(Trimmed { bytes, code, code_address, loads })

@@ -3,6 +3,8 @@
 pub mod build;
 pub mod compress;
 pub mod elf;
+pub mod encoder;
+pub mod first;
 pub mod packer;
 pub mod stub;
 pub mod table;

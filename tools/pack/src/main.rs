@@ -37,11 +37,12 @@ fn intro() -> Result<String, String> {
     let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target"))).join("intro");
     let toolchain = Toolchain::find()?;
     let program = read(&build::build(&root, &toolchain, &target.join("build"))?)?;
-    let packed = packer::pack(&program, &unpacker(&toolchain, &target)?)?;
+    let unpacker = stub::unpacker(&toolchain, &target)?;
+    let packed = packer::pack(&program, &unpacker)?;
     write(&target.join("paprsek.elf"), &elf::trim(&program)?.bytes)?;
     write(&target.join("paprsek"), &packed.bytes)?;
 
-    let costs = packer::measure(&program)?;
+    let costs = packer::measure(&program, &unpacker)?;
     let mut rows = Profile::read(&program)?.rows(View::Owner, &|address| Some(costs.bits(address)));
     let coded: f64 = rows.iter().map(|row| row.packed).sum();
     let rest = packed.bytes.len() as f64 - coded;
@@ -55,19 +56,9 @@ fn intro() -> Result<String, String> {
 /// Packs any executable.
 fn any(file: &Path, out: &Path) -> Result<String, String> {
     let program = read(file)?;
-    let packed = packer::pack(&program, &unpacker(&Toolchain::find()?, &env::temp_dir())?)?;
+    let packed = packer::pack(&program, &stub::unpacker(&Toolchain::find()?, &env::temp_dir())?)?;
     write(out, &packed.bytes)?;
     Ok(sizes(&packed))
-}
-
-/// The linked unpacker, built in a directory of its own below `place`.
-fn unpacker(toolchain: &Toolchain, place: &Path) -> Result<Vec<u8>, String> {
-    let work = place.join(format!("unpacker-{}", std::process::id()));
-    fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
-    let stub = stub::build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), &work);
-    // What is left there harms nobody.
-    let _ = fs::remove_dir_all(&work);
-    stub
 }
 
 /// The lines of the table, rounded as it is, for a program to read.

@@ -1,7 +1,18 @@
 //! Builds the unpacker.
 
+use crate::toolchain::Toolchain;
 use std::path::Path;
 use std::process::Command;
+
+/// The linked unpacker, built in a directory of its own below `place`.
+pub fn unpacker(toolchain: &Toolchain, place: &Path) -> Result<Vec<u8>, String> {
+    let work = place.join(format!("unpacker-{}", std::process::id()));
+    std::fs::create_dir_all(&work).map_err(|error| format!("{}: {error}", work.display()))?;
+    let stub = build(&toolchain.rustc(), Path::new(env!("CARGO_MANIFEST_DIR")), &work);
+    // What is left there harms nobody.
+    let _ = std::fs::remove_dir_all(&work);
+    stub
+}
 
 /// Compiles and links the unpacker with this `rustc` (1.89 or later; stable does) in the directory `work`, from the
 /// sources in `sources`, which is this crate's own directory. Returns the linked ELF file.
@@ -29,7 +40,8 @@ pub fn build(rustc: &Path, sources: &Path, work: &Path) -> Result<Vec<u8>, Strin
 }
 
 /// For any x86-64 processor, so that the unpacker can say on an old one that the program will not run.
-/// Level `s` costs 110 bytes more and is not faster, 2 costs nearly 3 kB for a tenth of the time.
+/// Level `s` costs 60 bytes more, as the second stage is coded, and is not faster; 2 saves a tenth of the time, but
+/// costs nearly 3 kB before coding.
 const COMMON: [&str; 8] = [
     "--edition=2024",
     "--target=x86_64-unknown-linux-gnu",

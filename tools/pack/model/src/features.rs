@@ -9,7 +9,7 @@ pub const FEATURES: usize = 32;
 ///
 /// Everywhere: 0 to 5 the last bytes, 30 what the longest match predicts. In code: 6 the field, 7 the bytes of
 /// it so far; 8 to 11 of the current instruction opcode, operands byte, hash of all so far, REX or VEX;
-/// 12 to 27 the same of the four before; 28 the last displacement after the same operands byte, 29 the operands
+/// 12 to 27 the same of the four before; 28 the last displacement in the same addressing mode, 29 the operands
 /// byte that followed the same opcode last, 31 the addressing mode. In data: 6 to 27 further bytes,
 /// 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
@@ -19,7 +19,7 @@ pub struct Features {
     /// Where in an instruction the next byte stands.
     parser: Parser,
     word: u32,
-    displacements: [u32; 512],
+    displacements: [u32; 256],
     operands: [u32; 1024],
 }
 
@@ -32,7 +32,7 @@ pub fn hash(h: u32, value: u32) -> u32 {
 impl Features {
     /// Before the first byte.
     pub const ZERO: Self =
-        Self { f: [0; FEATURES], parser: Parser::START, word: 0, displacements: [0; 512], operands: [0; 1024] };
+        Self { f: [0; FEATURES], parser: Parser::START, word: 0, displacements: [0; 256], operands: [0; 1024] };
 
     /// A small number that says what is to come: in code the field, in data the position modulo 4. Below 32.
     pub fn place(&self, code: bool) -> u32 {
@@ -55,10 +55,10 @@ impl Features {
         }
         let p = &mut self.parser;
         let before = p.field();
-        let place = (p.modrm & 0xc7 | (p.rex & 1) << 8) as usize;
+        let place = p.modrm as usize & 0xc7;
         p.step(byte);
         let opcode = p.map << 8 | p.op;
-        let d = &mut self.displacements[place & 511];
+        let d = &mut self.displacements[place];
         if (DISP8..IMM8).contains(&before) {
             *d = *d << 8 | value;
         }
@@ -78,8 +78,8 @@ impl Features {
         let field = p.field();
         f[7] = if matches!(field, 5..=7 | 10..=12) { hash(f[7], value + 1) } else { 0 };
         f[6] = field | ((p.relative != 0) as u32) << 4 | p.map << 5;
-        f[28] = self.displacements[(p.modrm & 0xc7 | (p.rex & 1) << 8) as usize & 511];
-        f[29] = self.operands[(p.map << 8 | p.op) as usize & 1023];
         f[31] = p.modrm & 0xc7;
+        f[28] = self.displacements[f[31] as usize & 255];
+        f[29] = self.operands[(p.map << 8 | p.op) as usize & 1023];
     }
 }

@@ -9,38 +9,39 @@ const STRETCH: i32 = 2047;
 
 /// The logistic function and its inverse, tabled.
 pub struct Logistic {
-    /// Probability in 65536ths, by stretched value plus 2048.
-    squash: [u16; 4096],
+    /// Probability in 65536ths, by stretched value plus 4096.
+    squash: [u16; 8192],
     /// Stretched value, by probability in 4096ths.
     stretch: [i16; 4096],
 }
 
 impl Logistic {
     /// Unusable before [`Self::fill`].
-    pub const ZERO: Self = Self { squash: [0; 4096], stretch: [0; 4096] };
+    pub const ZERO: Self = Self { squash: [0; 8192], stretch: [0; 4096] };
 
-    /// Integrates dp = p (1 - p) dx from p = 1/2 on, in Euler's steps. Their error does not matter:
-    /// the curve need not be the logistic exactly, only the same on both sides.
+    /// Integrates dp = p (1 - p) dx from p = 1/2 on, in Euler's steps, until all of the inverse is known. Their error
+    /// does not matter: the curve need not be the logistic exactly, only the same on both sides.
     pub fn fill(&mut self) {
         let mut p = 1u64 << 31;
-        for x in 0..2048 {
+        let (mut x, mut known) = (0, 2048);
+        while known < 4096 {
             let high = (p >> 16) as u16;
-            self.squash[2048 + x] = high;
-            self.squash[2047 - x] = !high;
-            p += (p * ((1 << 32) - p)) >> 40;
-        }
-        let mut x = 0;
-        for p in 0..4096 {
-            while x < 4094 && (self.squash[(x + 1) & 4095] >> 4) as usize <= p {
-                x += 1;
+            if known <= (high >> 4) as usize {
+                self.stretch[known] = x as i16;
+                self.stretch[4095 - known] = -(x as i16);
+                known += 1;
+                continue;
             }
-            self.stretch[p] = x as i16 - 2047;
+            self.squash[(4096 + x) & 8191] = high;
+            self.squash[(4095 - x) & 8191] = !high;
+            p += (p * ((1 << 32) - p)) >> 40;
+            x += 1;
         }
     }
 
     /// Probability in 65536ths of a stretched value, 1 to 65535 + 1 exclusive.
     pub fn squash(&self, x: i32) -> i32 {
-        self.squash[(x + 2048) as usize & 4095] as i32
+        self.squash[(x + 4096) as usize & 8191] as i32
     }
 
     /// Stretched value of a probability in 65536ths.

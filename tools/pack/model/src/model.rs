@@ -19,7 +19,7 @@ pub const MOST: usize = 1 << 22;
 /// Bytes that a match must have in common at first.
 const MATCH_MIN: u32 = 5;
 /// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
-const RATES: [i32; 2] = [6, 3];
+const RATES: [i32; 2] = [7, 3];
 
 /// Which features make each context, in code and in data.
 pub type Sets = [[u32; CONTEXTS]; 2];
@@ -95,15 +95,22 @@ impl Model {
     };
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
-    #[inline(never)]
-    pub fn start(&mut self, sets: &Sets, code: [u32; 2]) {
+    /// The text begins with `primer`, instructions that both sides have: they teach, and need not be coded.
+    pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 2]) {
         self.sets = *sets;
-        self.code = code;
+        self.code = [0, !0];
         self.partial = 1;
         self.logistic.fill();
-        self.weights.as_flattened_mut().as_flattened_mut().fill(all(2300));
-        self.last.as_flattened_mut().fill(all((16384 / MIXERS) as i16));
+        self.weights.as_flattened_mut().as_flattened_mut().fill(const { all(1600) });
+        self.last.as_flattened_mut().fill(const { all((16384 / MIXERS) as i16) });
         self.contexts();
+        for &byte in primer {
+            for i in (0..8).rev() {
+                self.predict();
+                self.update(byte as u32 >> i & 1);
+            }
+        }
+        self.code = code;
     }
 
     fn byte(&self, at: u32) -> u32 {
@@ -174,7 +181,7 @@ impl Model {
         }
     }
 
-    /// Probability, in 65536ths, that the next bit is a one.
+    /// Probability, in 65536ths, that the next bit is a one. What can be squashed keeps away from 0 and 1.
     #[inline(never)]
     pub fn predict(&mut self) -> u32 {
         if self.bit & 3 == 0 {
@@ -195,14 +202,14 @@ impl Model {
         }
         // Slot 0 never learns, so it is even odds.
         inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
-        inputs[MATCH + 1] = 256;
+        inputs[MATCH + 1] = 1024;
         self.chosen =
-            [self.partial | self.class << 8, self.place | self.bit << 6, self.features.f[0] | self.class << 8];
+            [self.partial | self.predicted & 256, self.place | self.bit << 6, self.features.f[0] | self.class << 8];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
             *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
         }
         self.probability = self.logistic.squash(dot(&self.mixed, &self.last[self.place as usize & 63]));
-        self.probability.clamp(16, 65536 - 16) as u32
+        self.probability as u32
     }
 
     /// Learns the bit.
@@ -237,12 +244,12 @@ impl Model {
         }
     }
 
-    /// Bytes coded so far.
+    /// Bytes known so far, with the primer.
     pub fn position(&self) -> usize {
         self.position as usize
     }
 
-    /// What was coded so far, zeros behind.
+    /// The primer and what was coded so far, zeros behind.
     pub fn text(&mut self) -> &mut [u8; MOST] {
         &mut self.text
     }

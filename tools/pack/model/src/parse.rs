@@ -134,7 +134,8 @@ impl Parser {
                 if self.map == 0 {
                     match byte {
                         0x40..=0x4f => self.rex = byte,
-                        0x26 | 0x2e | 0x36 | 0x3e | 0x64..=0x67 | 0xf0 | 0xf2 | 0xf3 => self.prefix = byte,
+                        // The segments that mean something, and 2E, which long NOPs have. F1 is rare.
+                        0x2e | 0x64..=0x67 | 0xf0..=0xf3 => self.prefix = byte,
                         0xc4 => self.queue = AFTER_C4,
                         0xc5 => (self.map, self.queue) = (1, AFTER_C4 >> 4),
                         0x0f => (self.map, self.queue) = (1, OP_MORE as u64),

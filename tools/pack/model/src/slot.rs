@@ -1,15 +1,15 @@
 //! A probability that learns, and the last bits it saw, in 32 bits: from the top, 19 bits of probability
 //! (its highest bit inverted, so that all-zero memory means one half), 5 of count, 8 of history.
 
-/// The count stops here: later bits move the probability by 1 / (LIMIT + 1.5).
+/// The count stops here: later bits move the probability by 1 / (LIMIT + 1.2).
 const LIMIT: i32 = 30;
 
-/// 65536 / (n + 1.5), by count.
+/// 65536 / (n + 1.2), by count.
 const RATES: [u16; 32] = {
     let mut rates = [0; 32];
     let mut n = 0;
     while n < 32 {
-        rates[n] = (131072 / (2 * n + 3)) as u16;
+        rates[n] = (655_360 / (10 * n + 12)) as u16;
         n += 1;
     }
     rates

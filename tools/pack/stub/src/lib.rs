@@ -11,7 +11,6 @@ mod sys;
 use pack_model::address::{Way, convert};
 use pack_model::coder::Decoder;
 use pack_model::features::hash;
-use pack_model::model::MOST;
 use pack_model::tuned::SETS;
 
 /// Comes straight from `_start`, with the stack as the kernel left it: argc, argv, 0, envp, 0.
@@ -19,12 +18,14 @@ fn main(stack: &sys::Stack) -> ! {
     if !sys::has_avx2() {
         sys::fail(b"paprsek: needs a processor with AVX2 (x86-64-v3, from 2013 on)\n");
     }
-    let image = sys::image();
-    let Some(head) = Head::read(image) else { sys::fail(b"paprsek: this file is damaged\n") };
-    let model = sys::model();
-    model.start(&SETS, head.code);
-    let mut decoder = Decoder::new(head.packed);
-    while model.position() < head.length {
+    if !sys::is_whole() || !is_right(sys::image()) {
+        sys::fail(b"paprsek: this file is damaged\n");
+    }
+    let (head, packed) = sys::payload();
+    let (model, primer) = (sys::model(), sys::code());
+    model.start(&SETS, primer, head.code);
+    let mut decoder = Decoder::new(packed);
+    while model.position() < head.end as usize {
         let bit = decoder.decode(model.predict());
         model.update(bit);
     }
@@ -32,28 +33,21 @@ fn main(stack: &sys::Stack) -> ! {
     if let Some(code) = text.get_mut(head.code[0] as usize..head.code[1] as usize) {
         convert(code, head.address, Way::Relative);
     }
-    run::run(text.get(..head.length).unwrap_or(&[]), stack)
+    run::run(text.get(primer.len()..head.end as usize).unwrap_or(&[]), stack)
 }
 
-/// The payload: four words, the coded bytes, and the checksum of all before.
+/// Does the file have its checksum?
+fn is_right((image, sum): (&[u8], u32)) -> bool {
+    sum == image.iter().fold(0, |sum, &byte| hash(sum, byte as u32))
+}
+
+/// What the payload begins with. The coded bytes follow, and the checksum of all before.
+#[repr(C)]
 struct Head {
-    /// Bytes unpacked.
-    length: usize,
-    /// Where in them instructions start and end.
+    /// Length of the primer, which is this code, and of the program behind it.
+    end: u32,
+    /// Where in both the program's instructions start and end.
     code: [u32; 2],
     /// Where the first instruction will be in memory.
     address: u32,
-    packed: &'static [u8],
-}
-
-impl Head {
-    /// None if anything in the file is not as it was packed.
-    fn read(image: &'static [u8]) -> Option<Self> {
-        let (image, sum) = image.split_last_chunk()?;
-        let (words, packed) = image.get(sys::payload_offset()..)?.split_first_chunk::<16>()?;
-        let word = |i| u32::from_le_bytes([words[i], words[i + 1], words[i + 2], words[i + 3]]);
-        let head = Self { length: word(0) as usize, code: [word(4), word(8)], address: word(12), packed };
-        let found = image.iter().fold(0, |sum, &byte| hash(sum, byte as u32));
-        (found == u32::from_le_bytes(*sum) && head.length <= MOST).then_some(head)
-    }
 }

@@ -3,7 +3,6 @@
 use crate::sys::{self, Stack, Text};
 
 const EINVAL: isize = -22;
-const EEXIST: isize = -17;
 
 /// Runs `program` in place of this process: from memory, else from a temporary file.
 ///
@@ -19,10 +18,8 @@ pub fn run(program: &[u8], stack: &Stack) -> ! {
     if sys::write_all(file, program) {
         sys::execute(file, stack);
     }
-    run_from(stack.variable(b"XDG_RUNTIME_DIR="), program, stack);
     run_from(stack.variable(b"TMPDIR="), program, stack);
     run_from(Text::from(c"/tmp"), program, stack);
-    run_from(Text::from(c"/var/tmp"), program, stack);
     sys::fail(b"paprsek: neither memory nor a temporary directory may hold a program to run\n")
 }
 
@@ -30,25 +27,22 @@ pub fn run(program: &[u8], stack: &Stack) -> ! {
 #[inline(never)]
 fn run_from(directory: Text, program: &[u8], stack: &Stack) {
     let directory = sys::open(directory);
+    let mut name = *b".paprsek-........\0";
     let mut number = sys::process();
-    loop {
-        let mut name = *b".paprsek-........\0";
-        for (i, letter) in name[9..17].iter_mut().enumerate() {
-            *letter = b'a' + (number >> (4 * i) & 15) as u8;
-        }
-        let file = sys::create(directory, &name);
-        if file == EEXIST {
-            number += 0x10000;
-            continue;
-        }
-        let complete = sys::write_all(file, program);
-        // A file open for writing cannot be run.
-        sys::close(file);
-        let file = sys::open_in(directory, &name);
-        sys::unlink(directory, &name);
-        if complete {
-            sys::execute(file, stack);
-        }
+    for letter in &mut name[9..17] {
+        *letter = b'a' + (number & 15) as u8;
+        number >>= 4;
+    }
+    let file = sys::create(directory, &name);
+    if file < 0 {
         return;
+    }
+    let complete = sys::write_all(file, program);
+    // A file open for writing cannot be run.
+    sys::close(file);
+    let file = sys::open_in(directory, &name);
+    sys::unlink(directory, &name);
+    if complete {
+        sys::execute(file, stack);
     }
 }

@@ -1,17 +1,25 @@
 //! The kernel, the processor, and memory: all that is unsafe.
 #![allow(unsafe_code)]
 
-use core::arch::x86_64::{__cpuid, __cpuid_count};
+use crate::Head;
+use core::arch::x86_64::__cpuid_count;
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
 use core::ffi::CStr;
+use pack_model::first;
 use pack_model::model::Model;
 
-// The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
 global_asm!(
-    ".pushsection .text._start,\"ax\"",
-    ".globl _start",
-    "_start:",
+    include_str!("first.s"),
+    contexts = const first::CONTEXTS,
+    multiplier = const first::MULTIPLIER,
+    table_bits = const first::TABLE_BITS,
+    prior = const first::PRIOR,
+);
+
+// The second stage. The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
+global_asm!(
+    ".pushsection .text._second,\"ax\"",
     "mov rdi, rsp",
     "call {entry}",
     ".popsection",
@@ -19,7 +27,7 @@ global_asm!(
 );
 
 extern "C" fn entry(stack: *const usize) -> ! {
-    // SAFETY: `_start` passes the stack pointer that the kernel set up, which nothing changes.
+    // SAFETY: the code above passes the stack pointer that the kernel set up, which nothing changes.
     crate::main(unsafe { &*stack.cast() })
 }
 
@@ -47,29 +55,64 @@ pub fn model() -> &'static mut Model {
 }
 
 const BASE: usize = 0x400000;
+const SECOND: usize = 0x10000008;
 
-/// This file as it is mapped: the first segment, whose length stands in the first program header.
-pub fn image() -> &'static [u8] {
-    // SAFETY: the packer has the file mapped from BASE on, as many bytes as the word at 64 + 32 says.
-    unsafe { core::slice::from_raw_parts(BASE as *const u8, *((BASE + 96) as *const usize)) }
+/// The file's length and the address of the payload, words of the first program header that the packer writes.
+fn words() -> (usize, usize) {
+    // SAFETY: the headers are mapped, as all of the file is.
+    unsafe { (*((BASE + 96) as *const usize), *((BASE + 88) as *const usize)) }
 }
 
-/// Where in the image the payload starts.
-pub fn payload_offset() -> usize {
-    let address: usize;
-    // SAFETY: loads a constant that the linker script defines.
-    unsafe { asm!("mov {:e}, offset payload", out(reg) address, options(pure, nomem, nostack, preserves_flags)) };
-    address - BASE
+/// Is all of this file there? A part that is missing cannot be read without SIGBUS. MADV_POPULATE_READ tells (EFAULT)
+/// from Linux 5.14 on; before, it is an error of another kind.
+pub fn is_whole() -> bool {
+    call(28, BASE, words().0, 22) != -14
+}
+
+/// This file as it is mapped, and the checksum at its end.
+pub fn image() -> (&'static [u8], u32) {
+    let length = words().0 - 4;
+    // SAFETY: so many bytes are mapped, and four more.
+    unsafe {
+        (core::slice::from_raw_parts(BASE as *const u8, length), ((BASE + length) as *const u32).read_unaligned())
+    }
+}
+
+/// The payload, to be asked for where the checksum is right: the head, and the coded bytes up to the end of the file.
+pub fn payload() -> (Head, &'static [u8]) {
+    let (length, at) = words();
+    // SAFETY: the packer has written it so, and nothing has changed since.
+    unsafe {
+        let coded = at + size_of::<Head>();
+        ((at as *const Head).read_unaligned(), core::slice::from_raw_parts(coded as *const u8, BASE + length - coded))
+    }
+}
+
+/// The second stage, this code.
+pub fn code() -> &'static [u8] {
+    let end: usize;
+    // SAFETY: loads a constant that the linker script defines, as it does the address of the first byte; nothing
+    // there changes any more.
+    unsafe {
+        asm!("mov {:e}, offset second_end", out(reg) end, options(pure, nomem, nostack, preserves_flags));
+        core::slice::from_raw_parts(SECOND as *const u8, end - SECOND)
+    }
 }
 
 /// Does the processor have all of x86-64-v3, and does the system keep its registers?
 pub fn has_avx2() -> bool {
-    // FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT.
-    const WANTED: [u32; 3] = [1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29, 1 << 3 | 1 << 5 | 1 << 8, 1 << 5];
-    let found =
-        [__cpuid(1).ecx, if __cpuid(0).eax < 7 { 0 } else { __cpuid_count(7, 0).ebx }, __cpuid(0x8000_0001).ecx];
-    if (0..3).any(|i| found[i] & WANTED[i] != WANTED[i]) {
-        return false;
+    // What cpuid must say in ebx and ecx: FMA, MOVBE, OSXSAVE, AVX, F16C; BMI1, AVX2, BMI2; LZCNT. A processor that
+    // has what the first page says knows the others.
+    const WANTED: [(u32, u32, u32); 3] = [
+        (1, 0, 1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29),
+        (7, 1 << 3 | 1 << 5 | 1 << 8, 0),
+        (0x8000_0001, 0, 1 << 5),
+    ];
+    for (page, ebx, ecx) in WANTED {
+        let found = __cpuid_count(page, 0);
+        if ebx & !found.ebx | ecx & !found.ecx != 0 {
+            return false;
+        }
     }
     let state: u32;
     // SAFETY: OSXSAVE, just seen, says that the instruction exists; it changes these registers only.

@@ -1,0 +1,56 @@
+//! What is loaded but never read: zeros in its place cost nearly nothing.
+
+use super::Section;
+
+/// Types of sections.
+const HASH: u64 = 5;
+const DYNAMIC: u64 = 6;
+const NOTE: u64 = 7;
+const DYNSYM: u64 = 11;
+
+/// Clears it in the loaded `bytes`. `unwinds` says that a program header leads to `.eh_frame`.
+pub fn clear(bytes: &mut [u8], sections: &[Section], unwinds: bool) {
+    let all = |kind| sections.iter().filter(move |s| s.kind == kind).filter_map(|s| bytes.get(s.file.clone()));
+    let exports = all(DYNSYM).any(|symbols| symbols.chunks_exact(24).any(defined));
+    let at_once = all(DYNAMIC).any(|entries| entries.chunks_exact(16).any(binds_now));
+    for s in sections {
+        let Some(content) = bytes.get_mut(s.file.clone()) else { continue };
+        match (s.kind, &s.name[..]) {
+            (NOTE, _) | (_, b".debug_gdb_scripts") => content.fill(0),
+            (_, b".eh_frame") if !unwinds => content.fill(0),
+            // One bucket, empty: whoever looks here for a symbol finds none either way.
+            (HASH, _) if !exports && content.len() >= 12 => {
+                content[0] = 1;
+                content[1..4].fill(0);
+                content[8..].fill(0);
+            }
+            // The loader fills all slots before the program starts.
+            (_, b".got.plt") if at_once => content.fill(0),
+            (_, b".plt") if at_once => content.chunks_exact_mut(16).for_each(clear_lazy),
+            _ => {}
+        }
+    }
+}
+
+/// Is a dynamic symbol in a section of this file?
+fn defined(symbol: &[u8]) -> bool {
+    symbol[6..8] != [0, 0]
+}
+
+/// Does an entry of the dynamic section, DT_FLAGS or DT_FLAGS_1, say that all functions are looked up at the start?
+fn binds_now(entry: &[u8]) -> bool {
+    match entry[..8] {
+        [30, 0, 0, 0, 0, 0, 0, 0] => entry[8] & 8 != 0,
+        [0xfb, 0xff, 0xff, 0x6f, 0, 0, 0, 0] => entry[8] & 1 != 0,
+        _ => false,
+    }
+}
+
+/// Leaves of an entry of the procedure linkage table its jump: what looks the function up at its first call goes.
+fn clear_lazy(entry: &mut [u8]) {
+    match entry[..] {
+        [0xff, 0x35, ..] => entry.fill(0),
+        [0xff, 0x25, _, _, _, _, 0x68, ..] => entry[6..].fill(0),
+        _ => {}
+    }
+}

@@ -1,0 +1,105 @@
+// The first stage, alone in the file as it is: makes memory, decodes the second stage into it, makes that executable
+// and goes there, with the stack as the kernel left it. What is coded is described in the packer (src/first.rs).
+//
+//   rdi  byte being decoded: its bits so far below a leading one
+//   rbx  features of the contexts to come, eight bits each: one for each of the bytes before
+//   ebp  range; r10d  value within it; r12d  address of the next coded bit
+//   r8d  weighted count of zeros, then of all; r9d  of ones
+.pushsection .first, "ax"
+.globl _start
+_start:
+    // mmap: readable and writable; private, fixed, anonymous.
+    mov     edi, offset memory
+    mov     esi, offset memory_length
+    push    3
+    pop     rdx
+    push    0x32
+    pop     r10
+    xor     r9d, r9d
+    push    9
+    pop     rax
+    syscall
+    // Eight zeros precede the second stage.
+    add     edi, 8
+    push    rdi
+    // A range of one bit, so that the first bits are read like all others.
+    push    1
+    pop     rbp
+    xor     r10d, r10d
+    mov     r12d, offset packed_bits
+next_byte:
+    inc     byte ptr [rdi]
+next_bit:
+    push    {prior}
+    pop     r8
+    mov     r9d, r8d
+    movabs  rbx, {contexts}
+next_context:
+    push    rdi
+    pop     rsi
+    xor     ecx, ecx
+    movzx   eax, bl
+    mov     edx, eax
+2:  inc     ecx
+    xor     al, [rsi]
+    imul    eax, eax, {multiplier}
+3:  dec     esi
+    add     dl, dl
+    jc      2b
+    jnz     3b
+    shr     eax, 32 - {table_bits}
+    lea     eax, [rax * 4 + counts]
+    push    rax
+    movzx   edx, word ptr [rax]
+    shl     edx, cl
+    add     r9d, edx
+    movzx   edx, word ptr [rax + 2]
+    shl     edx, cl
+    add     r8d, edx
+    shr     rbx, 8
+    jnz     next_context
+    // rbx is zero from here on.
+4:  test    ebp, ebp
+    js      5f
+    bt      dword ptr [rbx], r12d
+    adc     r10d, r10d
+    inc     r12d
+    add     ebp, ebp
+    jmp     4b
+5:  add     r8d, r9d
+    mov     eax, ebp
+    mul     r9d
+    div     r8d
+    cmp     r10d, eax
+    sbb     edx, edx
+    jc      6f
+    sub     r10d, eax
+    xchg    eax, ebp
+    sub     eax, ebp
+6:  xchg    eax, ebp
+    // edx is -1 for a one, else 0. Its count goes up, the other one is halved.
+    push    8
+    pop     rcx
+7:  pop     rsi
+    lea     esi, [rsi + rdx * 2 + 2]
+    inc     word ptr [rsi]
+    xor     esi, 2
+    shr     word ptr [rsi]
+    adc     word ptr [rsi], 0
+    loop    7b
+    add     edx, edx
+    rcl     byte ptr [rdi]
+    jnc     next_bit
+    inc     edi
+    cmp     edi, offset second_end
+    jne     next_byte
+    // mprotect: readable and executable.
+    mov     edi, offset memory
+    mov     esi, offset second_length
+    push    5
+    pop     rdx
+    push    10
+    pop     rax
+    syscall
+    ret
+.popsection
