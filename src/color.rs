@@ -105,7 +105,32 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
         Transfer::Gamma22 => GAMMA22,
         Transfer::Srgb => SRGB,
     };
-    // The dither of a block's pixels, but for where it begins.
+    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
+    let mut done = 0;
+    while done < out.len() {
+        let end = out.len();
+        let (r, g, b, out) = (&r[done..end], &g[done..end], &b[done..end], &mut out[done..]);
+        if let (Some(r), Some(g), Some(b), Some(out)) =
+            (r.first_chunk(), g.first_chunk(), b.first_chunk(), out.first_chunk_mut())
+        {
+            encode_block(simd, &curve, turns, [r, g, b], out);
+        } else {
+            let (mut rest, mut pixels) = ([[0.0; BLOCK]; 3], [0; BLOCK]);
+            for (block, plane) in rest.iter_mut().zip([r, g, b]) {
+                block[..plane.len()].copy_from_slice(plane);
+            }
+            encode_block(simd, &curve, turns, [&rest[0], &rest[1], &rest[2]], &mut pixels);
+            out.copy_from_slice(&pixels[..out.len()]);
+        }
+        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
+        done += BLOCK;
+    }
+}
+
+/// Encodes a block of red, green and blue, the dither of whose first pixel is `turns`.
+#[simd]
+fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOCK]; 3], pixels: &mut [u32; BLOCK]) {
+    // The dither along a block, but for where it begins.
     static LANES: [u32; BLOCK] = {
         let mut lanes = [0u32; BLOCK];
         let mut i = 0;
@@ -115,28 +140,19 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
         }
         lanes
     };
-    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
-    let mut done = 0;
-    while done < out.len() {
-        let count = BLOCK.min(out.len() - done);
-        let mut pixels = [0; BLOCK];
-        let mut turn = turns;
-        for plane in [r, g, b] {
-            let mut light = [0.0; BLOCK];
-            light[..count].copy_from_slice(&plane[done..done + count]);
-            let mut i = 0;
-            while i < BLOCK / S::f32s::LEN {
-                let c = limit(simd, load(simd, &light, i));
-                let power = exp2_within(simd, log2(simd, c) * curve.exponent);
-                let code = code::<S>(&curve, c, power, load::<S, S::u32s>(simd, &LANES, i) + turn);
-                store((load::<S, S::u32s>(simd, &pixels, i) << 8) | code, &mut pixels, i);
-                i += 1;
-            }
-            turn = turn.wrapping_add(STEP_CHANNEL);
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let mut turns = load::<S, S::u32s>(simd, &LANES, i) + turns;
+        let mut pixel = S::u32s::splat(simd, 0);
+        // Unrolled, the three are chains of operations that need not wait for each other.
+        for plane in light {
+            let c = limit(simd, load(simd, plane, i));
+            let power = exp2_within(simd, log2(simd, c) * curve.exponent);
+            pixel = (pixel << 8) | code::<S>(curve, c, power, turns);
+            turns += STEP_CHANNEL;
         }
-        out[done..done + count].copy_from_slice(&pixels[..count]);
-        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
-        done += count;
+        store(pixel, pixels, i);
+        i += 1;
     }
 }
 
