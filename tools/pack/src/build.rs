@@ -30,7 +30,7 @@ const FLAGS: &[&str] = &[
     "-Clink-arg=-Wl,--build-id=none,-z,norelro,--no-eh-frame-hdr,-z,noseparate-code,--hash-style=sysv",
 ];
 
-/// Settings of cargo. Line tables are for finding out what the bytes are; they change none that are packed.
+/// Settings of cargo. Line tables are for finding out what the bytes are; they add 34 bytes, which are zeros once packed.
 const SETTINGS: &[&str] = &[
     "profile.release.strip=false",
     "profile.release.debug='line-tables-only'",

@@ -2,11 +2,11 @@
 //! `pack FILE -o OUT`: packs any executable.
 
 use pack::packer::{self, Packed};
-use pack::table::{Profile, Row, View, markdown};
+use pack::table::{Profile, Row, View, markdown, rounded};
 use pack::toolchain::Toolchain;
 use pack::{build, elf, stub};
 use std::ffi::OsString;
-use std::fmt::Write;
+use std::io::Write;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -19,9 +19,8 @@ fn main() -> ExitCode {
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
         _ => Err("usage: pack, or pack FILE -o OUT".into()),
     };
-    let printed = said.and_then(|said| {
-        io::Write::write_all(&mut io::stdout(), said.as_bytes()).map_err(|error| format!("stdout: {error}"))
-    });
+    let printed =
+        said.and_then(|said| io::stdout().write_all(said.as_bytes()).map_err(|error| format!("stdout: {error}")));
     match printed {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
@@ -49,7 +48,7 @@ fn intro() -> Result<String, String> {
     rows.push(Row { name: "unpacker".into(), bytes: (packed.headers + packed.stub) as u64, packed: rest });
     let table = markdown(&rows);
     write(&target.join("size.md"), table.as_bytes())?;
-    write(&target.join("size.toml"), modules(&table).as_bytes())?;
+    write(&target.join("size.toml"), modules(&rows).as_bytes())?;
     Ok(format!("{table}\n{}", sizes(&packed)))
 }
 
@@ -61,18 +60,11 @@ fn any(file: &Path, out: &Path) -> Result<String, String> {
     Ok(sizes(&packed))
 }
 
-/// The lines of the table, rounded as it is, for a program to read.
-fn modules(table: &str) -> String {
-    let mut text = String::new();
-    for line in table.lines().skip(2) {
-        let cells: Vec<_> = line.trim_matches('|').split('|').map(str::trim).collect();
-        if let [name, bytes, packed] = cells[..]
-            && name != "total"
-        {
-            let _ = writeln!(text, "[[module]]\nname = {name:?}\nbytes = {bytes}\npacked = {packed}");
-        }
-    }
-    text
+/// The rows in whole bytes, for a program to read.
+fn modules(rows: &[Row]) -> String {
+    let module =
+        |Row { name, bytes, packed }| format!("[[module]]\nname = {name:?}\nbytes = {bytes}\npacked = {packed}\n");
+    rounded(rows).into_iter().map(module).collect()
 }
 
 fn sizes(packed: &Packed) -> String {

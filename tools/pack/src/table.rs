@@ -163,16 +163,25 @@ pub fn by_module(elf: &[u8], bits: &dyn Fn(u64) -> Option<f32>) -> Result<Vec<Ro
 
 /// Rows as a table in Markdown, with their total. The rounded column adds up to the rounded total.
 pub fn markdown(rows: &[Row]) -> String {
-    let mut sum = Row { name: "total".into(), bytes: 0, packed: 0.0 };
-    let mut rounded = Vec::new();
-    for row in rows {
-        let before = sum.packed.round();
-        sum.bytes += row.bytes;
-        sum.packed += row.packed;
-        rounded.push(Row { packed: sum.packed.round() - before, ..row.clone() });
-    }
-    rounded.push(sum);
-    lines(&rounded)
+    let sum = Row {
+        name: "total".into(),
+        bytes: rows.iter().map(|row| row.bytes).sum(),
+        packed: rows.iter().map(|row| row.packed).sum(),
+    };
+    let mut all = rounded(rows);
+    all.push(sum);
+    lines(&all)
+}
+
+/// Rows in whole bytes, which add up to the rounded total.
+pub fn rounded(rows: &[Row]) -> Vec<Row> {
+    let mut sum = 0.0;
+    let mut whole = |row: &Row| {
+        let before = f64::round(sum);
+        sum += row.packed;
+        Row { packed: sum.round() - before, ..row.clone() }
+    };
+    rows.iter().map(&mut whole).collect()
 }
 
 /// Rows as a table in Markdown, without a total.

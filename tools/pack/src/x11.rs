@@ -14,14 +14,32 @@ const LISTS: [&str; 2] = ["xlib.rs", "xcursor.rs"];
 /// Copies x11-dl into `copy`, cut down to what minifb names; both are found in the output of `cargo metadata`.
 pub fn cut(metadata: &str, copy: &Path) -> Result<(), String> {
     let words = words(&source(metadata, "minifb")?.join("src"))?;
-    let _ = fs::remove_dir_all(copy);
-    copy_tree(&source(metadata, "x11-dl")?, copy)?;
+    let from = source(metadata, "x11-dl")?;
     for name in LISTS {
-        let path = copy.join("src").join(name);
-        let text = cut_list(&read(&path)?, &words).map_err(|why| {
-            format!("{}: {why}; has x11-dl changed? tools/pack/src/x11.rs must follow", path.display())
-        })?;
-        fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        read(&from.join("src").join(name))?;
+    }
+    // What another version left there.
+    for path in files(copy).unwrap_or_default() {
+        if !path.strip_prefix(copy).is_ok_and(|place| from.join(place).exists()) {
+            fs::remove_file(&path).map_err(|error| format!("cannot remove {}: {error}", path.display()))?;
+        }
+    }
+    for path in files(&from)? {
+        let place = path.strip_prefix(&from).unwrap_or(&path);
+        let mut bytes = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        if LISTS.iter().any(|name| place == Path::new("src").join(name)) {
+            let cut = cut_list(&read(&path)?, &words).map_err(|why| {
+                format!("{}: {why}; has x11-dl changed? tools/pack/src/x11.rs must follow", path.display())
+            })?;
+            bytes = cut.into_bytes();
+        }
+        let copy = copy.join(place);
+        // Written anew, a file that is the same would have cargo build all that needs it once more.
+        if fs::read(&copy).is_ok_and(|there| there == bytes) {
+            continue;
+        }
+        let made = copy.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(&copy, bytes));
+        made.map_err(|error| format!("cannot write {}: {error}", copy.display()))?;
     }
     Ok(())
 }
@@ -83,16 +101,6 @@ fn cut_list(text: &str, words: &HashSet<String>) -> Result<String, String> {
     }
     lines.for_each(keep);
     if kept == 0 { Err("no list with a function that minifb names".into()) } else { Ok(cut) }
-}
-
-fn copy_tree(from: &Path, to: &Path) -> Result<(), String> {
-    for path in files(from)? {
-        let copy = to.join(path.strip_prefix(from).unwrap_or(&path));
-        let made = copy.parent().map_or(Ok(()), fs::create_dir_all);
-        made.and_then(|()| fs::copy(&path, &copy))
-            .map_err(|error| format!("cannot write {}: {error}", copy.display()))?;
-    }
-    Ok(())
 }
 
 /// All files below a directory.
