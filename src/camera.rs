@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// A pinhole camera. Rays leave `eye` along `forward + px * right + py * up`, pixels from the top left.
+/// A pinhole camera. Rays leave `eye` along `forward + (px + shift) * right + py * up`.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     /// Position, metres.
@@ -13,6 +13,8 @@ pub struct Camera {
     pub right: Vec3,
     /// Direction up, scaled like `right`.
     pub up: Vec3,
+    /// How far the lens is shifted to the right, halves of the picture's height: 0 but for the two eyes of a stereo pair.
+    pub shift: f32,
 }
 
 impl Camera {
@@ -27,6 +29,12 @@ impl Camera {
         let up = right.cross(forward);
         let scale = (0.5 * fov).tan();
         let (sin, cos) = roll.sin_cos();
-        Camera { eye, forward, right: (right * cos + up * sin) * scale, up: (up * cos - right * sin) * scale }
+        Camera {
+            eye,
+            forward,
+            right: (right * cos + up * sin) * scale,
+            up: (up * cos - right * sin) * scale,
+            shift: 0.0,
+        }
     }
 }

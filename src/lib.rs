@@ -5,11 +5,15 @@
 pub mod block;
 pub mod camera;
 pub mod color;
+pub mod lanes;
 pub mod math;
 pub mod noise;
 mod pool;
 pub mod quality;
+pub mod raster;
 pub mod scenes;
+pub mod texture;
 pub mod tile;
 pub mod timeline;
 pub mod trace;
+pub mod view;

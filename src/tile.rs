@@ -96,8 +96,58 @@ impl Tile {
     }
 }
 
-/// Something that draws into tiles: layers of a picture are drawn in order, back to front.
+/// The threads of a frame, and the SIMD level that it is made at.
+pub struct Crew {
+    pool: Pool,
+    level: Level,
+}
+
+impl Crew {
+    /// The SIMD level in use.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// Does `work` on every job once; threads take one after another.
+    ///
+    /// Two jobs may run at once in either order: what they give must not depend on it.
+    pub fn each<T: Send>(&self, jobs: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
+        self.each_with(
+            jobs,
+            || (),
+            |(), job| {
+                work(job);
+                0
+            },
+        );
+    }
+
+    /// The same with something that each thread makes once, for all of its jobs; the sum of what the jobs give.
+    fn each_with<T: Send, M>(
+        &self,
+        jobs: impl Iterator<Item = T> + Send,
+        make: impl Fn() -> M + Sync,
+        work: impl Fn(&mut M, T) -> u64 + Sync,
+    ) -> u64 {
+        let jobs = Mutex::new(jobs);
+        self.pool.sum(|| {
+            let mut own = make();
+            let mut sum = 0;
+            loop {
+                // Bound, so that the lock is free again while the job is done.
+                let next = jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some(job) = next else { return sum };
+                sum += work(&mut own, job);
+            }
+        })
+    }
+}
+
+/// Something that draws into tiles: layers of a picture are drawn in order.
 pub trait Layer: Sync {
+    /// What is done once a frame, before any tile is drawn: shadow maps, triangles in bins.
+    fn prepare(&mut self, _crew: &Crew) {}
+
     /// Draws the tile's part of the layer over what is there; returns what that took.
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
 
@@ -117,8 +167,7 @@ pub struct Picture {
 
 /// Renders frames on a fixed number of threads at one SIMD level.
 pub struct Renderer {
-    pool: Pool,
-    level: Level,
+    crew: Crew,
 }
 
 impl Renderer {
@@ -128,28 +177,29 @@ impl Renderer {
     pub fn new(threads: usize) -> Result<Renderer, String> {
         // What was built for processors with AVX2 need not look for it: 0.8 kB packed.
         let known = cfg!(target_feature = "avx2");
-        Ok(Renderer { pool: Pool::new(threads)?, level: if known { Level::baseline() } else { Level::new() } })
+        let level = if known { Level::baseline() } else { Level::new() };
+        Ok(Renderer { crew: Crew { pool: Pool::new(threads)?, level } })
     }
 
     /// The same renderer at another SIMD level.
     pub fn at_level(self, level: Level) -> Renderer {
-        Renderer { level, ..self }
+        Renderer { crew: Crew { level, ..self.crew } }
     }
 
     /// Threads in use.
     pub fn threads(&self) -> usize {
-        self.pool.threads()
+        self.crew.pool.threads()
     }
 
     /// The SIMD level in use.
     pub fn level(&self) -> Level {
-        self.level
+        self.crew.level
     }
 
     /// The SIMD level in use, as the benchmark names it: `avx512`, `avx2`, `sse4.2`, `sse2`, `neon`, `scalar`.
     pub fn simd(&self) -> &'static str {
         // What runs, which a build may hold below what the machine has.
-        match dispatch!(self.level, simd => simd.level()) {
+        match dispatch!(self.crew.level, simd => simd.level()) {
             #[cfg(target_arch = "x86_64")]
             Level::Avx512(_) => "avx512",
             #[cfg(target_arch = "x86_64")]
@@ -167,30 +217,32 @@ impl Renderer {
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
         let shot = Shot { time, width: frame.width, height: frame.height, quality: *quality };
-        let picture = scene.picture(&shot);
-        let (level, width, height) = (self.level, frame.width, frame.height);
+        self.draw(scene.picture(&shot), frame)
+    }
+
+    /// Draws a picture that was made for a frame of that size.
+    pub fn draw(&mut self, mut picture: Picture, frame: &mut Frame) -> Stats {
+        for layer in &mut picture.layers {
+            layer.prepare(&self.crew);
+        }
+        let (level, width, height) = (self.crew.level, frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
         // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
         // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
-        let bands = Mutex::new(frame.pixels.chunks_mut((width * Tile::SIZE).max(1)).enumerate());
-        let work = || {
-            let mut tile = Tile::new();
+        let bands = frame.pixels.chunks_mut((width * Tile::SIZE).max(1)).enumerate();
+        let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
-            loop {
-                // Bound, so that the lock is free again while the band is drawn.
-                let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((row, pixels)) = next else { return samples };
-                for column in 0..columns {
-                    tile.place(column, row, width, height);
-                    for (index, layer) in picture.layers.iter().enumerate() {
-                        tile.solids_matter = index + 1 < picture.layers.len();
-                        samples += layer.draw(level, &mut tile).samples;
-                    }
-                    dispatch!(level, simd => develop(simd, picture.transfer, &tile, width, pixels));
+            for column in 0..columns {
+                tile.place(column, row, width, height);
+                for (index, layer) in picture.layers.iter().enumerate() {
+                    tile.solids_matter = index + 1 < picture.layers.len();
+                    samples += layer.draw(level, tile).samples;
                 }
+                dispatch!(level, simd => develop(simd, picture.transfer, tile, width, pixels));
             }
+            samples
         };
-        Stats { samples: self.pool.sum(work) }
+        Stats { samples: self.crew.each_with(bands, Tile::new, draw) }
     }
 }
 

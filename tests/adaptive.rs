@@ -8,9 +8,9 @@ use glam::{Mat3, Vec3, vec3};
 use paprsek::camera::Camera;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, spheres};
+use paprsek::texture::{Palette, Pattern, Texture};
 use paprsek::tile::{Frame, Renderer};
 use paprsek::trace::shape::Shape;
-use paprsek::trace::texture::{Palette, Pattern, Texture};
 use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
 use picture::{Codes, traced};
 

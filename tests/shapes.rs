@@ -10,10 +10,10 @@ mod oracle;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use oracle::{ULP, random::Random, span::Crossing, span::span as exact_span};
-use paprsek::trace::lanes::{F, V3};
+use paprsek::lanes::{F, V3};
+use paprsek::texture::Texture;
 use paprsek::trace::scalar::{self, Ray};
 use paprsek::trace::shape::{FAR, Shape};
-use paprsek::trace::texture::Texture;
 use paprsek::trace::world::{Material, Object, Sky, World};
 use proptest::prelude::*;
 

@@ -5,10 +5,10 @@
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
+use crate::texture::{Palette, Pattern, Texture};
 use crate::tile::Picture;
 use crate::timeline::{self, Key, ease};
 use crate::trace::shape::Shape;
-use crate::trace::texture::{Palette, Pattern, Texture};
 use crate::trace::world::{Light, Material, Object, Sky, Source, World};
 use glam::{Mat3, Vec3, vec3};
 

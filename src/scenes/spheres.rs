@@ -3,9 +3,9 @@
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
+use crate::texture::{Palette, Pattern, Texture};
 use crate::tile::Picture;
 use crate::trace::shape::Shape;
-use crate::trace::texture::{Palette, Pattern, Texture};
 use crate::trace::world::{Light, Material, Object, Sky, Source, World};
 use glam::{Vec3, vec3};
 use std::f64::consts::FRAC_PI_4;

@@ -3,11 +3,11 @@
 //! Whether a pixel was traced or interpolated, its textures are evaluated at its own hit points, so none is smeared;
 //! and noise always runs on full blocks, however broken the picture is.
 
-use super::lanes::F;
 use super::sample::{REMEMBERED, Sample};
-use super::texture::{self, Block3};
 use super::world::World;
 use crate::block::{BLOCK, load, store};
+use crate::lanes::F;
+use crate::texture::{self, Block3};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;

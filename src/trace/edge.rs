@@ -1,8 +1,8 @@
 //! Pixels that an edge runs through: the surfaces in them, each with its share.
 
 use super::grid::{Grid, Square, same_chain};
-use super::lanes::F;
 use super::sample::{NUMBERS, Sample};
+use crate::lanes::F;
 use fearless_simd::prelude::*;
 
 /// The surfaces seen through one pixel, each with its share of the area; memory for as many as can be.

@@ -3,10 +3,10 @@
 use super::adaptive::Job;
 use super::deferred::Deferred;
 use super::grid::{Grid, Square};
-use super::lanes::{F, Lane, V3};
 use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
-use super::texture::{self, Block3};
 use crate::block::{BLOCK, load, store};
+use crate::lanes::{F, Lane, V3};
+use crate::texture::{self, Block3};
 use crate::tile::Tile;
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;

@@ -11,8 +11,8 @@
 
 use super::scalar;
 use super::shape::Shape;
-use super::view::View;
 use super::world::{Light, Object, Source, World};
+use crate::view::View;
 use glam::Vec3;
 
 /// Edge of the blocks that the guard distinguishes, pixels.

@@ -1,8 +1,8 @@
 //! What a point sees of the lights, and the sky.
 
-use super::lanes::{F, Lane, M, U, V3};
 use super::shape::FAR;
 use super::world::{Light, Source, World};
+use crate::lanes::{F, Lane, M, U, V3};
 use crate::math;
 use fearless_simd::prelude::*;
 

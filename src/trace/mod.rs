@@ -10,26 +10,23 @@ pub mod edge;
 pub mod fill;
 pub mod grid;
 pub mod guard;
-pub mod lanes;
 pub mod light;
 pub mod packet;
 pub mod sample;
 pub mod scalar;
 pub mod shape;
-pub mod texture;
-pub mod view;
 pub mod world;
 
 use crate::camera::Camera;
 use crate::quality::Quality;
+use crate::texture::Variation;
 use crate::tile::{Layer, Stats, Tile};
+use crate::view::View;
 use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
 use guard::Guard;
 use packet::{Context, Limits};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use texture::Variation;
-use view::View;
 use world::{SURFACE, World};
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.

@@ -3,15 +3,15 @@
 //! Textures are not evaluated here. A sample says which textured surfaces its chain of hits met, where, and how much of
 //! their colour it carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time.
 
-use super::lanes::{Bits, F, Lane, M, U, V3};
 use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
 use super::shape::{FAR, Shape};
-use super::texture;
-use super::view::View;
 use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
 use crate::block::{BLOCK, store};
+use crate::lanes::{Bits, F, Lane, M, U, V3};
 use crate::math;
+use crate::texture;
+use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;

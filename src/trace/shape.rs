@@ -4,7 +4,7 @@
 //! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
 //! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
 
-use super::lanes::{F, Lane, M, V3};
+use crate::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use glam::{Mat3, Vec3};
 

@@ -1,7 +1,7 @@
 //! What is traced: shapes with materials, lights, and the sky behind them.
 
 use super::shape::Shape;
-use super::texture::{Pattern, Texture};
+use crate::texture::{Pattern, Texture};
 use glam::Vec3;
 
 /// How a surface answers light: Phong over a texture, a mirror on top, or clear glass.

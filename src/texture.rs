@@ -1,7 +1,7 @@
 //! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
 
-use super::lanes::{F, V3};
 use crate::block::{BLOCK, load, store};
+use crate::lanes::{F, V3};
 use crate::math;
 use crate::noise;
 use fearless_simd::prelude::*;

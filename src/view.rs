@@ -1,7 +1,7 @@
 //! From pixels to eye rays, and from points to pixels.
 
-use super::lanes::{F, Lane, V3};
 use crate::camera::Camera;
+use crate::lanes::{F, Lane, V3};
 use fearless_simd::prelude::*;
 use glam::Vec3;
 
@@ -9,7 +9,7 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     camera: Camera,
-    /// Screen units of a pixel, and half of the screen in them.
+    /// Screen units of a pixel, and of the middle from the top left corner.
     pixel: f32,
     half: (f32, f32),
 }
@@ -18,7 +18,7 @@ impl View {
     /// The view of a camera on a picture of that many pixels.
     pub fn new(camera: Camera, width: usize, height: usize) -> View {
         let pixel = 2.0 / height as u32 as f32;
-        View { camera, pixel, half: (width as u32 as f32 / height as u32 as f32, 1.0) }
+        View { camera, pixel, half: (width as u32 as f32 / height as u32 as f32 - camera.shift, 1.0) }
     }
 
     /// The camera.

@@ -1,0 +1,3 @@
+//! The rasterizer: triangles, depth maps, lights.
+
+pub mod mesh;
