@@ -17,6 +17,8 @@ pub struct Quality {
     pub subpixel: u32,
     /// Samples of a pixel along each axis, everywhere: 1, or 8 for the reference.
     pub grid: usize,
+    /// Samples of a pixel for the edges of triangles: 1, 2, 4, 8 or 16. Each triangle in a pixel is shaded once.
+    pub coverage: usize,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -30,10 +32,11 @@ impl Quality {
         min_detail: 1.0 / 5.0,
         subpixel: 0,
         grid: 1,
+        coverage: 1,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 6.0, subpixel: 1, ..Quality::FAST };
+    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 6.0, subpixel: 1, coverage: 4, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,
@@ -42,6 +45,7 @@ impl Quality {
         min_detail: 0.0,
         subpixel: 0,
         grid: 1,
+        coverage: 1,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.

@@ -26,6 +26,13 @@ impl View {
         &self.camera
     }
 
+    /// The screen's middle, pixels from its top left corner, and what `right` and `up` times a metre are in pixels at one
+    /// metre.
+    pub fn screen(&self) -> ((f32, f32), f32) {
+        let scale = self.camera.right.length_squared();
+        ((self.half.0 / self.pixel, self.half.1 / self.pixel), 1.0 / (scale * self.pixel))
+    }
+
     /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
     #[inline(always)]
     pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {
