@@ -3,12 +3,22 @@
 use super::triangle::Piece;
 use crate::tile::Tile;
 
-/// A triangle: its piece and its number in that, or [`NOTHING`].
+/// A triangle: from the lowest bit on its number in its piece, the piece, and its texture; or [`NOTHING`].
 pub type Id = u32;
 /// No triangle.
 pub const NOTHING: Id = u32::MAX;
-/// Bits of an [`Id`] that number the triangle; those above number the piece.
-pub const LOCAL: u32 = 16;
+/// Bits of an [`Id`] that number the triangle, and as many that number the piece.
+const BITS: u32 = 14;
+/// The bit from which on an [`Id`] has the index of a texture, or [`PLAIN`].
+pub const TEXTURE: u32 = 2 * BITS;
+/// In the place of a texture, that there is none.
+pub const PLAIN: u32 = 15;
+
+/// The piece of a triangle, and its number in that.
+#[inline(always)]
+pub fn parts(id: Id) -> (usize, usize) {
+    ((id >> BITS) as usize & ((1 << BITS) - 1), id as usize & ((1 << BITS) - 1))
+}
 
 /// The triangles of a raster by tile, in the order of pieces.
 #[derive(Default)]
@@ -54,7 +64,7 @@ fn each(pieces: &[Piece], columns: u32, mut put: impl FnMut(usize, Id)) {
             let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
             for y in y0..=y1 {
                 for x in x0..=x1 {
-                    put((y * columns + x) as usize, (p as u32) << LOCAL | t as u32);
+                    put((y * columns + x) as usize, (triangle.texture << BITS | p as u32) << BITS | t as u32);
                 }
             }
         }

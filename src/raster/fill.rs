@@ -3,7 +3,7 @@
 //! Edge functions in whole numbers, as in J. Pineda, "A parallel algorithm for polygon rasterization", 1988: each sample
 //! on a shared edge belongs to exactly one of the two triangles.
 
-use super::bins::{Id, LOCAL};
+use super::bins::{Id, parts};
 use super::triangle::{Piece, SUB, Triangle};
 use crate::lanes::F;
 use crate::tile::Tile;
@@ -27,15 +27,15 @@ pub const CENTER: Sample = [SUB / 2; 2];
 /// Beyond this an edge function has one sign in the whole tile.
 const FAR: i64 = 1 << 30;
 
-/// 0, 1, 2 ...
-static STEPS: [i32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+/// 0, 1, 2, as many as there are lanes.
+pub static STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// Draws triangles over what is visible of the tile whose top left pixel is (`x`, `y`).
 #[simd]
 pub fn fill<S: Simd>(simd: S, pieces: &[Piece], ids: &[Id], x: i32, y: i32, sample: Sample, out: &mut Visible) {
     for &id in ids {
-        let triangle = &pieces[(id >> LOCAL) as usize].triangles[(id & ((1 << LOCAL) - 1)) as usize];
-        fill_one(simd, triangle, id, x, y, sample, out);
+        let (piece, number) = parts(id);
+        fill_one(simd, &pieces[piece].triangles[number], id, x, y, sample, out);
     }
 }
 
@@ -47,7 +47,7 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Samp
     // The part of the tile that the triangle may touch, from a multiple of the lanes on.
     let (x0, x1) = ((t.bound[0] - x).max(0) & !(lanes as i32 - 1), (t.bound[1] - x).min(size - 1));
     let (y0, y1) = ((t.bound[2] - y).max(0), (t.bound[3] - y).min(size - 1));
-    let steps = S::i32s::from_slice(simd, &STEPS[..lanes]);
+    let steps = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>();
     let mut row = [S::i32s::splat(simd, 0); 3];
     let mut along = [0; 3];
     let mut down = [0; 3];

@@ -24,8 +24,8 @@ use glam::{Affine3A, Vec3};
 use light::{Haze, Light, Lit};
 use mesh::Mesh;
 use project::Projection;
-use shade::{Context, Fragments};
-use shadow::DepthMap;
+use shade::{Context, Fragments, Samples};
+use shadow::{DepthMap, Kept, Key};
 use std::sync::{Arc, Mutex, PoisonError};
 use triangle::{Piece, SUB, Setup};
 
@@ -45,7 +45,7 @@ pub struct Body {
 pub struct World {
     /// The surfaces.
     pub bodies: Vec<Body>,
-    /// The textures that paints name.
+    /// The textures that paints name: at most 15.
     pub textures: Vec<Texture>,
     /// The lights: up to 32 reach one place.
     pub lights: Vec<Light>,
@@ -81,7 +81,6 @@ impl Drawn {
         let Drawn { world, view, pieces, bins, lights, quality, .. } = self;
         let context = Context { world, lights, pieces, view };
         let count = if quality.grid > 1 { 1 } else { quality.coverage };
-        scratch.fragments.begin(world.textures.len());
         scratch.visible.resize_with(count.max(scratch.visible.len()), Visible::new);
         let visible = &mut scratch.visible[..count];
         let ids = bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
@@ -101,7 +100,8 @@ impl Drawn {
                     plane.clear(0.0);
                     fill(simd, pieces, ids, tile.x as i32, tile.y as i32, *sample, plane);
                 }
-                fragments += scratch.fragments.collect(simd, &context, visible, &samples[..count], share, tile);
+                let samples = Samples { visible, places: &samples[..count], share };
+                fragments += scratch.fragments.collect(simd, &context, &samples, tile);
             }
             scratch.fragments.finish(simd, &context, tile);
         }
@@ -157,10 +157,16 @@ fn with_scratch<T>(work: impl FnOnce(&mut Scratch) -> T) -> T {
 
 impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
-        // The camera's raster first, then those of the lights.
+        let lights = self.world.lights.iter().enumerate();
+        let kept: Vec<_> = lights
+            .map(|(slot, light)| Some(shadow::recall(Key::new(slot, light.shadow.as_ref()?, &self.world.bodies))))
+            .collect();
+        // The camera's raster first, then those of the lights whose maps have changed.
         let mut rasters = vec![(Projection::of_view(&self.view, self.size), false, true)];
-        for plan in self.world.lights.iter().filter_map(|light| light.shadow.as_ref()) {
-            rasters.extend(plan.views.iter().map(|view| (*view, plan.back_faces, false)));
+        for kept in kept.iter().flatten() {
+            if let Kept::Other(_, Key { plan, .. }) = kept {
+                rasters.extend(plan.views.iter().map(|view| (*view, plan.back_faces, false)));
+            }
         }
         let mut jobs = Vec::new();
         for (index, (projection, _, shaded)) in rasters.iter().enumerate() {
@@ -188,13 +194,15 @@ impl Layer for Drawn {
         let mut rest = binned.into_iter();
         (self.pieces, self.bins) = rest.next().unwrap_or_default();
         self.lights.clear();
-        for light in &self.world.lights {
-            let map = light.shadow.as_ref().map(|plan| {
-                let views: Vec<_> = rest.by_ref().take(plan.views.len()).collect();
-                let mut map = DepthMap::default();
-                map.resize(plan.views[0].size[0] as usize, plan.views.len());
-                draw_map(crew, &mut map, &views);
-                Arc::new(map)
+        for (light, kept) in self.world.lights.iter().zip(kept) {
+            let map = kept.map(|kept| match kept {
+                Kept::Same(map) => map,
+                Kept::Other(mut map, key) => {
+                    let views: Vec<_> = rest.by_ref().take(key.plan.views.len()).collect();
+                    map.resize(key.plan.views[0].size[0] as usize, views.len());
+                    draw_map(crew, &mut map, &views);
+                    shadow::keep(key, map)
+                }
             });
             self.lights.push(Lit::new(light.clone(), map));
         }

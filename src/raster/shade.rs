@@ -1,12 +1,12 @@
 //! From what is visible in a tile to light: fragments wait until a block of one texture is full, and each is shaded once.
 
 use super::World;
-use super::bins::{Id, LOCAL, NOTHING};
-use super::fill::{Sample, Visible};
+use super::bins::{Id, NOTHING, PLAIN, TEXTURE, parts};
+use super::fill::{CENTER, STEPS, Sample, Visible};
 use super::light::Lit;
 use super::triangle::{Piece, Plane, SUB};
 use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, U, V3};
+use crate::lanes::{Bits, F, Lane, U, V3};
 use crate::math;
 use crate::texture::{self, Block3};
 use crate::tile::Tile;
@@ -27,72 +27,102 @@ pub struct Context<'a> {
     pub view: &'a View,
 }
 
+/// Room for a block, and for the vector that fills it up.
+const ROOM: usize = 2 * BLOCK;
+
 /// Parts of pixels that show one triangle each.
 #[derive(Clone)]
 struct Queue {
     count: usize,
-    pixel: [u32; BLOCK],
-    id: [Id; BLOCK],
+    pixel: [u32; ROOM],
+    id: [Id; ROOM],
     /// Share of the pixel.
-    weight: [f32; BLOCK],
+    weight: [f32; ROOM],
     /// Where it is looked at, pixels from the picture's top left.
-    x: [f32; BLOCK],
-    y: [f32; BLOCK],
+    x: [f32; ROOM],
+    y: [f32; ROOM],
 }
 
 const EMPTY: Queue =
-    Queue { count: 0, pixel: [0; BLOCK], id: [0; BLOCK], weight: [0.0; BLOCK], x: [0.0; BLOCK], y: [0.0; BLOCK] };
+    Queue { count: 0, pixel: [0; ROOM], id: [0; ROOM], weight: [0.0; ROOM], x: [0.0; ROOM], y: [0.0; ROOM] };
 
-/// Fragments of a tile, by texture; those without one come last.
+/// The first block of a queue's array.
+#[inline(always)]
+fn head<T>(room: &[T; ROOM]) -> &[T; BLOCK] {
+    &room.as_chunks().0[0]
+}
+
+/// Fragments of a tile, by the texture in their [`Id`].
 #[derive(Default)]
 pub struct Fragments {
     queues: Vec<Queue>,
 }
 
-impl Fragments {
-    /// Ready for a world of that many textures.
-    pub fn begin(&mut self, textures: usize) {
-        self.queues.resize(textures + 1, EMPTY);
-    }
+/// Where and how a tile's samples are turned into fragments.
+pub struct Samples<'a> {
+    /// What is visible at each.
+    pub visible: &'a [Visible],
+    /// Where they lie in a pixel.
+    pub places: &'a [Sample],
+    /// What one of them counts.
+    pub share: f32,
+}
 
-    /// Adds what the samples of a tile's pixels show, each `share` of a pixel; returns the number of fragments.
+impl Fragments {
+    /// Adds what the samples of a tile's pixels show; returns the number of fragments.
     #[inline(always)]
-    pub fn collect<S: Simd>(
-        &mut self,
-        simd: S,
-        context: &Context,
-        visible: &[Visible],
-        samples: &[Sample],
-        share: f32,
-        tile: &mut Tile,
-    ) -> u64 {
+    pub fn collect<S: Simd>(&mut self, simd: S, context: &Context, samples: &Samples, tile: &mut Tile) -> u64 {
         let lanes = F::<S>::LEN;
-        let nothing = U::<S>::splat(simd, NOTHING);
+        self.queues.resize(PLAIN as usize + 1, EMPTY);
+        let (first, others) = samples.visible.split_at(1);
+        // Where all samples show the same, the pixel is looked at in its middle.
+        let place = if others.is_empty() { samples.places[0] } else { CENTER };
+        let whole = samples.share * samples.places.len() as u32 as f32;
+        let steps: F<S> = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>().to_float();
+        let steps = steps + place[0] as f32 * (1.0 / SUB as f32);
         let mut count = 0;
         for row in 0..tile.height {
+            let y = (tile.y + row) as u32 as f32 + place[1] as f32 * (1.0 / SUB as f32);
             let mut column = 0;
             while column < tile.width {
                 let at = row * Tile::SIZE + column;
-                let ids = U::<S>::from_slice(simd, &visible[0].id[at..at + lanes]);
+                let ids = U::<S>::from_slice(simd, &first[0].id[at..at + lanes]);
                 let mut same = ids.simd_eq(ids);
-                for other in &visible[1..] {
+                for other in others {
                     same &= ids.simd_eq(U::<S>::from_slice(simd, &other.id[at..at + lanes]));
                 }
-                let pixels = lanes.min(tile.width - column);
-                let (same, empty) = (same.to_bitmask(), ids.simd_eq(nothing).to_bitmask());
-                for lane in 0..pixels {
-                    let pixel = at + lane;
-                    if same >> lane & 1 == 0 {
-                        count += self.several(simd, context, visible, samples, share, pixel, tile);
-                    } else if empty >> lane & 1 == 0 {
-                        let sample = if samples.len() == 1 { samples[0] } else { super::fill::CENTER };
-                        let weight = share * samples.len() as u32 as f32;
-                        let place = sample.map(|step| step as f32 * (1.0 / SUB as f32));
-                        self.push(simd, context, pixel, visible[0].id[pixel], weight, place, tile);
+                let empty = ids.simd_eq(NOTHING);
+                let full = same & !empty;
+                let texture = first[0].id[at] >> TEXTURE;
+                let left = column;
+                column += lanes;
+                if column <= tile.width && (full & (ids >> TEXTURE).simd_eq(texture)).all_true() {
+                    let queue = &mut self.queues[texture as usize];
+                    let end = queue.count..queue.count + lanes;
+                    let pixels = S::u32s::from_slice(simd, &STEPS[..lanes]) + at as u32;
+                    pixels.store_slice(&mut queue.pixel[end.clone()]);
+                    ids.store_slice(&mut queue.id[end.clone()]);
+                    F::<S>::splat(simd, whole).store_slice(&mut queue.weight[end.clone()]);
+                    (steps + (tile.x + left) as u32 as f32).store_slice(&mut queue.x[end.clone()]);
+                    F::<S>::splat(simd, y).store_slice(&mut queue.y[end]);
+                    queue.count += lanes;
+                    count += lanes as u64;
+                    if queue.count >= BLOCK {
+                        flush(simd, context, texture as usize, queue, tile);
+                    }
+                    continue;
+                }
+                let full = full.to_bitmask();
+                let in_use = (1 << lanes.min(tile.width - left)) - 1;
+                for lane in Bits(!(same & empty).to_bitmask() & in_use) {
+                    let id = first[0].id[at + lane];
+                    if full >> lane & 1 != 0 {
+                        self.push(simd, context, at + lane, id, whole, place, tile);
                         count += 1;
+                    } else {
+                        count += self.several(simd, context, samples, at + lane, tile);
                     }
                 }
-                column += lanes;
             }
         }
         count
@@ -100,17 +130,8 @@ impl Fragments {
 
     /// Adds the triangles of a pixel whose samples show more than one, each where its samples are on the mean.
     #[inline(never)]
-    #[allow(clippy::too_many_arguments)]
-    fn several<S: Simd>(
-        &mut self,
-        simd: S,
-        context: &Context,
-        visible: &[Visible],
-        samples: &[Sample],
-        share: f32,
-        pixel: usize,
-        tile: &mut Tile,
-    ) -> u64 {
+    fn several<S: Simd>(&mut self, simd: S, context: &Context, samples: &Samples, pixel: usize, tile: &mut Tile) -> u64 {
+        let visible = samples.visible;
         let mut count = 0;
         for (first, plane) in visible.iter().enumerate() {
             let id = plane.id[pixel];
@@ -118,13 +139,12 @@ impl Fragments {
                 continue;
             }
             let (mut met, mut x, mut y) = (0, 0, 0);
-            for (plane, sample) in visible.iter().zip(samples).skip(first) {
+            for (plane, place) in visible.iter().zip(samples.places).skip(first) {
                 if plane.id[pixel] == id {
-                    (met, x, y) = (met + 1, x + sample[0], y + sample[1]);
+                    (met, x, y) = (met + 1, x + place[0], y + place[1]);
                 }
             }
-            let scale = 1.0 / (met * SUB) as f32;
-            self.push(simd, context, pixel, id, share * met as f32, [x as f32 * scale, y as f32 * scale], tile);
+            self.push(simd, context, pixel, id, samples.share * met as f32, [x / met, y / met], tile);
             count += 1;
         }
         count
@@ -132,7 +152,7 @@ impl Fragments {
 
     /// Adds a fragment at `place` in its pixel.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
+    #[allow(clippy::too_many_arguments)] // A fragment, and what shades it.
     fn push<S: Simd>(
         &mut self,
         simd: S,
@@ -140,21 +160,20 @@ impl Fragments {
         pixel: usize,
         id: Id,
         weight: f32,
-        place: [f32; 2],
+        place: Sample,
         tile: &mut Tile,
     ) {
-        let texture = context.pieces[(id >> LOCAL) as usize].surfaces[local(id)].texture;
-        let index = texture.map_or(self.queues.len() - 1, usize::from);
-        let queue = &mut self.queues[index];
+        let queue = &mut self.queues[(id >> TEXTURE) as usize];
         let at = queue.count & (BLOCK - 1);
+        let [x, y] = place.map(|step| step as f32 * (1.0 / SUB as f32));
         queue.pixel[at] = pixel as u32;
         queue.id[at] = id;
         queue.weight[at] = weight;
-        queue.x[at] = (tile.x + pixel % Tile::SIZE) as u32 as f32 + place[0];
-        queue.y[at] = (tile.y + pixel / Tile::SIZE) as u32 as f32 + place[1];
+        queue.x[at] = (tile.x + pixel % Tile::SIZE) as u32 as f32 + x;
+        queue.y[at] = (tile.y + pixel / Tile::SIZE) as u32 as f32 + y;
         queue.count = at + 1;
         if queue.count == BLOCK {
-            flush(simd, context, index, queue, tile);
+            flush(simd, context, (id >> TEXTURE) as usize, queue, tile);
         }
     }
 
@@ -168,12 +187,6 @@ impl Fragments {
     }
 }
 
-/// The number of a triangle in its piece.
-#[inline(always)]
-fn local(id: Id) -> usize {
-    (id & ((1 << LOCAL) - 1)) as usize
-}
-
 /// A plane at offsets from its anchor, where `here`.
 #[inline(always)]
 fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
@@ -184,13 +197,12 @@ fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
 #[simd]
 fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
     let Context { world, lights, pieces, view } = *context;
-    let count = queue.count;
-    queue.count = 0;
+    let count = queue.count.min(BLOCK);
     // What stands behind the last is left over from others.
     let (id, x, y) = (queue.id[0], queue.x[0], queue.y[0]);
-    queue.id[count..].fill(id);
-    queue.x[count..].fill(x);
-    queue.y[count..].fill(y);
+    queue.id[count..BLOCK].fill(id);
+    queue.x[count..BLOCK].fill(x);
+    queue.y[count..BLOCK].fill(y);
     let (mut point, mut normal, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
     let (mut depth, mut nearness) = ([0.0; BLOCK], [0.0; BLOCK]);
     let one = F::<S>::splat(simd, 1.0);
@@ -198,8 +210,8 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
     let lanes = F::<S>::LEN;
     let mut i = 0;
     while i < BLOCK / lanes {
-        let ids: U<S> = load(simd, &queue.id, i);
-        let (x, y): (F<S>, F<S>) = (load(simd, &queue.x, i), load(simd, &queue.y, i));
+        let ids: U<S> = load(simd, head(&queue.id), i);
+        let (x, y): (F<S>, F<S>) = (load(simd, head(&queue.x), i), load(simd, head(&queue.y), i));
         let mut n = V3::splat(simd, Vec3::ZERO);
         let mut albedo = n;
         let mut near = one;
@@ -208,8 +220,8 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
             let here = ids.simd_eq(U::<S>::splat(simd, id));
             todo &= !here.to_bitmask();
-            let piece = &pieces[(id >> LOCAL) as usize];
-            let (triangle, surface) = (&piece.triangles[local(id)], &piece.surfaces[local(id)]);
+            let (piece, number) = parts(id);
+            let (triangle, surface) = (&pieces[piece].triangles[number], &pieces[piece].surfaces[number]);
             let (dx, dy) = (x - triangle.anchor[0], y - triangle.anchor[1]);
             let [nx, ny, nz] = &surface.normal;
             n = V3::select(here, V3 { x: at::<S>(nx, dx, dy), y: at::<S>(ny, dx, dy), z: at::<S>(nz, dx, dy) }, n);
@@ -261,19 +273,55 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         let glow = glow * glow;
         let before = V3::splat(simd, haze.color) + V3::splat(simd, haze.glow.1) * Lane(glow * glow);
         let seen = before + (albedo.mulv(light) - before) * Lane(clear);
-        let seen = seen * Lane(load(simd, &queue.weight, i));
+        let seen = seen * Lane(load(simd, head(&queue.weight), i));
         store(seen.x, &mut color[0], i);
         store(seen.y, &mut color[1], i);
         store(seen.z, &mut color[2], i);
         i += 1;
     }
-    for j in 0..count {
-        let pixel = queue.pixel[j] as usize & (Tile::AREA - 1);
-        tile.red[pixel] += color[0][j];
-        tile.green[pixel] += color[1][j];
-        tile.blue[pixel] += color[2][j];
-        tile.coverage[pixel] += queue.weight[j];
-        tile.closeness[pixel] = tile.closeness[pixel].max(nearness[j]);
+    add(simd, queue, count, &color, &nearness, tile);
+    queue.count -= count;
+    if queue.count > 0 {
+        // What the vector that filled the block up left over.
+        let rest = BLOCK..BLOCK + lanes;
+        queue.pixel.copy_within(rest.clone(), 0);
+        queue.id.copy_within(rest.clone(), 0);
+        queue.weight.copy_within(rest.clone(), 0);
+        queue.x.copy_within(rest.clone(), 0);
+        queue.y.copy_within(rest, 0);
+    }
+}
+
+/// Adds the light of the first `count` fragments to their pixels.
+#[inline(always)]
+fn add<S: Simd>(simd: S, queue: &Queue, count: usize, color: &Block3, nearness: &[f32; BLOCK], tile: &mut Tile) {
+    let lanes = F::<S>::LEN;
+    let steps = U::<S>::from_slice(simd, &STEPS[..lanes]);
+    let mut i = 0;
+    while i < count {
+        let first = queue.pixel[i] as usize & (Tile::AREA - 1);
+        let pixels = U::<S>::from_slice(simd, &queue.pixel[i..i + lanes]);
+        if i + lanes <= count && pixels.simd_eq(steps + first as u32).all_true() {
+            let at = first..first + lanes;
+            let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.coverage];
+            for (plane, light) in planes.into_iter().zip([&color[0][..], &color[1], &color[2], &queue.weight]) {
+                let sum = F::<S>::from_slice(simd, &plane[at.clone()]) + F::<S>::from_slice(simd, &light[i..i + lanes]);
+                sum.store_slice(&mut plane[at.clone()]);
+            }
+            let plane = &mut tile.closeness[at];
+            let near = F::<S>::from_slice(simd, &nearness[i..i + lanes]);
+            F::<S>::from_slice(simd, plane).max(near).store_slice(plane);
+        } else {
+            for j in i..count.min(i + lanes) {
+                let pixel = queue.pixel[j] as usize & (Tile::AREA - 1);
+                tile.red[pixel] += color[0][j];
+                tile.green[pixel] += color[1][j];
+                tile.blue[pixel] += color[2][j];
+                tile.coverage[pixel] += queue.weight[j];
+                tile.closeness[pixel] = tile.closeness[pixel].max(nearness[j]);
+            }
+        }
+        i += lanes;
     }
 }
 

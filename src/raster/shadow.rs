@@ -3,10 +3,14 @@
 //! L. Williams, "Casting curved shadows on curved surfaces", 1978; percentage-closer filtering after W. Reeves,
 //! D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", 1987.
 
+use super::Body;
+use super::mesh::Mesh;
 use super::project::Projection;
 use crate::lanes::{F, M};
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
+use glam::Affine3A;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// How a lookup keeps a lit surface from shadowing itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,4 +143,62 @@ impl DepthMap {
         let sum = F::<S>::from_slice(simd, &sums[..lanes]);
         sum * (1.0 / 9.0)
     }
+}
+
+/// What a depth map shows: maps of equal keys are equal.
+#[derive(Clone)]
+pub struct Key {
+    /// The light's place in the world's list: each place keeps one map.
+    slot: usize,
+    /// What it sees.
+    pub plan: Plan,
+    /// What stands there. Meshes are held, so that none can come to lie where another was.
+    casters: Vec<(Arc<Mesh>, Affine3A)>,
+}
+
+impl Key {
+    /// Of the light in that place of the world's list.
+    pub fn new(slot: usize, plan: &Plan, bodies: &[Body]) -> Key {
+        let casters = bodies.iter().filter(|body| body.casts_shadow);
+        Key { slot, plan: plan.clone(), casters: casters.map(|body| (body.mesh.clone(), body.place)).collect() }
+    }
+
+    fn equals(&self, other: &Key) -> bool {
+        let pairs = || self.casters.iter().zip(&other.casters);
+        self.plan == other.plan
+            && self.casters.len() == other.casters.len()
+            && pairs().all(|(a, b)| Arc::ptr_eq(&a.0, &b.0) && a.1 == b.1)
+    }
+}
+
+/// A map from an earlier frame.
+pub enum Kept {
+    /// It shows what is wanted.
+    Same(Arc<DepthMap>),
+    /// It does not: memory to draw the map of that key into.
+    Other(DepthMap, Key),
+}
+
+/// The latest map of each light. A map that is the same again is not drawn again: the frame is, either way.
+static MAPS: Mutex<Vec<(Key, Arc<DepthMap>)>> = Mutex::new(Vec::new());
+
+/// What there is of an earlier frame for a light.
+pub fn recall(key: Key) -> Kept {
+    let mut maps = MAPS.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(at) = maps.iter().position(|(kept, _)| kept.slot == key.slot) else {
+        return Kept::Other(DepthMap::default(), key);
+    };
+    if maps[at].0.equals(&key) {
+        return Kept::Same(maps[at].1.clone());
+    }
+    // Another frame may still be looking at it.
+    let (_, map) = maps.swap_remove(at);
+    Kept::Other(Arc::try_unwrap(map).unwrap_or_default(), key)
+}
+
+/// Keeps a map for later frames.
+pub fn keep(key: Key, map: DepthMap) -> Arc<DepthMap> {
+    let map = Arc::new(map);
+    MAPS.lock().unwrap_or_else(PoisonError::into_inner).push((key, map.clone()));
+    map
 }

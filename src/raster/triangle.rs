@@ -1,5 +1,6 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
+use super::bins::PLAIN;
 use super::mesh::Mesh;
 use super::project::Projection;
 use glam::{Affine3A, Vec3, Vec4};
@@ -29,6 +30,8 @@ pub struct Triangle {
     pub anchor: [f32; 2],
     /// Nearness.
     pub nearness: Plane,
+    /// Index of the world's texture, or [`PLAIN`].
+    pub texture: u32,
     /// Nearness of the farthest and of the nearest corner: on slivers the plane overshoots.
     pub range: [f32; 2],
 }
@@ -40,8 +43,6 @@ pub struct Surface {
     pub normal: [Plane; 3],
     /// Linear.
     pub albedo: Vec3,
-    /// Index of the world's texture.
-    pub texture: Option<u8>,
 }
 
 /// One body in one raster.
@@ -220,11 +221,12 @@ impl Setup<'_> {
             bound,
             anchor: [a.x as f32 / SUB as f32, a.y as f32 / SUB as f32],
             nearness: plane(near),
+            texture: paint.1.map_or(PLAIN, u32::from),
             range: [near[0].min(near[1]).min(near[2]), near[0].max(near[1]).max(near[2])],
         });
         if self.shaded {
             let normal = [0, 1, 2].map(|axis| plane(order.map(|i| normals[i][axis] * corners[i].inverse)));
-            piece.surfaces.push(Surface { normal, albedo: paint.0, texture: paint.1 });
+            piece.surfaces.push(Surface { normal, albedo: paint.0 });
         }
     }
 }
