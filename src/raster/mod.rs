@@ -1,3 +1,4 @@
 //! The rasterizer: triangles, depth maps, lights.
 
+pub mod form;
 pub mod mesh;
