@@ -3,6 +3,8 @@
 pub mod lumen;
 pub mod models;
 #[cfg(feature = "bench-scenes")]
+pub mod shadow_set;
+#[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
 use crate::camera::Camera;

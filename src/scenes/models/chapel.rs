@@ -93,14 +93,14 @@ pub fn chapel() -> Mesh {
     }
     // The ridge.
     mesh.block(&scale(0.12, 0.12, 5.6), place(0.0, 7.6, 0.1), paint::BARK);
-    // A low wall around the yard, as high as the ground.
-    for i in 0..14u32 {
-        let (sin, cos) = (0.9 + 0.36 * i as f32).sin_cos();
+    // A low wall around the yard, as high as the ground, with gaps.
+    for i in 0..20u32 {
+        let (sin, cos) = (0.9 + 0.25 * i as f32).sin_cos();
         let (x, z) = (17.0 * sin, 17.0 * cos);
         let along = vec3(cos, (height(x + cos, z - sin) - height(x - cos, z + sin)) * 0.5, -sin);
-        let high = 0.5 + 0.3 * ((i * 5) % 7) as f32 / 7.0;
-        let half = Mat3::from_cols(along * 2.9, Vec3::Y * high, vec3(sin, 0.0, cos) * 0.3);
-        mesh.block(&half, vec3(x, height(x, z) + high - 0.3, z), paint::STONE);
+        let high = 0.25 + 0.2 * ((i * 5) % 7) as f32 / 7.0;
+        let half = Mat3::from_cols(along * (1.5 + high), Vec3::Y * high, vec3(sin, 0.0, cos) * 0.22);
+        mesh.block(&half, vec3(x, height(x, z) + high - 0.2, z), paint::STONE);
     }
     mesh
 }

@@ -45,6 +45,8 @@ pub fn wooded(x: f32, z: f32) -> f32 {
 
 /// Rings of points around the middle.
 const RINGS: usize = 73;
+/// Rings up to here, 1 km away, are meadow; from there on every point counts.
+const DETAILED: usize = 40;
 /// Points of the outer rings.
 const ROUND: usize = 256;
 /// Parts that each ring is cut into, to be culled one by one.
@@ -56,7 +58,7 @@ pub const SECTORS: usize = 16;
 /// count to 256, but several lie in one place, and the triangles between them vanish; so the transitions fit by themselves.
 pub fn ground() -> Vec<Mesh> {
     let mut patches = Vec::new();
-    for (from, to) in [(0, 40), (40, 58), (58, RINGS)] {
+    for (from, to) in [(0, DETAILED), (DETAILED, 58), (58, RINGS)] {
         for sector in 0..SECTORS {
             patches.push(patch(from, to, sector * ROUND / SECTORS));
         }
@@ -72,7 +74,7 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
         let step = match ring {
             0..12 => 8,
             12..20 => 4,
-            20..40 => 2,
+            20..DETAILED => 2,
             _ => 1,
         };
         let r = (ring as u32 as f32 * 0.25).powi(3);
@@ -85,23 +87,8 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
             mesh.normals.push(normal(x, z, 0.5 + 0.01 * r));
         }
     }
-    mesh.loft(0, COLUMNS, &|_, _| paint::GRASS);
-    for face in &mut mesh.faces {
-        let [a, b, c] = face.corners.map(|i| mesh.points[i as usize]);
-        let (up, p) = ((b - a).cross(c - a).normalize().y, (a + b + c) / 3.0);
-        let jagged = 100.0 * noise(p * 0.004);
-        face.paint = if up < 0.8 {
-            paint::ROCK
-        } else if p.y + jagged > 560.0 {
-            paint::SNOW
-        } else if p.y + jagged > 400.0 {
-            paint::ROCK
-        } else if wooded(p.x, p.z) > 0.0 && p.y > WATER + 2.0 {
-            paint::WOOD
-        } else {
-            paint::GRASS
-        };
-    }
+    let kind = if from < DETAILED { paint::GRASS } else { paint::HEIGHTS };
+    mesh.loft(0, COLUMNS, &|_, _| kind);
     mesh
 }
 

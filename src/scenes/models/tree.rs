@@ -38,14 +38,16 @@ const FIRS: [Body; 2] = [
         &[
             [-5, 0, 3, 3, BARK],
             [14, 0, 2, 2, FIR],
-            [9, 0, 23, 23, FIR],
-            [38, 0, 10, 10, FIR],
-            [33, 0, 18, 18, FIR],
-            [63, 0, 6, 6, FIR],
-            [58, 0, 12, 12, FIR],
-            [100, 0, 0, 0, FIR],
+            [7, 0, 23, 23, FIR],
+            [33, 0, 10, 10, FIR],
+            [28, 0, 19, 19, FIR],
+            [52, 0, 8, 8, FIR],
+            [47, 0, 15, 15, FIR],
+            [74, 0, 4, 4, FIR],
+            [68, 0, 9, 9, FIR],
+            [104, 0, 0, 0, FIR],
         ],
-        6,
+        7,
     ),
     round(&[[14, 0, 0, 0, FIR], [8, 0, 22, 22, FIR], [50, 0, 8, 8, FIR], [45, 0, 14, 14, FIR], [100, 0, 0, 0, FIR]], 4),
 ];
@@ -91,7 +93,7 @@ pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
 
 /// The trees around the middle: in groves, and a few alone.
 pub fn trees() -> Vec<Tree> {
-    const TRIED: u32 = 3000;
+    const TRIED: u32 = 6000;
     let mut trees = Vec::new();
     for seed in 0..TRIED {
         let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|k| rnd(STREAM, seed, k));
@@ -100,7 +102,7 @@ pub fn trees() -> Vec<Tree> {
         let r = 24.0 + 800.0 * b * b.sqrt();
         let (x, z) = (r * cos, r * sin);
         let y = height(x, z);
-        let wanted = wooded(x, z) > 0.12 * c - 0.06 || d < 0.012;
+        let wanted = wooded(x, z) > 0.1 * c || d < 0.008;
         if wanted && y > land::WATER + 1.0 && land::normal(x, z, 2.0).y > 0.85 {
             // Firs on the heights.
             let fir = e < 0.45 + 0.02 * y;
@@ -128,6 +130,7 @@ pub fn woods(trees: &[Tree]) -> Vec<Mesh> {
                 grow(&mut mesh, tree, far);
             }
         }
+        mesh.smooth();
         patches.push(mesh);
     }
     patches
