@@ -5,6 +5,7 @@
 pub mod block;
 pub mod camera;
 pub mod color;
+pub mod hash;
 pub mod lanes;
 pub mod math;
 pub mod noise;

@@ -6,6 +6,7 @@
 
 pub mod bins;
 pub mod fill;
+pub mod form;
 pub mod light;
 pub mod mesh;
 pub mod project;

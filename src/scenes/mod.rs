@@ -1,6 +1,9 @@
 //! One file a scene; only scenes know more than one renderer.
 
 pub mod lumen;
+pub mod models;
+#[cfg(feature = "bench-scenes")]
+pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
 

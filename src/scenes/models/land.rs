@@ -1,0 +1,105 @@
+//! The land: a hill with a chapel in a valley with a lake, woods, and mountains all around.
+
+use super::{PAINTS, paint};
+use crate::noise::{fbm, noise, turbulence};
+use crate::raster::mesh::Mesh;
+use glam::{Vec3, vec3};
+use std::f32::consts::TAU;
+
+/// Height of the lake, metres.
+pub const WATER: f32 = -9.5;
+
+/// How far the land reaches, metres.
+pub const EDGE: f32 = 6078.0;
+
+/// Height of the ground at a place, metres.
+pub fn height(x: f32, z: f32) -> f32 {
+    let p = vec3(x, 0.3, z);
+    let r2 = x * x + z * z;
+    let r = r2.sqrt();
+    // Metres from the valley's winding middle, which leaves the mountains open to the east and to the west.
+    let across = z - 0.2 * x - 130.0 - 70.0 * noise(p * 0.0035);
+    let valley = |width: f32| 1.0 / (1.0 + across * across / (width * width));
+    let hill = 11.0 / (1.0 + r2 / 3600.0);
+    // Where the chapel stands the ground is even.
+    let calm = r2 / (r2 + 3000.0);
+    let rolling = fbm(p * 0.003, 4) * (30.0 + 0.06 * r) * calm;
+    let rise = ((r - 700.0) / 4200.0).clamp(0.0, 1.0);
+    let rise = rise * rise * (3.0 - 2.0 * rise) * (1.0 - 0.85 * valley(700.0));
+    let ridges = 1.0 - 2.2 * turbulence(p * 0.00035 + 7.7, 6);
+    hill + rolling - 13.0 * valley(45.0) + rise * (250.0 + 1000.0 * ridges)
+}
+
+/// Which way is up from the ground at a place, over `reach` metres.
+pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
+    let slope = |dx: f32, dz: f32| height(x - dx, z - dz) - height(x + dx, z + dz);
+    vec3(slope(reach, 0.0), 2.0 * reach, slope(0.0, reach)).normalize()
+}
+
+/// More than 0 where woods grow; below -0.2 are the widest meadows.
+pub fn wooded(x: f32, z: f32) -> f32 {
+    let p = vec3(x, 9.1, z);
+    // None around the chapel, more the farther away.
+    fbm(p * 0.0045, 3) - 0.03 - 30.0 / (30.0 + p.length())
+}
+
+/// Rings of points around the middle.
+const RINGS: usize = 73;
+/// Rings up to here, 1 km away, are meadow; from there on every point counts.
+const DETAILED: usize = 40;
+/// Points of the outer rings.
+const ROUND: usize = 256;
+/// Parts that each ring is cut into, to be culled one by one.
+pub const SECTORS: usize = 16;
+
+/// The ground in patches: smooth, about 24,000 triangles.
+///
+/// The radius of ring i is `(i / 4)^3` metres, so its strip grows from 1 m to 250 m. Inner rings have fewer points: all
+/// count to 256, but several lie in one place, and the triangles between them vanish; so the transitions fit by themselves.
+pub fn ground() -> Vec<Mesh> {
+    let mut patches = Vec::new();
+    for (from, to) in [(0, DETAILED), (DETAILED, 58), (58, RINGS)] {
+        for sector in 0..SECTORS {
+            patches.push(patch(from, to, sector * ROUND / SECTORS));
+        }
+    }
+    patches
+}
+
+/// From ring `from` to ring `to`, from point `start` on.
+fn patch(from: usize, to: usize, start: usize) -> Mesh {
+    const COLUMNS: usize = ROUND / SECTORS + 1;
+    let mut mesh = Mesh::painted(&PAINTS);
+    for ring in from..=to {
+        let step = match ring {
+            0..12 => 8,
+            12..20 => 4,
+            20..DETAILED => 2,
+            _ => 1,
+        };
+        let r = (ring as u32 as f32 * 0.25).powi(3);
+        // Rows go outwards, so columns go clockwise seen from above, from east by south.
+        for k in start..start + COLUMNS {
+            let k = k % ROUND / step * step;
+            let (sin, cos) = (k as u32 as f32 * (TAU / ROUND as u32 as f32)).sin_cos();
+            let (x, z) = (r * cos, r * sin);
+            mesh.points.push(vec3(x, height(x, z), z));
+            mesh.normals.push(normal(x, z, 0.5 + 0.01 * r));
+        }
+    }
+    let kind = if from < DETAILED { paint::GRASS } else { paint::HEIGHTS };
+    mesh.loft(0, COLUMNS, &|_, _| kind);
+    mesh
+}
+
+/// The lake: the plane of its level, as far as the land reaches.
+pub fn lake() -> Mesh {
+    let mut mesh = Mesh::painted(&PAINTS);
+    for i in 0..81u32 {
+        let (x, z) = ((i % 9) as f32 - 4.0, 4.0 - (i / 9) as f32);
+        mesh.points.push(vec3(x, 0.0, z) * (EDGE / 4.0) + WATER * Vec3::Y);
+        mesh.normals.push(Vec3::Y);
+    }
+    mesh.loft(0, 9, &|_, _| paint::WATER);
+    mesh
+}

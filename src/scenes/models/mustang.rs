@@ -1,0 +1,215 @@
+//! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
+
+use crate::raster::form::Body;
+use crate::raster::mesh::{Mesh, Paint};
+use glam::{Mat3, Vec3, vec3};
+
+/// Bare metal, olive drab, the canopy, yellow, white, black.
+pub const PAINTS: [Paint; 6] = [
+    plain(0.4, 0.41, 0.43),
+    plain(0.07, 0.075, 0.04),
+    plain(0.025, 0.035, 0.045),
+    plain(0.75, 0.45, 0.02),
+    plain(0.72, 0.72, 0.7),
+    plain(0.02, 0.02, 0.022),
+];
+
+const fn plain(red: f32, green: f32, blue: f32) -> Paint {
+    Paint { albedo: vec3(red, green, blue), texture: None }
+}
+
+/// From the tail to the nose: 5 cm along, 1 cm across.
+const FUSELAGE: Body = Body {
+    rows: &[
+        [-120, 20, 0, 0, 0],
+        [-119, 20, 13, 4, 0],
+        [-108, 15, 25, 13, 0],
+        [-94, 10, 35, 22, 0],
+        [-82, 5, 43, 30, 0x44],
+        [-74, 1, 48, 34, 0x55],
+        [-66, -1, 52, 37, 0x44],
+        [-58, -3, 56, 40, 0x55],
+        [-50, -4, 60, 42, 0x44],
+        [-42, -5, 62, 44, 0],
+        [-32, -5, 64, 46, 0],
+        [-16, -6, 66, 47, 0],
+        [0, -6, 67, 47, 0],
+        [10, -7, 66, 47, 0x10],
+        [24, -9, 63, 46, 0x10],
+        [40, -10, 58, 45, 0x13],
+        [52, -9, 52, 42, 0x33],
+        [58, -7, 46, 39, 0x33],
+        [60, -6, 42, 37, 0x55],
+        [60, -6, 42, 37, 0x55],
+        [60, 0, 34, 34, 0x33],
+        [60, 0, 34, 34, 0x33],
+        [64, 0, 29, 29, 0x33],
+        [68, 0, 21, 21, 0x33],
+        [71, 0, 10, 10, 0x33],
+        [72, 0, 0, 0, 0],
+    ],
+    sides: 10,
+    half: true,
+    swell: 0.15,
+    taper: 0.08,
+};
+
+/// As the fuselage.
+const CANOPY: Body = Body {
+    rows: &[
+        [-40, 50, 0, 0, 0x22],
+        [-34, 50, 18, 13, 0x22],
+        [-26, 50, 34, 24, 0x22],
+        [-18, 50, 46, 31, 0x22],
+        [-10, 50, 52, 34, 0x22],
+        [-3, 50, 51, 34, 0x22],
+        [1, 50, 46, 33, 0],
+        [3, 50, 43, 32, 0x22],
+        [11, 50, 12, 22, 0],
+        [14, 50, 0, 0, 0],
+    ],
+    sides: 6,
+    half: true,
+    swell: 0.1,
+    taper: 0.1,
+};
+
+/// As the fuselage: the radiator's, under the cockpit.
+const SCOOP: Body = Body {
+    rows: &[
+        [-92, -18, 0, 0, 0],
+        [-76, -36, 20, 14, 0],
+        [-62, -52, 24, 22, 0],
+        [-62, -54, 27, 24, 0],
+        [-48, -66, 32, 29, 0],
+        [-32, -77, 34, 33, 0],
+        [-20, -82, 33, 33, 0],
+        [-12, -82, 30, 31, 0],
+        [-12, -82, 30, 31, 0x55],
+        [-10, -84, 0, 0, 0],
+    ],
+    sides: 6,
+    half: true,
+    swell: 0.35,
+    taper: 0.0,
+};
+
+/// From the root to the tip: 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm across.
+const WING: Body = Body {
+    rows: &[
+        [6, 11, 0, 0, 0],
+        [6, 11, 115, 50, 0],
+        [18, 17, 97, 46, 0],
+        [38, 13, 87, 40, 0x44],
+        [46, 11, 83, 37, 0x55],
+        [54, 9, 79, 34, 0x44],
+        [62, 7, 75, 31, 0x55],
+        [70, 5, 72, 28, 0x44],
+        [78, 4, 68, 26, 0],
+        [104, -2, 55, 18, 0],
+        [111, -3, 50, 14, 0],
+        [113, -3, 38, 5, 0],
+        [113, -3, 0, 0, 0],
+    ],
+    sides: 14,
+    half: false,
+    swell: 0.0,
+    taper: 0.6,
+};
+
+/// As the wing.
+const STABILISER: Body = Body {
+    rows: &[[2, -4, 0, 0, 0], [2, -4, 48, 14, 0], [36, 5, 31, 9, 0], [39, 6, 26, 5, 0], [40, 7, 0, 0, 0]],
+    sides: 10,
+    half: false,
+    swell: 0.0,
+    taper: 0.6,
+};
+
+/// From its foot to its top: 2 cm along, the rest as the wing.
+const FIN: Body = Body {
+    rows: &[
+        [5, 33, 0, 0, 0],
+        [5, 33, 57, 12, 0],
+        [20, -19, 117, 9, 0],
+        [31, 15, 83, 12, 0],
+        [40, 31, 67, 11, 0],
+        [60, 43, 51, 9, 0],
+        [75, 49, 37, 7, 0],
+        [82, 52, 24, 4, 0],
+        [85, 52, 0, 0, 0],
+    ],
+    sides: 6,
+    half: true,
+    swell: 0.0,
+    taper: 0.6,
+};
+
+/// From the hub to the tip: 2 cm along, 1 cm wide.
+const BLADE: Body = Body {
+    rows: &[
+        [12, 0, 0, 0, 0x55],
+        [12, 0, 6, 4, 0x55],
+        [30, 0, 15, 3, 0x55],
+        [60, 0, 17, 2, 0x55],
+        [76, 0, 14, 1, 0x33],
+        [85, 0, 0, 0, 0],
+    ],
+    sides: 6,
+    half: false,
+    swell: 0.0,
+    taper: 0.0,
+};
+
+/// Columns: where a body's x, y and z point to.
+const fn axes(x: Vec3, y: Vec3, z: Vec3) -> Mat3 {
+    Mat3::from_cols(x, y, z)
+}
+
+/// All but the propeller: smooth, about 2,000 triangles. The origin is the centre of mass, on the thrust line.
+pub fn airframe() -> Mesh {
+    const ALONG: Mat3 = axes(vec3(0.01, 0.0, 0.0), vec3(0.0, 0.0, -0.05), vec3(0.0, 0.01, 0.0));
+    // Five degrees of dihedral are a shear.
+    const WINGS: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.004_374, 0.0), vec3(0.0, 0.0, 0.0125));
+    const TAIL: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.0, 0.0), vec3(0.0, 0.0, 0.0125));
+    const UP: Mat3 = axes(vec3(0.004, 0.0, 0.0), vec3(0.0, 0.02, 0.0), vec3(0.0, 0.0, 0.0125));
+    const PARTS: [(&Body, Mat3, Vec3); 6] = [
+        (&FUSELAGE, ALONG, Vec3::ZERO),
+        (&CANOPY, ALONG, Vec3::ZERO),
+        (&SCOOP, ALONG, Vec3::ZERO),
+        (&WING, WINGS, vec3(0.0, -0.52, 0.0)),
+        (&STABILISER, TAIL, vec3(0.0, 0.42, 5.0)),
+        (&FIN, UP, vec3(0.0, 0.0, 5.0)),
+    ];
+    let mut half = Mesh::painted(&PAINTS);
+    for (body, turn, at) in PARTS {
+        half.body(body, &turn, at);
+    }
+    // The exhausts, and three guns.
+    half.block(&Mat3::from_diagonal(vec3(0.05, 0.04, 0.5)), vec3(0.42, 0.14, -1.85), 5);
+    for i in 0..3 {
+        let x = 2.0 + 0.2 * i as f32;
+        half.block(&Mat3::from_diagonal(vec3(0.025, 0.025, 0.2)), vec3(x, -0.35, -1.0), 5);
+    }
+    half.smooth();
+    let mut whole = Mesh::painted(&PAINTS);
+    whole.append(&half, &Mat3::IDENTITY, Vec3::ZERO);
+    whole.append(&half, &Mat3::from_diagonal(vec3(-1.0, 1.0, 1.0)), Vec3::ZERO);
+    whole
+}
+
+/// Where the propeller turns, around z.
+pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
+
+/// Four blades around the origin: smooth.
+pub fn propeller() -> Mesh {
+    let mut mesh = Mesh::painted(&PAINTS);
+    for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
+        let out = vec3(x, y, 0.0);
+        // A pitch of 35 degrees.
+        let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
+        mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO);
+    }
+    mesh.smooth();
+    mesh
+}
