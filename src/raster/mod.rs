@@ -14,12 +14,14 @@ pub mod shade;
 pub mod shadow;
 pub mod triangle;
 
+use crate::block::{BLOCK, load, store};
+use crate::lanes::F;
 use crate::quality::Quality;
 use crate::texture::Texture;
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
 use bins::{Bins, NOTHING};
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use fill::{CENTER, Sample, Visible, fill};
 use glam::{Affine3A, Vec3};
 use light::{Haze, Light, Lit};
@@ -107,14 +109,26 @@ impl Drawn {
             scratch.fragments.finish(simd, &context, tile);
         }
         if let Some(color) = world.background {
-            for pixel in 0..Tile::AREA {
-                let open = 1.0 - tile.coverage[pixel];
-                tile.red[pixel] += color.x * open;
-                tile.green[pixel] += color.y * open;
-                tile.blue[pixel] += color.z * open;
-            }
+            behind(simd, color, tile);
         }
         fragments
+    }
+}
+
+/// Fills what solids left of a tile.
+#[inline(always)]
+fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, light) in planes.into_iter().zip(color.to_array()) {
+        let coverage = tile.coverage.as_chunks::<BLOCK>().0;
+        for (block, coverage) in plane.as_chunks_mut::<BLOCK>().0.iter_mut().zip(coverage) {
+            let mut i = 0;
+            while i < BLOCK / F::<S>::LEN {
+                let open = -load::<S, F<S>>(simd, coverage, i) + 1.0;
+                store(open * light + load::<S, F<S>>(simd, block, i), block, i);
+                i += 1;
+            }
+        }
     }
 }
 
@@ -210,8 +224,7 @@ impl Layer for Drawn {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let samples =
-            with_scratch(|scratch| dispatch!(level, simd => self.draw_in(simd, tile, scratch)));
+        let samples = with_scratch(|scratch| dispatch!(level, simd => self.draw_in(simd, tile, scratch)));
         Stats { samples }
     }
 }

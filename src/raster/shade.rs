@@ -130,7 +130,14 @@ impl Fragments {
 
     /// Adds the triangles of a pixel whose samples show more than one, each where its samples are on the mean.
     #[inline(never)]
-    fn several<S: Simd>(&mut self, simd: S, context: &Context, samples: &Samples, pixel: usize, tile: &mut Tile) -> u64 {
+    fn several<S: Simd>(
+        &mut self,
+        simd: S,
+        context: &Context,
+        samples: &Samples,
+        pixel: usize,
+        tile: &mut Tile,
+    ) -> u64 {
         let visible = samples.visible;
         let mut count = 0;
         for (first, plane) in visible.iter().enumerate() {

@@ -96,7 +96,17 @@ impl DepthMap {
     /// Share of the light, 0 to 1, at texel coordinates (`x`, `y`) of each lane's `view`, for points of that nearness.
     /// Lanes that are not `wanted` get what they get.
     #[inline(always)]
-    pub fn light<S: Simd>(&self, simd: S, view: F<S>, x: F<S>, y: F<S>, near: F<S>, smooth: bool, wanted: M<S>) -> F<S> {
+    #[allow(clippy::too_many_arguments)] // Where to look, and how.
+    pub fn light<S: Simd>(
+        &self,
+        simd: S,
+        view: F<S>,
+        x: F<S>,
+        y: F<S>,
+        near: F<S>,
+        smooth: bool,
+        wanted: M<S>,
+    ) -> F<S> {
         let stride = self.stride();
         let last = self.size as u32 as f32 - 1.0;
         let shift = if smooth { 0.5 } else { 0.0 };

@@ -149,9 +149,10 @@ impl Setup<'_> {
         [h.x, width * h.w - h.x, h.y, height * h.w - h.y, near, guard + x, guard - x, guard + y, guard - y]
     }
 
-    /// A bit for each of those planes that the point lies outside of. What is not a number is outside of all.
+    /// A bit for each of those planes that the point does not lie inside of; what is not a number is inside of none.
     fn outside(&self, h: Vec4) -> u32 {
-        self.distances(h).into_iter().rev().fold(0, |bits, distance| bits << 1 | !(distance >= 0.0) as u32)
+        let inside = self.distances(h).into_iter().rev().fold(0, |bits, distance| bits << 1 | (distance >= 0.0) as u32);
+        inside ^ 0x1ff
     }
 
     /// The part of a triangle before the near plane and within the guard band: Sutherland and Hodgman, "Reentrant
@@ -169,7 +170,8 @@ impl Setup<'_> {
                 }
                 if (d0 >= 0.0) != (d1 >= 0.0) {
                     // From the inner to the outer, so that both faces of an edge get the same point.
-                    let ((a, da), (b, db)) = if d0 >= 0.0 { ((this, d0), (next, d1)) } else { ((next, d1), (this, d0)) };
+                    let ((a, da), (b, db)) =
+                        if d0 >= 0.0 { ((this, d0), (next, d1)) } else { ((next, d1), (this, d0)) };
                     let k = da / (da - db);
                     rest.push(Corner { h: a.h + (b.h - a.h) * k, normal: a.normal + (b.normal - a.normal) * k });
                 }

@@ -3,6 +3,8 @@
 pub mod lumen;
 pub mod models;
 #[cfg(feature = "bench-scenes")]
+pub mod shadow;
+#[cfg(feature = "bench-scenes")]
 pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
@@ -10,9 +12,11 @@ pub mod spheres;
 use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::quality::Quality;
+use crate::raster::{self, Drawn};
 use crate::tile::Picture;
 use crate::trace::Traced;
 use crate::trace::world::World;
+use crate::view::View;
 
 /// A scene of the command line.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +56,13 @@ impl Shot {
     fn traced(&self, world: World, camera: Camera, transfer: Transfer) -> Picture {
         Picture { layers: vec![Box::new(Traced::new(world, camera, self.width, self.height, self.quality))], transfer }
     }
+
+    /// A picture that is all triangles.
+    #[cfg(feature = "bench-scenes")]
+    fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
+        let view = View::new(camera, self.width, self.height);
+        Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
+    }
 }
 
 /// Every scene, the intro's own first.
@@ -63,6 +74,10 @@ pub const ALL: &[Scene] = &[
     spheres::SPHERES_FLAT,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES_GLASS,
+    #[cfg(feature = "bench-scenes")]
+    shadow::SHADOW,
+    #[cfg(feature = "bench-scenes")]
+    shadow::SHADOW_CUBE,
 ];
 
 /// The intro's own show: what plays when no scene is named.
