@@ -1,9 +1,11 @@
 //! The command line: what was asked for, or the one line that says why not.
 
 use crate::number::decimal;
+use paprsek::camera::Eye;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use std::ffi::{OsStr, OsString};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// The text of `--help`.
@@ -17,12 +19,15 @@ paprsek [SCENE] [options]      play the intro (or loop one SCENE) in a window; E
                                fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
                                exact: no shortcut, one sample at each pixel centre;
                                reference: no shortcut, 64 samples a pixel
+  --stereo                     two eyes side by side, the left one's picture at the left, each half as wide
+  --eye-distance M             between the eyes of --stereo, in metres, default 0.065
+  --convergence M              distance of what both eyes see at the same place, in metres, default 5
   --list  --help  --version
 keys: Esc ends, Space pauses, Left and Right seek 5 s
 ";
 
 /// Options that take a value, and what that is; the order is that of [`Args::read`].
-const VALUED: [(&str, &str); 8] = [
+const VALUED: [(&str, &str); 10] = [
     ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
     ("threads", "a number from 1 to 1024"),
     ("at", "seconds, 0 or more"),
@@ -31,10 +36,18 @@ const VALUED: [(&str, &str); 8] = [
     ("fps", "a number above 0, up to 1000"),
     ("quality", "a name"),
     ("capture", "a directory or -"),
+    ("eye-distance", "metres, 0 to 100"),
+    ("convergence", "metres, 0.01 to 10000"),
 ];
 
 /// Options that take none, in the same way.
-const FLAGS: [&str; 5] = ["help", "version", "list", "bench", "json"];
+const FLAGS: [&str; 6] = ["help", "version", "list", "bench", "json", "stereo"];
+
+/// Metres between the eyes: the mean of adults is 0.063 (Dodgson, "Variation and extrema of human interpupillary
+/// distance", 2004).
+const EYE_DISTANCE: f64 = 0.065;
+/// Metres to what both eyes see at the same place: the show's subjects are at 3 to 10.
+const CONVERGENCE: f64 = 5.0;
 
 /// Longest side of a picture, pixels.
 const MAX_SIDE: usize = 16384;
@@ -89,6 +102,8 @@ pub struct Args {
     pub when: When,
     /// Frames per second of a capture.
     pub fps: f64,
+    /// Who looks, from left to right: one eye, or two.
+    pub eyes: Vec<Eye>,
     /// Speed against error.
     pub quality: Quality,
     /// What `quality` is called.
@@ -107,20 +122,28 @@ impl Args {
     }
 
     fn read(words: &Words) -> Result<Args, String> {
-        let [size, threads, at, from, to, fps, quality, capture] = &words.values;
-        let [help, version, list, bench, json] = words.flags;
+        let [size, threads, at, from, to, fps, quality, capture, distance, convergence] = &words.values;
+        let [help, version, list, bench, json, stereo] = words.flags;
+        let seconds = |option, value| number(option, value, 0.0..=f64::MAX);
         let mut args = Args {
             mode: Mode::Play,
             scene: words.scene.as_deref().map(scene).transpose()?,
             size: size.as_deref().map_or(Ok((1280, 720)), self::size)?,
             threads: threads.as_deref().map_or(Ok(0), self::threads)?,
             when: when(seconds(2, at)?, seconds(3, from)?, seconds(4, to)?)?,
-            fps: fps.as_deref().map_or(Ok(30.0), rate)?,
+            fps: number(5, fps, f64::MIN_POSITIVE..=1000.0)?.unwrap_or(30.0),
+            eyes: vec![Eye::MIDDLE],
             quality: Quality::DEFAULT,
             quality_name: "default",
         };
         if let Some(name) = quality {
             (args.quality_name, args.quality) = self::quality(name)?;
+        }
+        let apart = number(8, distance, 0.0..=100.0)?;
+        let agree = number(9, convergence, 0.01..=10000.0)?;
+        if stereo {
+            let [apart, agree] = [apart.unwrap_or(EYE_DISTANCE), agree.unwrap_or(CONVERGENCE)];
+            args.eyes = Eye::pair(apart as f32, agree as f32).to_vec();
         }
         args.mode = match capture {
             _ if help => Mode::Help,
@@ -128,6 +151,10 @@ impl Args {
             _ if list => Mode::List,
             Some(_) if bench => return Err("--bench and --capture: choose one".into()),
             _ if json && !bench => return Err("--json goes with --bench".into()),
+            _ if !stereo && apart.or(agree).is_some() => {
+                return Err("--eye-distance and --convergence go with --stereo".into());
+            }
+            _ if args.size.0 < args.eyes.len() => return Err("--stereo needs a width of 2 or more".into()),
             Some(target) if target == "-" => Mode::Capture(None),
             Some(directory) => Mode::Capture(Some(directory.into())),
             None if bench => Mode::Bench { json },
@@ -260,13 +287,11 @@ fn threads(value: &OsStr) -> Result<usize, String> {
     natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(1, value))
 }
 
-fn seconds(option: usize, value: &Option<OsString>) -> Result<Option<f64>, String> {
-    let read = |value: &OsString| decimal(text(value)).ok_or_else(|| needs(option, value));
+/// The decimal number of an option, where it was given.
+fn number(option: usize, value: &Option<OsString>, range: RangeInclusive<f64>) -> Result<Option<f64>, String> {
+    let read =
+        |value: &OsString| decimal(text(value)).filter(|n| range.contains(n)).ok_or_else(|| needs(option, value));
     value.as_ref().map(read).transpose()
-}
-
-fn rate(value: &OsStr) -> Result<f64, String> {
-    decimal(text(value)).filter(|fps| *fps > 0.0 && *fps <= 1000.0).ok_or_else(|| needs(5, value))
 }
 
 /// Digits only: the standard parser would take a leading plus sign.

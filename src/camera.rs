@@ -1,4 +1,4 @@
-//! The pinhole camera of the bench scenes: right-handed, y up.
+//! The pinhole camera of the bench scenes, right-handed, y up; and the eyes of a stereo pair beside it.
 
 use glam::Vec3;
 
@@ -15,6 +15,26 @@ pub struct Camera {
     pub up: Vec3,
     /// How far the lens is shifted to the right, halves of the picture's height: 0 but for the two eyes of a stereo pair.
     pub shift: f32,
+}
+
+/// An eye beside a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eye {
+    /// Metres to the right of the camera.
+    pub offset: f32,
+    /// Metres along the view axis, above 0, at which every eye sees a thing at the same place of its picture.
+    pub convergence: f32,
+}
+
+impl Eye {
+    /// The camera's own place.
+    pub const MIDDLE: Eye = Eye { offset: 0.0, convergence: 1.0 };
+
+    /// The left and the right eye, `distance` metres apart.
+    pub const fn pair(distance: f32, convergence: f32) -> [Eye; 2] {
+        let offset = 0.5 * distance;
+        [Eye { offset: -offset, convergence }, Eye { offset, convergence }]
+    }
 }
 
 impl Camera {
@@ -36,5 +56,12 @@ impl Camera {
             up: (up * cos - right * sin) * scale,
             shift: 0.0,
         }
+    }
+
+    /// The camera moved to an eye: its axis stays parallel, since axes that meet would lift one side of what the left
+    /// eye sees and the other of what the right one does; the lens is shifted instead. The same camera for [`Eye::MIDDLE`].
+    pub fn at(self, eye: Eye) -> Camera {
+        let metre = eye.offset / self.right.length();
+        Camera { eye: self.eye + self.right * metre, shift: self.shift - metre / eye.convergence, ..self }
     }
 }

@@ -4,7 +4,7 @@ pub mod lumen;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
 use crate::tile::Picture;
@@ -42,12 +42,20 @@ pub struct Shot {
     pub height: usize,
     /// Speed against error.
     pub quality: Quality,
+    /// Who looks: every scene passes its camera through [`Shot::camera`].
+    pub eye: Eye,
 }
 
 impl Shot {
+    /// The scene's camera, moved to the eye that looks.
+    fn camera(&self, camera: Camera) -> Camera {
+        camera.at(self.eye)
+    }
+
     /// A picture that is all ray tracing.
     fn traced(&self, world: World, camera: Camera, transfer: Transfer) -> Picture {
-        Picture { layers: vec![Box::new(Traced::new(world, camera, self.width, self.height, self.quality))], transfer }
+        let traced = Traced::new(world, self.camera(camera), self.width, self.height, self.quality);
+        Picture { layers: vec![Box::new(traced)], transfer }
     }
 }
 
