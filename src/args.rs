@@ -1,11 +1,10 @@
 //! The command line: what was asked for, or the one line that says why not.
 
 use crate::number::decimal;
-use paprsek::camera::Eye;
+use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use std::ffi::{OsStr, OsString};
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// The text of `--help`.
@@ -19,26 +18,32 @@ paprsek [SCENE] [options]      play the intro (or loop one SCENE) in a window; E
                                fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
                                exact: no shortcut, one sample at each pixel centre;
                                reference: no shortcut, 64 samples a pixel
-  --stereo                     two eyes side by side, the left one's picture at the left, each half as wide
-  --eye-distance M             between the eyes of --stereo, in metres, default 0.065
-  --convergence M              distance of what both eyes see at the same place, in metres, default 5
+  --stereo                     two eyes side by side; --eye-distance METRES, default 0.065; --convergence METRES, default 5
   --list  --help  --version
 keys: Esc ends, Space pauses, Left and Right seek 5 s
 ";
 
-/// Options that take a value, and what that is; the order is that of [`Args::read`].
+/// Options that take a value, and what that is: first those of [`RANGES`], then the others; the order is that of
+/// [`Args::read`].
 const VALUED: [(&str, &str); 10] = [
-    ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
-    ("threads", "a number from 1 to 1024"),
     ("at", "seconds, 0 or more"),
     ("from", "seconds, 0 or more"),
     ("to", "seconds, 0 or more"),
     ("fps", "a number above 0, up to 1000"),
-    ("quality", "a name"),
-    ("capture", "a directory or -"),
     ("eye-distance", "metres, 0 to 100"),
     ("convergence", "metres, 0.01 to 10000"),
+    ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
+    ("threads", "a number from 1 to 1024"),
+    ("quality", "a name"),
+    ("capture", "a directory or -"),
 ];
+/// Places of the options in [`VALUED`] that have functions of their own.
+const SIZE: usize = 6;
+const THREADS: usize = 7;
+
+/// The least and the largest value of an option that takes a decimal number.
+const RANGES: [(f64, f64); 6] =
+    [(0.0, f64::MAX), (0.0, f64::MAX), (0.0, f64::MAX), (f64::MIN_POSITIVE, 1000.0), (0.0, 100.0), (0.01, 10000.0)];
 
 /// Options that take none, in the same way.
 const FLAGS: [&str; 6] = ["help", "version", "list", "bench", "json", "stereo"];
@@ -102,8 +107,8 @@ pub struct Args {
     pub when: When,
     /// Frames per second of a capture.
     pub fps: f64,
-    /// Who looks, from left to right: one eye, or two.
-    pub eyes: Vec<Eye>,
+    /// Two eyes instead of one.
+    pub stereo: Option<Stereo>,
     /// Speed against error.
     pub quality: Quality,
     /// What `quality` is called.
@@ -122,28 +127,25 @@ impl Args {
     }
 
     fn read(words: &Words) -> Result<Args, String> {
-        let [size, threads, at, from, to, fps, quality, capture, distance, convergence] = &words.values;
+        let [.., size, threads, quality, capture] = &words.values;
         let [help, version, list, bench, json, stereo] = words.flags;
-        let seconds = |option, value| number(option, value, 0.0..=f64::MAX);
+        let [at, from, to, fps, apart, agree] = words.numbers()?;
         let mut args = Args {
             mode: Mode::Play,
             scene: words.scene.as_deref().map(scene).transpose()?,
             size: size.as_deref().map_or(Ok((1280, 720)), self::size)?,
             threads: threads.as_deref().map_or(Ok(0), self::threads)?,
-            when: when(seconds(2, at)?, seconds(3, from)?, seconds(4, to)?)?,
-            fps: number(5, fps, f64::MIN_POSITIVE..=1000.0)?.unwrap_or(30.0),
-            eyes: vec![Eye::MIDDLE],
+            when: when(at, from, to)?,
+            fps: fps.unwrap_or(30.0),
+            stereo: stereo.then_some(Stereo {
+                eye_distance: apart.unwrap_or(EYE_DISTANCE) as f32,
+                convergence: agree.unwrap_or(CONVERGENCE) as f32,
+            }),
             quality: Quality::DEFAULT,
             quality_name: "default",
         };
         if let Some(name) = quality {
             (args.quality_name, args.quality) = self::quality(name)?;
-        }
-        let apart = number(8, distance, 0.0..=100.0)?;
-        let agree = number(9, convergence, 0.01..=10000.0)?;
-        if stereo {
-            let [apart, agree] = [apart.unwrap_or(EYE_DISTANCE), agree.unwrap_or(CONVERGENCE)];
-            args.eyes = Eye::pair(apart as f32, agree as f32).to_vec();
         }
         args.mode = match capture {
             _ if help => Mode::Help,
@@ -154,7 +156,7 @@ impl Args {
             _ if !stereo && apart.or(agree).is_some() => {
                 return Err("--eye-distance and --convergence go with --stereo".into());
             }
-            _ if args.size.0 < args.eyes.len() => return Err("--stereo needs a width of 2 or more".into()),
+            _ if stereo && args.size.0 < 2 => return Err("--stereo needs a width of 2 or more".into()),
             Some(target) if target == "-" => Mode::Capture(None),
             Some(directory) => Mode::Capture(Some(directory.into())),
             None if bench => Mode::Bench { json },
@@ -248,6 +250,18 @@ impl Words {
         }
         Ok(sorted)
     }
+
+    /// The decimal numbers, where they were given.
+    fn numbers(&self) -> Result<[Option<f64>; RANGES.len()], String> {
+        let mut numbers = [None; RANGES.len()];
+        for (option, (least, most)) in RANGES.iter().enumerate() {
+            if let Some(value) = &self.values[option] {
+                let number = decimal(text(value)).filter(|n| n >= least && n <= most);
+                numbers[option] = Some(number.ok_or_else(|| needs(option, value))?);
+            }
+        }
+        Ok(numbers)
+    }
 }
 
 /// The text of a word. What is not Unicode names nothing, and is quoted as `?`.
@@ -280,18 +294,11 @@ fn quality(name: &OsStr) -> Result<(&'static str, Quality), String> {
 fn size(value: &OsStr) -> Result<(usize, usize), String> {
     let side = |side: &str| natural(side).filter(|n| (1..=MAX_SIDE).contains(n));
     let size = text(value).split_once('x').and_then(|(width, height)| side(width).zip(side(height)));
-    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| needs(0, value))
+    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| needs(SIZE, value))
 }
 
 fn threads(value: &OsStr) -> Result<usize, String> {
-    natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(1, value))
-}
-
-/// The decimal number of an option, where it was given.
-fn number(option: usize, value: &Option<OsString>, range: RangeInclusive<f64>) -> Result<Option<f64>, String> {
-    let read =
-        |value: &OsString| decimal(text(value)).filter(|n| range.contains(n)).ok_or_else(|| needs(option, value));
-    value.as_ref().map(read).transpose()
+    natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(THREADS, value))
 }
 
 /// Digits only: the standard parser would take a leading plus sign.

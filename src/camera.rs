@@ -29,11 +29,21 @@ pub struct Eye {
 impl Eye {
     /// The camera's own place.
     pub const MIDDLE: Eye = Eye { offset: 0.0, convergence: 1.0 };
+}
 
-    /// The left and the right eye, `distance` metres apart.
-    pub const fn pair(distance: f32, convergence: f32) -> [Eye; 2] {
-        let offset = 0.5 * distance;
-        [Eye { offset: -offset, convergence }, Eye { offset, convergence }]
+/// Two eyes beside a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stereo {
+    /// Metres between the eyes, 0 or more.
+    pub eye_distance: f32,
+    /// As in [`Eye`].
+    pub convergence: f32,
+}
+
+impl Stereo {
+    /// The left eye for a `side` of -1/2, the right one for 1/2.
+    pub fn eye(self, side: f32) -> Eye {
+        Eye { offset: side * self.eye_distance, convergence: self.convergence }
     }
 }
 

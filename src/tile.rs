@@ -1,6 +1,6 @@
 //! How a frame is cut into tiles and run.
 
-use crate::camera::Eye;
+use crate::camera::{Eye, Stereo};
 use crate::color::{self, Transfer};
 use crate::pool::Pool;
 use crate::quality::Quality;
@@ -217,56 +217,57 @@ impl Renderer {
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
-        self.render_eyes(scene, time, quality, &[Eye::MIDDLE], frame)
+        self.render_eyes(scene, time, quality, None, frame)
     }
 
-    /// The same with a picture for each eye, side by side, as [`Renderer::draw_all`] lays them out.
+    /// The same with a picture for each eye, side by side and equally wide: columns that are left over are black, at the
+    /// right. A picture has the pixels that it has alone, as tiles and dither start at its own edge.
     pub fn render_eyes(
         &mut self,
         scene: &Scene,
         time: f64,
         quality: &Quality,
-        eyes: &[Eye],
+        stereo: Option<Stereo>,
         frame: &mut Frame,
     ) -> Stats {
-        let (width, height, quality) = (frame.width / eyes.len().max(1), frame.height, *quality);
-        let picture = |&eye: &Eye| scene.picture(&Shot { time, width, height, quality, eye });
-        self.draw_all(eyes.iter().map(picture).collect(), frame)
+        let (eyes, pair) = stereo.map_or((1, Stereo { eye_distance: 0.0, convergence: 1.0 }), |pair| (2, pair));
+        let (width, height, quality) = (frame.width / eyes, frame.height, *quality);
+        if width * eyes < frame.width {
+            frame.pixels.fill(0);
+        }
+        let mut samples = 0;
+        for number in 0..eyes {
+            let eye = pair.eye(number as u32 as f32 - 0.5);
+            let picture = scene.picture(&Shot { time, width, height, quality, eye });
+            samples += self.draw_at(picture, number * width, width, frame).samples;
+        }
+        Stats { samples }
     }
 
     /// Draws a picture that was made for a frame of that size.
     pub fn draw(&mut self, picture: Picture, frame: &mut Frame) -> Stats {
-        self.draw_all(vec![picture], frame)
+        self.draw_at(picture, 0, frame.width, frame)
     }
 
-    /// Draws pictures side by side, each made for its share of the frame's width. All are equally wide: columns that are
-    /// left over are black, at the right. Tiles and dither start at each picture's own edge, so a picture has the pixels
-    /// that it has alone.
-    pub fn draw_all(&mut self, mut pictures: Vec<Picture>, frame: &mut Frame) -> Stats {
-        for layer in pictures.iter_mut().flat_map(|picture| &mut picture.layers) {
+    /// Draws a picture that was made for that many columns of the frame, from column `x` on.
+    fn draw_at(&mut self, mut picture: Picture, x: usize, width: usize, frame: &mut Frame) -> Stats {
+        for layer in &mut picture.layers {
             layer.prepare(&self.crew);
         }
         let (level, stride, height) = (self.crew.level, frame.width, frame.height);
-        let width = stride / pictures.len().max(1);
-        if width * pictures.len() < stride {
-            frame.pixels.fill(0);
-        }
         let columns = width.div_ceil(Tile::SIZE);
         // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
         // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
         let bands = frame.pixels.chunks_mut((stride * Tile::SIZE).max(1)).enumerate();
         let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
-            for (number, picture) in pictures.iter().enumerate() {
-                for column in 0..columns {
-                    tile.place(column, row, width, height);
-                    for (index, layer) in picture.layers.iter().enumerate() {
-                        tile.solids_matter = index + 1 < picture.layers.len();
-                        samples += layer.draw(level, tile).samples;
-                    }
-                    let pixels = &mut pixels[number * width..];
-                    dispatch!(level, simd => develop(simd, picture.transfer, tile, stride, pixels));
+            for column in 0..columns {
+                tile.place(column, row, width, height);
+                for (index, layer) in picture.layers.iter().enumerate() {
+                    tile.solids_matter = index + 1 < picture.layers.len();
+                    samples += layer.draw(level, tile).samples;
                 }
+                dispatch!(level, simd => develop(simd, picture.transfer, tile, stride, &mut pixels[x..]));
             }
             samples
         };
