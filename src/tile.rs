@@ -1,6 +1,6 @@
 //! How a frame is cut into tiles and run.
 
-use crate::camera::{Eye, Stereo};
+use crate::camera::Stereo;
 use crate::color::{self, Transfer};
 use crate::pool::Pool;
 use crate::quality::Quality;

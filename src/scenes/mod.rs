@@ -1,5 +1,6 @@
 //! One file a scene; only scenes know more than one renderer.
 
+pub mod intro;
 pub mod lumen;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
@@ -61,6 +62,7 @@ impl Shot {
 
 /// Every scene, the intro's own first.
 pub const ALL: &[Scene] = &[
+    intro::INTRO,
     lumen::LUMEN,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
