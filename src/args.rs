@@ -41,7 +41,8 @@ const VALUED: [(&str, &str); 10] = [
 const SIZE: usize = 6;
 const THREADS: usize = 7;
 
-/// The least and the largest value of an option that takes a decimal number.
+/// The least and the largest value of each option that takes a decimal number. A lens shifted much farther than its
+/// picture is wide, or eyes farther apart than a street, show nothing.
 const RANGES: [(f64, f64); 6] =
     [(0.0, f64::MAX), (0.0, f64::MAX), (0.0, f64::MAX), (f64::MIN_POSITIVE, 1000.0), (0.0, 100.0), (0.01, 10000.0)];
 

@@ -68,8 +68,10 @@ impl Camera {
         }
     }
 
-    /// The camera moved to an eye: its axis stays parallel, since axes that meet would lift one side of what the left
-    /// eye sees and the other of what the right one does; the lens is shifted instead. The same camera for [`Eye::MIDDLE`].
+    /// The camera moved to an eye; itself for [`Eye::MIDDLE`].
+    ///
+    /// The axis stays parallel and the lens is shifted: of axes that meet each eye would see the same point at another
+    /// height.
     pub fn at(self, eye: Eye) -> Camera {
         let metre = eye.offset / self.right.length();
         Camera { eye: self.eye + self.right * metre, shift: self.shift - metre / eye.convergence, ..self }
