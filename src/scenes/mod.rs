@@ -49,7 +49,7 @@ pub struct Shot {
 
 impl Shot {
     /// The scene's camera, moved to the eye that looks.
-    fn camera(&self, camera: Camera) -> Camera {
+    pub fn camera(&self, camera: Camera) -> Camera {
         camera.at(self.eye)
     }
 
