@@ -209,7 +209,7 @@ fn without_a_scene_the_show_plays() {
 
 #[test]
 fn two_eyes_see_what_their_distance_lets_them() {
-    let words = ["spheres", "--at", "2", "--size", "64x36", "--stereo"];
+    let words = ["lumen", "--at", "15", "--size", "64x36", "--stereo"];
     let usual = capture(&words);
     // The eyes of the help's defaults.
     assert_eq!(usual, capture(&[&words[..], &["--eye-distance", "0.065", "--convergence", "5"]].concat()));
