@@ -1,5 +1,6 @@
 //! One file a scene; only scenes know more than one renderer.
 
+pub mod intro;
 pub mod lumen;
 pub mod models;
 #[cfg(feature = "bench-scenes")]
@@ -9,7 +10,7 @@ pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
 use crate::raster::{self, Drawn};
@@ -49,12 +50,20 @@ pub struct Shot {
     pub height: usize,
     /// Speed against error.
     pub quality: Quality,
+    /// Who looks: every scene passes its camera through [`Shot::camera`].
+    pub eye: Eye,
 }
 
 impl Shot {
+    /// The scene's camera, moved to the eye that looks.
+    pub fn camera(&self, camera: Camera) -> Camera {
+        camera.at(self.eye)
+    }
+
     /// A picture that is all ray tracing.
     fn traced(&self, world: World, camera: Camera, transfer: Transfer) -> Picture {
-        Picture { layers: vec![Box::new(Traced::new(world, camera, self.width, self.height, self.quality))], transfer }
+        let traced = Traced::new(world, self.camera(camera), self.width, self.height, self.quality);
+        Picture { layers: vec![Box::new(traced)], transfer }
     }
 
     /// A picture that is all triangles.
@@ -67,6 +76,7 @@ impl Shot {
 
 /// Every scene, the intro's own first.
 pub const ALL: &[Scene] = &[
+    intro::INTRO,
     lumen::LUMEN,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
