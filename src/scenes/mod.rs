@@ -69,7 +69,7 @@ impl Shot {
     /// A picture that is all triangles.
     #[cfg(feature = "bench-scenes")]
     fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-        let view = View::new(camera, self.width, self.height);
+        let view = View::new(self.camera(camera), self.width, self.height);
         Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
     }
 }
