@@ -6,12 +6,14 @@
 
 pub mod bins;
 pub mod fill;
+pub mod fit;
 pub mod form;
 pub mod light;
 pub mod mesh;
 pub mod project;
 pub mod shade;
 pub mod shadow;
+pub mod traced;
 pub mod triangle;
 
 use crate::block::{BLOCK, load, store};
@@ -24,12 +26,13 @@ use bins::{Bins, NOTHING};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use fill::{CENTER, Sample, Visible, fill};
 use glam::{Affine3A, Vec3};
-use light::{Haze, Light, Lit};
+use light::{Haze, Light, Lit, Seen};
 use mesh::Mesh;
 use project::Projection;
 use shade::{Context, Fragments, Samples};
 use shadow::{DepthMap, Kept, Key};
 use std::sync::{Arc, Mutex, PoisonError};
+use traced::Casters;
 use triangle::{Piece, SUB, Setup};
 
 /// A mesh in the world.
@@ -210,16 +213,20 @@ impl Layer for Drawn {
         (self.pieces, self.bins) = rest.next().unwrap_or_default();
         self.lights.clear();
         for (light, kept) in self.world.lights.iter().zip(kept) {
-            let map = kept.map(|kept| match kept {
-                Kept::Same(map) => map,
+            let seen = kept.map(|kept| match kept {
+                Kept::Same(map) => Seen::Mapped(map),
                 Kept::Other(mut map, key) => {
-                    let views: Vec<_> = rest.by_ref().take(key.plan.views.len()).collect();
-                    map.resize(key.plan.views[0].size[0] as usize, views.len());
+                    let plan = &key.plan;
+                    let views: Vec<_> = rest.by_ref().take(plan.views.len()).collect();
+                    if plan.traced {
+                        return Seen::Traced(Casters { views });
+                    }
+                    map.resize(plan.views[0].size[0] as usize, views.len());
                     draw_map(crew, &mut map, &views);
-                    shadow::keep(key, map)
+                    Seen::Mapped(shadow::keep(key, map))
                 }
             });
-            self.lights.push(Lit::new(light.clone(), map));
+            self.lights.push(Lit::new(light.clone(), seen));
         }
     }
 

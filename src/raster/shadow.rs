@@ -23,6 +23,13 @@ pub struct Bias {
     pub normal: f32,
 }
 
+impl Bias {
+    /// That share of it.
+    pub fn times(self, share: f32) -> Bias {
+        Bias { constant: self.constant * share, slope: self.slope * share, normal: self.normal * share }
+    }
+}
+
 /// What a light is to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -32,6 +39,8 @@ pub struct Plan {
     pub bias: Bias,
     /// Are the faces that look away from the light drawn, instead of those that look at it?
     pub back_faces: bool,
+    /// Are shadows traced, without a map? The views then only sort triangles, and the bias is a part of what it says.
+    pub traced: bool,
     /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike.
     pub smooth: bool,
 }
