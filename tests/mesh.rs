@@ -157,7 +157,6 @@ fn the_mustang_is_closed_and_turned_outwards() {
             assert_eq!(euler(&mesh, &part), 2, "{name} at {at}");
             assert!(volume(&mesh, &part) > 0.0, "{name} at {at} is turned inside out");
         }
-        assert!(worst_lean(&mesh) > LEAN, "{name}: a normal leans away by {}", worst_lean(&mesh));
     }
 }
 
@@ -165,6 +164,7 @@ fn the_mustang_is_closed_and_turned_outwards() {
 fn the_mustang_has_its_size() {
     let mesh = mustang::airframe();
     assert!((1900..=2400).contains(&mesh.faces.len()), "{} triangles", mesh.faces.len());
+    assert!(worst_lean(&mesh) > LEAN, "a normal leans away by {}", worst_lean(&mesh));
     let low = mesh.points.iter().copied().reduce(Vec3::min).unwrap();
     let high = mesh.points.iter().copied().reduce(Vec3::max).unwrap();
     let size = high - low;

@@ -208,7 +208,7 @@ pub fn airframe() -> Mesh {
 /// Where the propeller turns, around z.
 pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
 
-/// Four blades around the origin: smooth.
+/// Four blades around the origin, flat.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
@@ -217,6 +217,5 @@ pub fn propeller() -> Mesh {
         let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
         mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO);
     }
-    mesh.smooth();
     mesh
 }
