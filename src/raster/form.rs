@@ -133,15 +133,18 @@ impl Mesh {
         }
     }
 
-    /// Normals of a smooth surface: of the faces around each point, by area.
+    /// Normals of a smooth surface: of the faces around each point, by the sines of their angles there.
     ///
-    /// A point on the plane x = 0 is taken to have a mirror image on the other side.
+    /// Weighed by area, the faces of long strips would lean to the side that their diagonals take. A point on the
+    /// plane x = 0 is taken to have a mirror image on the other side.
+    #[inline(never)]
     pub fn smooth(&mut self) {
         self.normals = vec![Vec3::ZERO; self.points.len()];
         for face in &self.faces {
-            let [a, b, c] = face.corners.map(|i| self.points[i as usize]);
-            for i in face.corners {
-                self.normals[i as usize] += (b - a).cross(c - a);
+            for k in 0..3 {
+                let [a, b, c] = [k, k + 1, k + 2].map(|i| face.corners[i % 3] as usize);
+                let side = |i: usize| (self.points[i] - self.points[a]).normalize();
+                self.normals[a] += side(b).cross(side(c));
             }
         }
         for (n, p) in self.normals.iter_mut().zip(&self.points) {

@@ -40,7 +40,7 @@ pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
 pub fn wooded(x: f32, z: f32) -> f32 {
     let p = vec3(x, 9.1, z);
     // None around the chapel, more the farther away.
-    fbm(p * 0.0045, 3) - 0.03 - 30.0 / (30.0 + p.length())
+    fbm(p * 0.006, 3) - 0.03 - 12.0 / (12.0 + p.length())
 }
 
 /// Rings of points around the middle.

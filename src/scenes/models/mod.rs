@@ -49,7 +49,7 @@ const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
 
 /// The textures that they name: grass, heights, bark, leaves, masonry, tiles. All but the second vary about 1.
 pub const TEXTURES: [Texture; 6] = [
-    clouds(vec3(0.1, 0.35, 0.5), vec3(1.9, 1.65, 1.5), 0.04, 6),
+    clouds(vec3(-0.5, 0.0, 0.2), vec3(2.5, 2.0, 1.8), 0.09, 6),
     // The sine rises from -50 m to 1250 m.
     layers(
         Palette::Ramp([MEADOW, vec3(0.045, 0.075, 0.025), vec3(0.2, 0.185, 0.17), vec3(0.8, 0.83, 0.88)]),

@@ -79,8 +79,7 @@ const SCOOP: Body = Body {
     rows: &[
         [-92, -18, 0, 0, 0],
         [-76, -36, 20, 14, 0],
-        [-62, -52, 24, 22, 0],
-        [-62, -54, 27, 24, 0],
+        [-62, -53, 26, 23, 0],
         [-48, -66, 32, 29, 0],
         [-32, -77, 34, 33, 0],
         [-20, -82, 33, 33, 0],
@@ -119,7 +118,14 @@ const WING: Body = Body {
 
 /// As the wing.
 const STABILISER: Body = Body {
-    rows: &[[2, -4, 0, 0, 0], [2, -4, 48, 14, 0], [36, 5, 31, 9, 0], [39, 6, 26, 5, 0], [40, 7, 0, 0, 0]],
+    rows: &[
+        [2, -4, 0, 0, 0],
+        [2, -4, 48, 14, 0],
+        [38, 5, 30, 10, 0],
+        [40, 6, 27, 7, 0],
+        [40, 6, 27, 7, 0],
+        [40, 6, 0, 0, 0],
+    ],
     sides: 10,
     half: false,
     swell: 0.0,
@@ -131,6 +137,7 @@ const FIN: Body = Body {
     rows: &[
         [5, 33, 0, 0, 0],
         [5, 33, 57, 12, 0],
+        [20, -19, 117, 9, 0],
         [20, -19, 117, 9, 0],
         [31, 15, 83, 12, 0],
         [40, 31, 67, 11, 0],
@@ -201,7 +208,7 @@ pub fn airframe() -> Mesh {
 /// Where the propeller turns, around z.
 pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
 
-/// Four blades around the origin: smooth.
+/// Four blades around the origin, flat.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
@@ -210,6 +217,5 @@ pub fn propeller() -> Mesh {
         let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
         mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO);
     }
-    mesh.smooth();
     mesh
 }

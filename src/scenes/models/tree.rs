@@ -77,13 +77,16 @@ pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
         mesh.body(&FAR_CROWN, &turn(tree.height * 0.45), tree.foot + Vec3::Y * (0.55 * tree.height));
     } else {
         mesh.body(&TRUNK, &turn(tree.height), tree.foot);
-        for i in 0..3 {
-            let (sin, cos) = (TAU * (i as f32 / 3.0 + rnd(STREAM, tree.seed, i))).sin_cos();
-            let middle = vec3(0.17 * sin, [0.5, 0.58, 0.7][i as usize], 0.17 * cos) * tree.height;
-            mesh.body(&CROWN, &turn(tree.height * 0.3), tree.foot + middle);
+        for i in 0..4u32 {
+            // Three around, and one on top.
+            let k = i as f32;
+            let (sin, cos) = (TAU * (k / 3.0 + 0.2 * rnd(STREAM, tree.seed, i))).sin_cos();
+            let out = if i < 3 { 0.2 } else { 0.04 };
+            let middle = vec3(out * sin, 0.46 + 0.09 * k, out * cos) * tree.height;
+            mesh.body(&CROWN, &turn(tree.height * 0.26), tree.foot + middle);
         }
     }
-    mesh.weather(first, 0.07 * tree.height, 4.0 / tree.height);
+    mesh.weather(first, 0.08 * tree.height, 4.0 / tree.height);
     for face in &mut mesh.faces[new..] {
         if face.paint != paint::BARK {
             face.paint += (tree.seed % 3) as u16;
@@ -93,13 +96,13 @@ pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
 
 /// The trees around the middle: in groves, and a few alone.
 pub fn trees() -> Vec<Tree> {
-    const TRIED: u32 = 6000;
+    const TRIED: u32 = 4500;
     let mut trees = Vec::new();
     for seed in 0..TRIED {
         let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|k| rnd(STREAM, seed, k));
         // Denser near the middle, where they count.
         let (sin, cos) = (TAU * a).sin_cos();
-        let r = 24.0 + 800.0 * b * b.sqrt();
+        let r = 24.0 + 700.0 * b * b.sqrt();
         let (x, z) = (r * cos, r * sin);
         let y = height(x, z);
         let wanted = wooded(x, z) > 0.1 * c || d < 0.008;
@@ -124,7 +127,7 @@ pub fn woods(trees: &[Tree]) -> Vec<Mesh> {
     for i in 0..2 * SECTORS {
         let mut mesh = Mesh::painted(&PAINTS);
         for tree in trees {
-            let far = tree.foot.length_squared() > 200.0 * 200.0;
+            let far = tree.foot.length_squared() > 140.0 * 140.0;
             let sector = (tree.foot.z.atan2(tree.foot.x) / TAU * SECTORS as f32 + SECTORS as f32) as u32 % SECTORS;
             if sector + SECTORS * far as u32 == i {
                 grow(&mut mesh, tree, far);
