@@ -46,6 +46,21 @@ pub struct Haze {
     pub glow: (Vec3, Vec3),
 }
 
+impl Haze {
+    /// Its light in a direction (unit), and that of the sun's image where a mirror shows it.
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> (V3<S>, V3<S>) {
+        let mut powers = [d.dot1(self.glow.0).max(F::<S>::splat(simd, 0.0)); 2];
+        for (power, squarings) in powers.iter_mut().zip([3, 9]) {
+            for _ in 0..squarings {
+                *power *= *power;
+            }
+        }
+        let glow = V3::splat(simd, self.glow.1);
+        (V3::splat(simd, self.color) + glow * Lane(powers[0]), glow * Lane(powers[1] * 8.0))
+    }
+}
+
 /// Texels along a map's border in which it is not looked up.
 const MARGIN: f32 = 2.0;
 

@@ -57,8 +57,10 @@ pub struct World {
     pub lights: Vec<Light>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
-    /// The haze before what is far.
+    /// The haze before what is far, and the sky at the horizon that gloss mirrors.
     pub haze: Haze,
+    /// The sky straight above, for gloss.
+    pub zenith: Vec3,
     /// What is behind all, if the raster is to fill it.
     pub background: Option<Vec3>,
 }

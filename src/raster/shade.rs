@@ -194,6 +194,9 @@ impl Fragments {
     }
 }
 
+/// How fast the mirrored sky goes from the horizon's colour to the zenith's: half of it in 1 / this of the sine.
+const RISE: f32 = 4.0;
+
 /// A plane at offsets from its anchor, where `here`.
 #[inline(always)]
 fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
@@ -211,7 +214,8 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
     queue.x[count..BLOCK].fill(x);
     queue.y[count..BLOCK].fill(y);
     let (mut point, mut normal, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let (mut depth, mut nearness) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let (mut depth, mut nearness, mut glosses) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+    let mut glossy = false;
     let one = F::<S>::splat(simd, 1.0);
     let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
     let lanes = F::<S>::LEN;
@@ -221,7 +225,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         let (x, y): (F<S>, F<S>) = (load(simd, head(&queue.x), i), load(simd, head(&queue.y), i));
         let mut n = V3::splat(simd, Vec3::ZERO);
         let mut albedo = n;
-        let mut near = one;
+        let (mut near, mut gloss) = (one, one);
         let mut todo = ids.simd_eq(ids).to_bitmask();
         while todo != 0 {
             let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
@@ -232,9 +236,11 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             let (dx, dy) = (x - triangle.anchor[0], y - triangle.anchor[1]);
             let [nx, ny, nz] = &surface.normal;
             n = V3::select(here, V3 { x: at::<S>(nx, dx, dy), y: at::<S>(ny, dx, dy), z: at::<S>(nz, dx, dy) }, n);
-            albedo = V3::select(here, V3::splat(simd, surface.albedo), albedo);
+            albedo = V3::select(here, V3::splat(simd, surface.paint.albedo), albedo);
             let z = at::<S>(&triangle.nearness, dx, dy).max(triangle.range[0]).min(triangle.range[1]);
             near = here.select(z, near);
+            gloss = here.select(F::<S>::splat(simd, surface.paint.gloss), gloss);
+            glossy |= surface.paint.gloss > 0.0;
         }
         let far = one / near;
         let p = V3::splat(simd, view.camera().eye) + view.rays(simd, x, y) * Lane(far);
@@ -248,6 +254,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         }
         store(far, &mut depth, i);
         store(near, &mut nearness, i);
+        store(gloss, &mut glosses, i);
         i += 1;
     }
     if let Some(texture) = world.textures.get(texture) {
@@ -271,15 +278,27 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             light = light + lights[near[k] as usize].at(simd, p, n);
             k += 1;
         }
+        let mut color_here = albedo.mulv(light);
         let haze = &world.haze;
         let way = p.sub1(view.camera().eye);
         let distance = way.dot(way).sqrt();
+        let way = way * Lane(one / distance);
+        if glossy {
+            let cosine = way.dot(n);
+            let mirrored = way - n * Lane(cosine + cosine);
+            let (horizon, sun) = haze.at(simd, mirrored);
+            let height = one - math::exp2(simd, mirrored.y.max(F::<S>::splat(simd, 0.0)) * -RISE);
+            let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
+            // Schlick's approximation.
+            let rest = one - cosine.abs().min(one);
+            let grazing = rest * rest;
+            let grazing = grazing * grazing * rest;
+            let gloss = load::<S, F<S>>(simd, &glosses, i) * (grazing * 0.95 + 0.05);
+            color_here = color_here + (sky - color_here) * Lane(gloss);
+        }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
-        let glow = (way.dot1(haze.glow.0) / distance).max(F::<S>::splat(simd, 0.0));
-        let glow = glow * glow;
-        let glow = glow * glow;
-        let before = V3::splat(simd, haze.color) + V3::splat(simd, haze.glow.1) * Lane(glow * glow);
-        let seen = before + (albedo.mulv(light) - before) * Lane(clear);
+        let before = haze.at(simd, way).0;
+        let seen = before + (color_here - before) * Lane(clear);
         let seen = seen * Lane(load(simd, head(&queue.weight), i));
         store(seen.x, &mut color[0], i);
         store(seen.y, &mut color[1], i);

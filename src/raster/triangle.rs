@@ -1,7 +1,7 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
 use super::bins::PLAIN;
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Paint};
 use super::project::Projection;
 use glam::{Affine3A, Vec3, Vec4};
 
@@ -41,8 +41,8 @@ pub struct Triangle {
 pub struct Surface {
     /// Components of the normal in the world, of any length.
     pub normal: [Plane; 3],
-    /// Linear.
-    pub albedo: Vec3,
+    /// What it is painted with.
+    pub paint: Paint,
 }
 
 /// One body in one raster.
@@ -53,6 +53,9 @@ pub struct Piece {
     /// Their surfaces; none in depth maps.
     pub surfaces: Vec<Surface>,
 }
+
+/// What depth maps are painted with.
+const NO_PAINT: Paint = Paint { albedo: Vec3::ZERO, texture: None, gloss: 0.0 };
 
 /// A corner before it is snapped.
 #[derive(Clone, Copy)]
@@ -110,7 +113,7 @@ impl Setup<'_> {
                 continue;
             }
             let mut normals = [Vec3::ZERO; 3];
-            let mut paint = (Vec3::ZERO, None);
+            let mut paint = NO_PAINT;
             if self.shaded {
                 normals = if mesh.normals.is_empty() {
                     let [a, b, c] = index.map(|i| mesh.points[i]);
@@ -119,8 +122,7 @@ impl Setup<'_> {
                     index.map(|i| mesh.normals[i])
                 };
                 normals = normals.map(|n| (place.matrix3 * n).normalize_or_zero());
-                let of = &mesh.paints[face.paint as usize];
-                paint = (of.albedo, of.texture);
+                paint = mesh.paints[face.paint as usize];
             }
             if !clipped {
                 self.push(&mut piece, [a.2, b.2, c.2], normals, paint);
@@ -188,7 +190,7 @@ impl Setup<'_> {
     }
 
     /// Adds a triangle that has an area.
-    fn push(&self, piece: &mut Piece, corners: [Snapped; 3], normals: [Vec3; 3], paint: (Vec3, Option<u8>)) {
+    fn push(&self, piece: &mut Piece, corners: [Snapped; 3], normals: [Vec3; 3], paint: Paint) {
         // Clockwise on the screen, where y points down, is positive: then edges are so inside.
         let order = if self.back_faces { [0, 1, 2] } else { [0, 2, 1] };
         let [a, b, c] = order.map(|i| corners[i]);
@@ -223,12 +225,12 @@ impl Setup<'_> {
             bound,
             anchor: [a.x as f32 / SUB as f32, a.y as f32 / SUB as f32],
             nearness: plane(near),
-            texture: paint.1.map_or(PLAIN, u32::from),
+            texture: paint.texture.map_or(PLAIN, u32::from),
             range: [near[0].min(near[1]).min(near[2]), near[0].max(near[1]).max(near[2])],
         });
         if self.shaded {
             let normal = [0, 1, 2].map(|axis| plane(order.map(|i| normals[i][axis] * corners[i].inverse)));
-            piece.surfaces.push(Surface { normal, albedo: paint.0 });
+            piece.surfaces.push(Surface { normal, paint });
         }
     }
 }

@@ -1,5 +1,6 @@
 //! One file a scene; only scenes know more than one renderer.
 
+pub mod day;
 pub mod intro;
 pub mod lumen;
 pub mod models;
@@ -67,9 +68,8 @@ impl Shot {
     }
 
     /// A picture that is all triangles.
-    #[cfg(feature = "bench-scenes")]
     fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-        let view = View::new(self.camera(camera), self.width, self.height);
+        let view = View::new(camera, self.width, self.height);
         Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
     }
 }
@@ -78,6 +78,7 @@ impl Shot {
 pub const ALL: &[Scene] = &[
     intro::INTRO,
     lumen::LUMEN,
+    day::DAY,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]

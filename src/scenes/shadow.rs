@@ -69,9 +69,10 @@ fn picture(shot: &Shot, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],
         haze: Haze { color: fog, density: 0.012, glow: (Vec3::Y, Vec3::ZERO) },
+        zenith: fog,
         background: Some(fog),
     };
-    shot.drawn(world, camera, Transfer::Gamma22)
+    shot.drawn(world, shot.camera(camera), Transfer::Gamma22)
 }
 
 /// The set's bodies, as many at a time as one thread draws.

@@ -68,7 +68,7 @@ fn ground(first: i32) -> Mesh {
 }
 
 fn paint(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None }
+    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// Number `k` of object `i`.

@@ -42,7 +42,7 @@ pub const PAINTS: [Paint; 12] = [
     solid(vec3(0.07, 0.12, 0.03), 3),
     solid(vec3(0.36, 0.32, 0.26), 4),
     solid(vec3(0.26, 0.1, 0.06), 5),
-    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None },
+    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None, gloss: 1.0 },
 ];
 
 const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
@@ -65,7 +65,7 @@ pub const TEXTURES: [Texture; 6] = [
 ];
 
 const fn solid(albedo: Vec3, texture: u8) -> Paint {
-    Paint { albedo, texture: Some(texture) }
+    Paint { albedo, texture: Some(texture), gloss: 0.0 }
 }
 
 const fn clouds(dark: Vec3, light: Vec3, scale: f32, octaves: u32) -> Texture {

@@ -15,7 +15,7 @@ pub const PAINTS: [Paint; 6] = [
 ];
 
 const fn plain(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None }
+    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// From the tail to the nose: 5 cm along, 1 cm across.
