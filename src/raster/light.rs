@@ -1,8 +1,9 @@
 //! Lights, and what they give to a point: all of them in one pass over the pixels that are seen, each as far as it reaches.
 
+use super::Raster;
 use super::project::Projection;
 use super::shadow::{DepthMap, Plan};
-use super::traced::Casters;
+use super::traced::hides;
 use crate::lanes::{Bits, F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -64,21 +65,16 @@ impl Haze {
 /// Texels along a map's border in which it is not looked up.
 const MARGIN: f32 = 2.0;
 
-/// What a light sees.
-pub enum Seen {
-    /// How far, in each direction.
-    Mapped(Arc<DepthMap>),
-    /// Which triangles.
-    Traced(Casters),
-}
-
 /// What is left of a bias where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
 /// A light, ready to be looked up.
 pub struct Lit {
     light: Light,
-    seen: Option<Seen>,
+    /// What it sees, where that is mapped.
+    pub map: Option<Arc<DepthMap>>,
+    /// The first of its rasters, where it has any.
+    pub first: usize,
     /// Each view's matrix by rows, and metres a texel where it is a parallel projection.
     views: Vec<(Mat4, f32)>,
     /// What would be left of it at the end of its reach, which is taken off everywhere, and what it is then scaled by.
@@ -87,8 +83,8 @@ pub struct Lit {
 }
 
 impl Lit {
-    /// With what its plan's views show, where it has one.
-    pub fn new(light: Light, seen: Option<Seen>) -> Lit {
+    /// A light whose rasters, if it gets any, begin with that one.
+    pub fn new(light: Light, first: usize) -> Lit {
         let cut = match light.source {
             Source::Lamp { falloff, reach, .. } if reach.is_finite() => {
                 1.0 / (1.0 + falloff.x * reach + falloff.y * reach * reach)
@@ -100,7 +96,7 @@ impl Lit {
             (rows, 1.0 / rows.x_axis.truncate().length())
         };
         let views = light.shadow.iter().flat_map(|plan| &plan.views).map(view).collect();
-        Lit { light, seen, views, cut, scale: 1.0 / (1.0 - cut) }
+        Lit { light, map: None, first, views, cut, scale: 1.0 / (1.0 - cut) }
     }
 
     /// May it reach a box?
@@ -115,7 +111,7 @@ impl Lit {
 
     /// Its light at points with unit normals, without albedo.
     #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, point: V3<S>, normal: V3<S>) -> V3<S> {
+    pub fn at<S: Simd>(&self, simd: S, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let (towards, left) = match self.light.source {
             Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -129,10 +125,10 @@ impl Lit {
         let cosine = normal.dot(towards).max(zero);
         let wanted = (cosine * left).simd_gt(zero);
         let mut light = cosine * left;
-        if let (Some(plan), Some(seen)) = (&self.light.shadow, &self.seen)
+        if let Some(plan) = &self.light.shadow
             && wanted.any_true()
         {
-            light *= self.seen(simd, plan, seen, point, normal, cosine, wanted);
+            light *= self.seen(simd, plan, rasters, point, normal, cosine, wanted);
         }
         V3::splat(simd, self.light.color) * Lane(light)
     }
@@ -144,7 +140,7 @@ impl Lit {
         &self,
         simd: S,
         plan: &Plan,
-        by: &Seen,
+        rasters: &[Raster],
         point: V3<S>,
         normal: V3<S>,
         cosine: F<S>,
@@ -203,9 +199,9 @@ impl Lit {
             }
         }
         let wanted = wanted & inside;
-        let seen = match by {
-            Seen::Mapped(map) => map.light(simd, view, x, y, near, plan.smooth, wanted),
-            Seen::Traced(casters) => {
+        let seen = match &self.map {
+            Some(map) => map.light(simd, view, x, y, near, plan.smooth, wanted),
+            None => {
                 let end = F::<S>::splat(simd, size - 0.01);
                 let mut numbers = [[0.0; 16]; 4];
                 let lanes = F::<S>::LEN;
@@ -215,7 +211,7 @@ impl Lit {
                 let mut seen = [0.0; 16];
                 for lane in Bits(wanted.to_bitmask()) {
                     let [view, x, y, near] = [0, 1, 2, 3].map(|row: usize| numbers[row][lane]);
-                    seen[lane] = if casters.hide(view as usize, x, y, near) { 0.0 } else { 1.0 };
+                    seen[lane] = if hides(&rasters[self.first + view as usize], x, y, near) { 0.0 } else { 1.0 };
                 }
                 F::<S>::from_slice(simd, &seen[..lanes])
             }

@@ -1,10 +1,10 @@
 //! From what is visible in a tile to light: fragments wait until a block of one texture is full, and each is shaded once.
 
-use super::World;
 use super::bins::{Id, NOTHING, PLAIN, TEXTURE, parts};
 use super::fill::{CENTER, STEPS, Sample, Visible};
 use super::light::Lit;
-use super::triangle::{Piece, Plane, SUB};
+use super::triangle::{Plane, SUB};
+use super::{Raster, World};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{Bits, F, Lane, U, V3};
 use crate::math;
@@ -21,8 +21,8 @@ pub struct Context<'a> {
     pub world: &'a World,
     /// Lights with their maps.
     pub lights: &'a [Lit],
-    /// Triangles and their surfaces.
-    pub pieces: &'a [Piece],
+    /// The camera's raster, and those of lights.
+    pub rasters: &'a [Raster],
     /// The camera.
     pub view: &'a View,
 }
@@ -206,7 +206,8 @@ fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
-    let Context { world, lights, pieces, view } = *context;
+    let Context { world, lights, rasters, view } = *context;
+    let pieces = &rasters[0].pieces;
     let count = queue.count.min(BLOCK);
     // What stands behind the last is left over from others.
     let (id, x, y) = (queue.id[0], queue.x[0], queue.y[0]);
@@ -275,7 +276,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         let mut light = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
         let mut k = 0;
         while k < reaching {
-            light = light + lights[near[k] as usize].at(simd, p, n);
+            light = light + lights[near[k] as usize].at(simd, rasters, p, n);
             k += 1;
         }
         let mut color_here = albedo.mulv(light);

@@ -28,10 +28,7 @@ fn still() -> &'static [Body] {
         meshes.extend(tree::woods(&tree::trees()));
         meshes.push(chapel::chapel());
         meshes.push(land::lake());
-        meshes
-            .into_iter()
-            .map(|mesh| Body { mesh: Arc::new(mesh), place: Affine3A::IDENTITY, casts_shadow: true })
-            .collect()
+        meshes.into_iter().map(|mesh| Body::new(Arc::new(mesh), Affine3A::IDENTITY)).collect()
     })
 }
 
@@ -67,11 +64,10 @@ fn picture(shot: &Shot) -> Picture {
     let mut bodies = still().to_vec();
     static PLANE: OnceLock<Arc<crate::raster::mesh::Mesh>> = OnceLock::new();
     let plane = PLANE.get_or_init(|| Arc::new(mustang::airframe()));
-    bodies.push(Body {
-        mesh: plane.clone(),
-        place: Affine3A::from_mat3_translation(Mat3::from_rotation_y(0.6), vec3(-6.0, 26.0, -6.0)),
-        casts_shadow: true,
-    });
+    bodies.push(Body::new(
+        plane.clone(),
+        Affine3A::from_mat3_translation(Mat3::from_rotation_y(0.6), vec3(-6.0, 26.0, -6.0)),
+    ));
     let sky = vec3(0.5, 0.62, 0.8);
     let world = World {
         bodies,

@@ -77,6 +77,6 @@ fn picture(shot: &Shot, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
 
 /// The set's bodies, as many at a time as one thread draws.
 fn bodies() -> Vec<Body> {
-    let body = |mesh| Body { mesh: Arc::new(mesh), place: Affine3A::IDENTITY, casts_shadow: true };
+    let body = |mesh| Body::new(Arc::new(mesh), Affine3A::IDENTITY);
     shadow_set::meshes().into_iter().map(body).collect()
 }
