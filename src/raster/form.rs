@@ -34,6 +34,7 @@ const fn offset(body: &Body) -> f32 {
 
 impl Mesh {
     /// No surface yet.
+    #[inline(never)]
     pub fn painted(paints: &[Paint]) -> Mesh {
         Mesh { paints: paints.to_vec(), ..Mesh::default() }
     }
