@@ -63,7 +63,7 @@ fn ground(first: i32) -> Mesh {
             mesh.normals.push(dvec3(slope(STEP, 0.0), 2.0 * STEP, slope(0.0, STEP)).normalize().as_vec3());
         }
     }
-    mesh.loft(0, 49, &|_, _| 0);
+    mesh.loft(0, 49, 0, &[]);
     mesh
 }
 
@@ -107,12 +107,9 @@ const PINE: [(f32, Body); 4] = [
 ];
 
 fn add_pine(mesh: &mut Mesh, i: u32) {
-    let first = mesh.faces.len();
+    let first = mesh.paints.len() as u16;
     for (scale, body) in &PINE {
-        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i));
-    }
-    for face in &mut mesh.faces[first..] {
-        face.paint += mesh.paints.len() as u16;
+        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i), first);
     }
     mesh.paints.push(paint(0.25, 0.16, 0.10));
     mesh.paints.push(paint(0.10, 0.26 + 0.12 * random(i, 6), 0.13));
