@@ -132,16 +132,17 @@ impl Mesh {
         self.normals = vec![Vec3::ZERO; self.points.len()];
         for i in 0..3 * self.faces.len() {
             let corner = |k: usize| self.faces[i / 3].corners[(i + k) % 3] as usize;
-            let a = corner(0);
-            let side = |k: usize| (self.points[corner(k)] - self.points[a]).normalize();
-            let n = side(1).cross(side(2));
-            self.normals[a] += n;
+            let side = |k: usize| self.points[corner(k)] - self.points[corner(0)];
+            let (u, v) = (side(1), side(2));
+            let n = u.cross(v) / (u.length_squared() * v.length_squared()).sqrt();
+            self.normals[corner(0)] += n;
         }
         for (n, p) in self.normals.iter_mut().zip(&self.points) {
             if p.x == 0.0 {
                 n.x = 0.0;
             }
-            *n = n.normalize_or(Vec3::Y);
+            // Points that no face has get one too.
+            *n = (*n + Vec3::Y * 1e-9).normalize();
         }
     }
 }

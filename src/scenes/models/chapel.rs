@@ -108,14 +108,13 @@ pub fn chapel() -> Mesh {
         let half = Mat3::from_cols(slope * size.x, slope.cross(Vec3::NEG_Z) * size.y, Vec3::Z * size.z);
         mesh.block(&half, foot + middle, kind);
     }
-    // A low wall around the yard, as high as the ground, with gaps.
+    // A low wall around the yard, with gaps.
     for i in 0..20u32 {
         let (sin, cos) = (0.9 + 0.25 * i as f32).sin_cos();
         let (x, z) = (17.0 * sin, 17.0 * cos);
-        let along = vec3(cos, (height(x + cos, z - sin) - height(x - cos, z + sin)) * 0.5, -sin);
-        let high = 0.25 + 0.03 * (i * 5 % 7) as f32;
-        let half = Mat3::from_cols(along * (1.5 + high), Vec3::Y * high, vec3(sin, 0.0, cos) * 0.22);
-        mesh.block(&half, vec3(x, height(x, z) + high - 0.2, z), paint::STONE);
+        let high = 0.4 + 0.03 * (i * 5 % 7) as f32;
+        let half = Mat3::from_cols(vec3(cos, 0.0, -sin) * (1.3 + high), Vec3::Y * high, vec3(sin, 0.0, cos) * 0.22);
+        mesh.block(&half, vec3(x, height(x, z) + 0.2, z), paint::STONE);
     }
     mesh
 }

@@ -3,7 +3,7 @@
 use super::{PAINTS, paint};
 use crate::noise::{self, noise, turbulence};
 use crate::raster::mesh::Mesh;
-use glam::{Vec3, vec3};
+use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
 
 /// Height of the lake, metres.
@@ -100,14 +100,9 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
     mesh
 }
 
-/// The lake: the plane of its level, as far as the land reaches.
+/// The lake, and all others: the upper side of a box as wide as the land, flat.
 pub fn lake() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    for i in 0..81u32 {
-        let (x, z) = ((i % 9) as f32 - 4.0, 4.0 - (i / 9) as f32);
-        mesh.points.push(vec3(x, 0.0, z) * (EDGE / 4.0) + WATER * Vec3::Y);
-        mesh.normals.push(Vec3::Y);
-    }
-    mesh.loft(0, 9, paint::WATER, &[]);
+    mesh.block(&(Mat3::IDENTITY * EDGE), Vec3::Y * (WATER - EDGE), paint::WATER);
     mesh
 }

@@ -222,7 +222,7 @@ pub fn propeller() -> Mesh {
         let out = vec3(x, y, 0.0);
         // A pitch of 35 degrees.
         let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
-        mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO, 0);
+        mesh.body(&BLADE, &axes(out.cross(wide) * 50.0, out, wide), Vec3::ZERO, 0);
     }
     mesh
 }

@@ -66,17 +66,17 @@ const CROWN: Body = round(
 const FAR_CROWN: Body =
     round(&[[-127, 0, 8, 8, BARK], [-60, 0, 60, 60, LEAF], [40, 0, 80, 80, LEAF], [100, 0, 0, 0, LEAF]], 5);
 
-/// The parts of trees: size, height of the middle, and how far out it is, of the tree's height.
+/// The parts of trees: hundredths of their units in the tree's height; how far up and out the middle is, in units.
 #[rustfmt::skip]
-const PARTS: [(&Body, [f32; 3]); 8] = [
+static PARTS: [(&Body, [f32; 3]); 8] = [
     (&FIR_TREE, [1.0, 0.0, 0.0]),
     (&FAR_FIR, [1.0, 0.0, 0.0]),
-    (&FAR_CROWN, [0.45, 0.55, 0.0]),
+    (&FAR_CROWN, [0.45, 122.0, 0.0]),
     (&TRUNK, [1.0, 0.0, 0.0]),
-    (&CROWN, [0.26, 0.46, 0.2]),
-    (&CROWN, [0.26, 0.55, 0.2]),
-    (&CROWN, [0.26, 0.64, 0.2]),
-    (&CROWN, [0.26, 0.73, 0.04]),
+    (&CROWN, [0.26, 176.0, 77.0]),
+    (&CROWN, [0.26, 210.0, 77.0]),
+    (&CROWN, [0.26, 244.0, 77.0]),
+    (&CROWN, [0.26, 280.0, 15.0]),
 ];
 
 /// Adds a tree; `far` is one of 20 triangles or so.
@@ -90,14 +90,9 @@ pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
     };
     for i in parts {
         let (body, [size, up, out]) = PARTS[i];
-        let turn = Mat3::from_rotation_y(rnd(STREAM, tree.seed, i as u32) + TAU / 3.0 * i as u32 as f32);
-        let middle = turn * vec3(0.0, up, out);
-        mesh.body(
-            body,
-            &(turn * (0.01 * size * tree.height)),
-            tree.foot + middle * tree.height,
-            paint::BARK + tree.seed as u16 % 3 * 3,
-        );
+        let angle = rnd(STREAM, tree.seed, i as u32) + TAU / 3.0 * i as u32 as f32;
+        let turn = Mat3::from_rotation_y(angle) * (0.01 * size * tree.height);
+        mesh.body(body, &turn, tree.foot + turn * vec3(0.0, up, out), paint::BARK + tree.seed as u16 % 3 * 3);
     }
     mesh.weather(first, 0.08 * tree.height, 4.0 / tree.height);
 }
@@ -119,7 +114,7 @@ pub fn trees() -> Vec<Tree> {
         let (x, z) = (r * cos, r * sin);
         let y = height(x, z);
         let wanted = wooded(x, z) > 0.1 * c || d < 0.008;
-        if wanted && y > land::WATER + 1.0 && land::normal(x, z, 2.0).y > 0.85 {
+        if wanted && y > land::WATER + 1.0 {
             // Firs on the heights.
             let fir = e < 0.45 + 0.02 * y;
             trees.push(Tree {
