@@ -40,7 +40,7 @@ pub static PAINTS: [Paint; 14] = [
     solid(vec3(0.07, 0.12, 0.03), 3),
     solid(vec3(0.36, 0.32, 0.26), 4),
     solid(vec3(0.26, 0.1, 0.06), 5),
-    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None },
+    Paint { albedo: vec3(0.05, 0.11, 0.16), texture: None },
 ];
 
 const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);

@@ -39,18 +39,32 @@ const FIR_TREE: Body = round(
         [-5, 0, 3, 3, BARK],
         [14, 0, 2, 2, FIR],
         [7, 0, 23, 23, FIR],
+        [7, 0, 23, 23, FIR],
         [33, 0, 10, 10, FIR],
+        [28, 0, 19, 19, FIR],
         [28, 0, 19, 19, FIR],
         [52, 0, 8, 8, FIR],
         [47, 0, 15, 15, FIR],
+        [47, 0, 15, 15, FIR],
         [74, 0, 4, 4, FIR],
+        [68, 0, 9, 9, FIR],
         [68, 0, 9, 9, FIR],
         [104, 0, 0, 0, FIR],
     ],
     7,
 );
-const FAR_FIR: Body =
-    round(&[[14, 0, 0, 0, FIR], [8, 0, 22, 22, FIR], [50, 0, 8, 8, FIR], [45, 0, 14, 14, FIR], [100, 0, 0, 0, FIR]], 4);
+const FAR_FIR: Body = round(
+    &[
+        [14, 0, 0, 0, FIR],
+        [8, 0, 22, 22, FIR],
+        [8, 0, 22, 22, FIR],
+        [50, 0, 8, 8, FIR],
+        [45, 0, 14, 14, FIR],
+        [45, 0, 14, 14, FIR],
+        [100, 0, 0, 0, FIR],
+    ],
+    4,
+);
 const TRUNK: Body = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2, 2, BARK]], 5);
 /// Hundredths of its radius.
 const CROWN: Body = round(
