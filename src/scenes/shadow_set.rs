@@ -6,6 +6,7 @@ use crate::noise::{fbm, noise};
 use crate::raster::form::Body;
 use crate::raster::mesh::{Mesh, Paint};
 use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
+use std::f64::consts::TAU;
 
 /// Height of the ground at a place, metres. In f64 but for the noise, whose own error is below 4e-7.
 pub fn height(x: f64, z: f64) -> f64 {
@@ -63,7 +64,7 @@ fn ground(first: i32) -> Mesh {
             mesh.normals.push(dvec3(slope(STEP, 0.0), 2.0 * STEP, slope(0.0, STEP)).normalize().as_vec3());
         }
     }
-    mesh.loft(0, 49, &|_, _| 0);
+    mesh.loft(0, 49, 0, &[]);
     mesh
 }
 
@@ -84,7 +85,7 @@ fn place(i: u32) -> Vec3 {
 
 /// How object `i` is turned about y.
 fn turn(i: u32) -> Mat3 {
-    Mat3::from_rotation_y((6.2831853 * random(i, 5) as f64) as f32)
+    Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
 }
 
 fn add_box(mesh: &mut Mesh, i: u32) {
@@ -107,12 +108,9 @@ const PINE: [(f32, Body); 4] = [
 ];
 
 fn add_pine(mesh: &mut Mesh, i: u32) {
-    let first = mesh.faces.len();
+    let first = mesh.paints.len() as u16;
     for (scale, body) in &PINE {
-        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i));
-    }
-    for face in &mut mesh.faces[first..] {
-        face.paint += mesh.paints.len() as u16;
+        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i), first);
     }
     mesh.paints.push(paint(0.25, 0.16, 0.10));
     mesh.paints.push(paint(0.10, 0.26 + 0.12 * random(i, 6), 0.13));

@@ -15,30 +15,28 @@ pub mod paint {
     pub const GRASS: u16 = 0;
     /// The land farther away: meadows, woods, rock and snow by height.
     pub const HEIGHTS: u16 = 1;
-    /// Trunks and rafters.
+    /// Trunks and rafters; then two others, each with its fir and its broadleaf.
     pub const BARK: u16 = 2;
-    /// Firs; the next two are others.
-    pub const FIR: u16 = 3;
-    /// Broadleaves; the next two are others.
-    pub const LEAF: u16 = 6;
     /// Masonry.
-    pub const STONE: u16 = 9;
+    pub const STONE: u16 = 11;
     /// Tiles.
-    pub const ROOF: u16 = 10;
+    pub const ROOF: u16 = 12;
     /// The lake.
-    pub const WATER: u16 = 11;
+    pub const WATER: u16 = 13;
 }
 
 /// The paints of everything but the aeroplane.
-pub const PAINTS: [Paint; 12] = [
+pub static PAINTS: [Paint; 14] = [
     solid(MEADOW, 0),
     solid(Vec3::ONE, 1),
     solid(vec3(0.11, 0.075, 0.05), 2),
     solid(vec3(0.03, 0.065, 0.028), 3),
-    solid(vec3(0.04, 0.075, 0.025), 3),
-    solid(vec3(0.026, 0.055, 0.034), 3),
     solid(vec3(0.1, 0.135, 0.025), 3),
+    solid(vec3(0.11, 0.075, 0.05), 2),
+    solid(vec3(0.04, 0.075, 0.025), 3),
     solid(vec3(0.14, 0.125, 0.022), 3),
+    solid(vec3(0.11, 0.075, 0.05), 2),
+    solid(vec3(0.026, 0.055, 0.034), 3),
     solid(vec3(0.07, 0.12, 0.03), 3),
     solid(vec3(0.36, 0.32, 0.26), 4),
     solid(vec3(0.26, 0.1, 0.06), 5),
@@ -48,7 +46,7 @@ pub const PAINTS: [Paint; 12] = [
 const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
 
 /// The textures that they name: grass, heights, bark, leaves, masonry, tiles. All but the second vary about 1.
-pub const TEXTURES: [Texture; 6] = [
+pub static TEXTURES: [Texture; 6] = [
     clouds(vec3(-0.5, 0.0, 0.2), vec3(2.5, 2.0, 1.8), 0.09, 6),
     // The sine rises from -50 m to 1250 m.
     layers(

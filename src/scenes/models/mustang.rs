@@ -1,11 +1,11 @@
 //! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
 
-use crate::raster::form::Body;
+use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::{Mesh, Paint};
 use glam::{Mat3, Vec3, vec3};
 
 /// Bare metal, olive drab, the canopy, yellow, white, black.
-pub const PAINTS: [Paint; 6] = [
+pub static PAINTS: [Paint; 6] = [
     plain(0.4, 0.41, 0.43),
     plain(0.07, 0.075, 0.04),
     plain(0.025, 0.035, 0.045),
@@ -168,6 +168,15 @@ const BLADE: Body = Body {
     taper: 0.0,
 };
 
+/// A black box.
+const STICK: Body = Body {
+    rows: &[[-1, 1, 0, 1, 0x55], [-1, 0, 1, 1, 0x55], [1, 0, 1, 1, 0x55], [1, 1, 0, 1, 0]],
+    sides: 4,
+    half: false,
+    swell: SQUARE,
+    taper: 0.0,
+};
+
 /// Columns: where a body's x, y and z point to.
 const fn axes(x: Vec3, y: Vec3, z: Vec3) -> Mat3 {
     Mat3::from_cols(x, y, z)
@@ -180,29 +189,27 @@ pub fn airframe() -> Mesh {
     const WINGS: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.004_374, 0.0), vec3(0.0, 0.0, 0.0125));
     const TAIL: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.0, 0.0), vec3(0.0, 0.0, 0.0125));
     const UP: Mat3 = axes(vec3(0.004, 0.0, 0.0), vec3(0.0, 0.02, 0.0), vec3(0.0, 0.0, 0.0125));
-    const PARTS: [(&Body, Mat3, Vec3); 6] = [
+    const GUN: Mat3 = axes(vec3(0.025, 0.0, 0.0), vec3(0.0, 0.025, 0.0), vec3(0.0, 0.0, 0.2));
+    static PARTS: [(&Body, Mat3, Vec3); 10] = [
         (&FUSELAGE, ALONG, Vec3::ZERO),
         (&CANOPY, ALONG, Vec3::ZERO),
         (&SCOOP, ALONG, Vec3::ZERO),
         (&WING, WINGS, vec3(0.0, -0.52, 0.0)),
         (&STABILISER, TAIL, vec3(0.0, 0.42, 5.0)),
         (&FIN, UP, vec3(0.0, 0.0, 5.0)),
+        // The exhausts, and three guns.
+        (&STICK, axes(vec3(0.05, 0.0, 0.0), vec3(0.0, 0.04, 0.0), vec3(0.0, 0.0, 0.5)), vec3(0.42, 0.14, -1.85)),
+        (&STICK, GUN, vec3(2.0, -0.35, -1.0)),
+        (&STICK, GUN, vec3(2.2, -0.35, -1.0)),
+        (&STICK, GUN, vec3(2.4, -0.35, -1.0)),
     ];
-    let mut half = Mesh::painted(&PAINTS);
-    for (body, turn, at) in PARTS {
-        half.body(body, &turn, at);
+    let mut mesh = Mesh::painted(&PAINTS);
+    for (body, turn, at) in &PARTS {
+        mesh.body(body, turn, *at, 0);
     }
-    // The exhausts, and three guns.
-    half.block(&Mat3::from_diagonal(vec3(0.05, 0.04, 0.5)), vec3(0.42, 0.14, -1.85), 5);
-    for i in 0..3 {
-        let x = 2.0 + 0.2 * i as f32;
-        half.block(&Mat3::from_diagonal(vec3(0.025, 0.025, 0.2)), vec3(x, -0.35, -1.0), 5);
-    }
-    half.smooth();
-    let mut whole = Mesh::painted(&PAINTS);
-    whole.append(&half, &Mat3::IDENTITY, Vec3::ZERO);
-    whole.append(&half, &Mat3::from_diagonal(vec3(-1.0, 1.0, 1.0)), Vec3::ZERO);
-    whole
+    mesh.mirror();
+    mesh.smooth();
+    mesh
 }
 
 /// Where the propeller turns, around z.
@@ -215,7 +222,7 @@ pub fn propeller() -> Mesh {
         let out = vec3(x, y, 0.0);
         // A pitch of 35 degrees.
         let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
-        mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO);
+        mesh.body(&BLADE, &axes(out.cross(wide) * 50.0, out, wide), Vec3::ZERO, 0);
     }
     mesh
 }
