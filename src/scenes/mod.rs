@@ -2,6 +2,8 @@
 
 pub mod lumen;
 #[cfg(feature = "bench-scenes")]
+pub mod sky;
+#[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
 use crate::camera::Camera;
@@ -60,6 +62,8 @@ pub const ALL: &[Scene] = &[
     spheres::SPHERES_FLAT,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES_GLASS,
+    #[cfg(feature = "bench-scenes")]
+    sky::SKY,
 ];
 
 /// The intro's own show: what plays when no scene is named.

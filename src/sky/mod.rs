@@ -1,0 +1,7 @@
+//! The sky through the day and the year: sun, moon and stars by time and place, and the light of the air between.
+
+pub mod grid;
+pub mod moon;
+pub mod place;
+pub mod sun;
+pub mod time;
