@@ -1,0 +1,98 @@
+//! The dome of the sky: contact sheets through the day, and error against milliseconds.
+//!
+//! usage: dome sheet FILE.png [HAZE] | dome moon FILE.png | dome table
+
+use glam::{Mat3, Vec3, vec3};
+use image::{Rgb, RgbImage, imageops};
+use paprsek::camera::Camera;
+use paprsek::color::Transfer;
+use paprsek::quality::Quality;
+use paprsek::sky::air::Air;
+use paprsek::sky::backdrop::Backdrop;
+use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::tile::{Frame, Picture, Renderer};
+
+const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
+
+fn sky(altitude: f32, haze: f32) -> Sky {
+    let a = altitude.to_radians();
+    Sky {
+        sun: vec3(0.0, a.sin(), -a.cos()),
+        moon: -Vec3::Y,
+        moon_to_sun: Vec3::X,
+        lit: 0.0,
+        moon_radius: 0.0045,
+        turn: Mat3::IDENTITY,
+        air: Air { haze, ozone: 1.1, again: 0.7 },
+    }
+}
+
+fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
+    let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
+    let mut frame = Frame::new(size.0, size.1);
+    let layer = Backdrop::new(dome, camera, size.0, size.1, false);
+    Renderer::new(0).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
+    RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
+        let p = frame.pixels[y as usize * size.0 + x as usize];
+        Rgb([(p >> 16) as u8, (p >> 8) as u8, p as u8])
+    })
+}
+
+/// Root mean square and largest difference, codes.
+fn difference(a: &RgbImage, b: &RgbImage) -> (f64, u8) {
+    let off = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b));
+    let squares: f64 = off.clone().map(|d| d as f64 * d as f64).sum();
+    ((squares / a.as_raw().len() as f64).sqrt(), off.max().unwrap())
+}
+
+/// The sky towards the sun and away from it, and the fastest of five times, milliseconds.
+fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
+    let mut best = f64::MAX;
+    let mut pictures = vec![];
+    for _ in 0..repeat {
+        let start = std::time::Instant::now();
+        let dome = Dome::new(sky(altitude, 1.3), quality);
+        pictures = [-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.35, side), 50.0, size)).to_vec();
+        best = best.min(start.elapsed().as_secs_f64() * 500.0);
+    }
+    (pictures, best)
+}
+
+fn table() {
+    for steps in [6, 8, 10, 12, 16, 24] {
+        print!("| {steps} ");
+        for altitude in ALTITUDES {
+            let truth = views(DomeQuality { steps: 200, cell: 0.0, grid: 1 }, altitude, (80, 45), 1).0;
+            let found = views(DomeQuality { steps, cell: 0.0, grid: 1 }, altitude, (80, 45), 1).0;
+            let worst = truth.iter().zip(&found).map(|(a, b)| difference(a, b).1).max().unwrap();
+            print!("| {worst} ");
+        }
+        println!("|");
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let quality = DomeQuality::new(&Quality::DEFAULT);
+    match arguments[0].as_str() {
+        "sheet" => {
+            let quality =
+                DomeQuality { steps: arguments.get(3).map_or(quality.steps, |s| s.parse().unwrap()), ..quality };
+            let haze = arguments.get(2).map_or(1.3, |h| h.parse().unwrap());
+            let size = (320, 200);
+            let mut sheet = RgbImage::new(size.0 as u32 * 4, size.1 as u32 * 6);
+            for (i, altitude) in ALTITUDES.into_iter().enumerate() {
+                let dome = Dome::new(sky(altitude, haze), quality);
+                println!("{altitude}: level {:.3e} exposure {:.3e}", dome.level, dome.exposure);
+                for (j, side) in [-1.0, 1.0].into_iter().enumerate() {
+                    let picture = render(dome, vec3(0.0, 0.45, side), 75.0, size);
+                    let (x, y) = (i % 2 * 2 + j, i / 2);
+                    imageops::replace(&mut sheet, &picture, (x * size.0) as i64, (y * size.1) as i64);
+                }
+            }
+            sheet.save(&arguments[1]).unwrap();
+        }
+        "table" => table(),
+        _ => panic!("unknown"),
+    }
+}
