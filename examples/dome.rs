@@ -1,6 +1,6 @@
 //! The dome of the sky: contact sheets through the day, and error against milliseconds.
 //!
-//! usage: dome sheet FILE.png [HAZE] | dome moon FILE.png | dome table
+//! usage: dome sheet FILE.png [HAZE] | dome day FILE.png | dome table
 
 use glam::{Mat3, Vec3, vec3};
 use image::{Rgb, RgbImage, imageops};
@@ -8,8 +8,10 @@ use paprsek::camera::Camera;
 use paprsek::color::Transfer;
 use paprsek::quality::Quality;
 use paprsek::sky::air::Air;
-use paprsek::sky::backdrop::Backdrop;
+use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::place::Place;
+use paprsek::sky::time;
 use paprsek::tile::{Frame, Picture, Renderer};
 
 const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
@@ -30,7 +32,7 @@ fn sky(altitude: f32, haze: f32) -> Sky {
 fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
-    let layer = Backdrop::new(dome, camera, size.0, size.1, false);
+    let layer = Backdrop::new(dome, camera, size.0, size.1, Look::default());
     Renderer::new(0).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
         let p = frame.pixels[y as usize * size.0 + x as usize];
@@ -88,6 +90,25 @@ fn main() {
                     let picture = render(dome, vec3(0.0, 0.45, side), 75.0, size);
                     let (x, y) = (i % 2 * 2 + j, i / 2);
                     imageops::replace(&mut sheet, &picture, (x * size.0) as i64, (y * size.1) as i64);
+                }
+            }
+            sheet.save(&arguments[1]).unwrap();
+        }
+        "day" => {
+            // Plzen through 2026-06-29 and the night after, with a full moon; each towards the sun, the moon, the north.
+            let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
+            let size = (480, 270);
+            let hours = [11.0, 18.0, 18.9, 19.4, 19.8, 20.5, 21.5, 23.5];
+            let mut sheet = RgbImage::new(size.0 as u32 * 3, size.1 as u32 * hours.len() as u32);
+            for (row, hour) in hours.into_iter().enumerate() {
+                let sky = Sky::new(days + hour / 24.0, &Place::PLZEN);
+                let dome = Dome::new(sky, quality);
+                let light = dome.lighting();
+                println!("{hour}: sun {:.1} {:.2?}", sky.sun.y.asin().to_degrees(), light);
+                for (column, d) in [sky.sun, sky.moon, vec3(0.1, 0.0, -1.0)].into_iter().enumerate() {
+                    let d = vec3(d.x, d.y.max(0.35), d.z);
+                    let picture = render(dome, d, 50.0, size);
+                    imageops::replace(&mut sheet, &picture, (column * size.0) as i64, (row * size.1) as i64);
                 }
             }
             sheet.save(&arguments[1]).unwrap();

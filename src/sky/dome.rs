@@ -13,7 +13,7 @@ use fearless_simd::{Level, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 
 /// The moon's full light over the sun's: six times the truth, and
-const MOONLIGHT: f32 = 1.5e-5;
+pub(super) const MOONLIGHT: f32 = 1.5e-5;
 /// light of the night itself, a hundred times its airglow, as one remembers nights; the dusk fades into it.
 const NIGHT: Vec3 = vec3(1.5e-7, 2.2e-7, 4.5e-7);
 /// Light shown of a scene of light 1, and how little the eye lets it fall as that falls: `l^(1 - ADAPTION)`.

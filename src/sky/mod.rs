@@ -2,9 +2,12 @@
 
 pub mod air;
 pub mod backdrop;
+pub mod disc;
 pub mod dome;
 pub mod grid;
+pub mod light;
 pub mod moon;
 pub mod place;
+pub mod stars;
 pub mod sun;
 pub mod time;
