@@ -33,7 +33,7 @@ fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage 
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
     let layer = Backdrop::new(dome, camera, size.0, size.1, Look::default());
-    Renderer::new(0).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
+    Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
         let p = frame.pixels[y as usize * size.0 + x as usize];
         Rgb([(p >> 16) as u8, (p >> 8) as u8, p as u8])
@@ -61,15 +61,27 @@ fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32)
 }
 
 fn table() {
-    for steps in [6, 8, 10, 12, 16, 24] {
-        print!("| {steps} ");
-        for altitude in ALTITUDES {
-            let truth = views(DomeQuality { steps: 200, cell: 0.0, grid: 1 }, altitude, (80, 45), 1).0;
-            let found = views(DomeQuality { steps, cell: 0.0, grid: 1 }, altitude, (80, 45), 1).0;
-            let worst = truth.iter().zip(&found).map(|(a, b)| difference(a, b).1).max().unwrap();
-            print!("| {worst} ");
+    let size = (1280, 720);
+    println!("| cell, rad | steps | ms by day | ms at -6 | rms, worst codes by day | at 0 | at -6 | at -12 |");
+    println!("|---|---|---|---|---|---|---|---|");
+    let altitudes = [30.0, 0.0, -6.0, -12.0];
+    let truth = altitudes.map(|a| views(DomeQuality { steps: 100, cell: 0.0, grid: 1 }, a, size, 1).0);
+    for (cell, steps) in
+        [(0.0, 24), (0.0, 10), (0.011, 24), (0.011, 16), (0.011, 10), (0.011, 8), (0.011, 6), (0.022, 10), (0.044, 10)]
+    {
+        let quality = DomeQuality { steps, cell, grid: 1 };
+        let repeat = if cell > 0.0 { 5 } else { 1 };
+        print!("| {cell} | {steps} |");
+        let mut errors = String::new();
+        for (altitude, truth) in altitudes.into_iter().zip(&truth) {
+            let (pictures, time) = views(quality, altitude, size, repeat);
+            if altitude == 30.0 || altitude == -6.0 {
+                print!(" {time:.2} |");
+            }
+            let off: Vec<_> = truth.iter().zip(&pictures).map(|(a, b)| difference(a, b)).collect();
+            errors += &format!(" {:.2}, {} |", off[0].0.max(off[1].0), off[0].1.max(off[1].1));
         }
-        println!("|");
+        println!("{errors}");
     }
 }
 

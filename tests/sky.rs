@@ -4,5 +4,8 @@
 
 #[path = "sky/calendar.rs"]
 mod calendar;
+mod common;
+#[path = "sky/dome.rs"]
+mod dome;
 #[path = "sky/ephemeris.rs"]
 mod ephemeris;

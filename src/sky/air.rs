@@ -61,30 +61,44 @@ fn erfcx<S: Simd>(y: F<S>) -> F<S> {
 /// Chapman's function by the expansion of Fitzmaurice, "Simplification of the Chapman function", 1964: within 0.3 %.
 /// Ways that would meet the ground go on through air that gets denser, and nothing is left of them: no edge.
 #[simd]
-fn columns<S: Simd>(simd: S, height: F<S>, up: F<S>) -> V3<S> {
+fn columns<S: Simd>(simd: S, height: F<S>, density: [F<S>; 2], up: F<S>) -> V3<S> {
     let zero = F::<S>::splat(simd, 0.0);
     let (radius, down) = (height + EARTH, up.simd_lt(zero));
     let level = (F::<S>::splat(simd, 1.0) - up * up).max(zero).sqrt();
     // The lowest point of the way's line.
     let lowest = radius * level;
     let mut sums = [zero; 2];
-    for (sum, thin) in sums.iter_mut().zip(THIN) {
-        let (k, k2) = (LOG2_E / thin, 0.5 / thin);
+    let any_down = down.any_true();
+    let mut k = 0;
+    while k < 2 {
+        let thin = THIN[k];
         let root = FRAC_PI_2.sqrt() * thin.sqrt();
-        let fall = erfcx::<S>((radius * k2).sqrt() * up.abs());
-        let rest = math::exp2(simd, height * -k) * radius.sqrt() * fall * root;
-        // Twice the way from the lowest point, but for what lies behind.
-        let whole = math::exp2(simd, ((lowest - EARTH) * -k).min(60.0)) * lowest.sqrt() * (2.0 * root);
-        *sum = down.select(whole - rest, rest);
+        let fall = erfcx::<S>((radius * (0.5 / thin)).sqrt() * up.abs());
+        let rest = density[k] * radius.sqrt() * fall * root;
+        sums[k] = rest;
+        if any_down {
+            // Twice the way from the lowest point, but for what lies behind.
+            let densest = math::exp2(simd, ((lowest - EARTH) * (-LOG2_E / thin)).min(60.0));
+            sums[k] = down.select(densest * lowest.sqrt() * (2.0 * root) - rest, rest);
+        }
+        k += 1;
     }
     let mut ozone = zero;
     let (squared, back) = (lowest * lowest, radius * up);
     for (edge, sign) in OZONE.into_iter().zip([-1.0, 1.0]) {
-        // The length of the way within a ball.
-        let half = (-squared + (EARTH + edge) * (EARTH + edge)).max(zero).sqrt();
+        // The length of the way within a ball, whose edge is soft by some 2 km: at a hard one all light that grazes the
+        // shell would change at once, and dusk would jerk.
+        let q = -squared + (EARTH + edge) * (EARTH + edge);
+        let half: F<S> = ((q + (q * q + 6e8).sqrt()) * 0.5).sqrt();
         ozone += ((half - back).max(zero) - (-half - back).max(zero)) * sign;
     }
     V3 { x: sums[0], y: sums[1], z: ozone.max(zero) }
+}
+
+/// Gas and haze at a height, over their densest.
+#[inline(always)]
+fn density<S: Simd>(simd: S, height: F<S>) -> [F<S>; 2] {
+    [math::exp2(simd, height * (-LOG2_E / THIN[0])), math::exp2(simd, height * (-LOG2_E / THIN[1]))]
 }
 
 impl Air {
@@ -99,11 +113,12 @@ impl Air {
     /// The share of light that comes through from a direction outside of the air, whose y counts.
     #[inline(always)]
     pub fn through<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        let depth = self.depth(simd, columns(simd, F::<S>::splat(simd, EYE), d.y));
+        let eye = F::<S>::splat(simd, EYE);
+        let depth = self.depth(simd, columns(simd, eye, density(simd, eye), d.y));
         exp3(simd, depth, -1.0)
     }
 
-    /// The light that air sends from unit directions: what it scatters once, an integral along each over `steps` points (up to four
+    /// The light that air sends from unit directions: what it scatters once, an integral along each over `steps` points (three
     /// times as many in the dusk),
     /// and `again`, the mean light from all around, as it scatters that.
     ///
@@ -117,7 +132,8 @@ impl Air {
         let level: F<S> = ((one - up * up) / (one - d.y * d.y).max(1e-6)).max(zero).sqrt();
         let d: V3<S> = V3 { x: d.x * level, y: up, z: d.z * level };
         let begin = EARTH + EYE;
-        let whole = columns(simd, F::<S>::splat(simd, EYE), up);
+        let eye = F::<S>::splat(simd, EYE);
+        let whole = columns(simd, eye, density(simd, eye), up);
         let back = up * begin;
         let reach = (back * back + (TOP - EYE) * (2.0 * EARTH + TOP + EYE)).sqrt() - back;
         let opaque = V3::splat(simd, Vec3::ONE) - exp3(simd, self.depth(simd, whole), -1.0);
@@ -133,7 +149,7 @@ impl Air {
             // When only what is far and high is lit, points lie less dense near the eye, and there are more of them.
             let low = -lamp.direction.y;
             let even = (low * 10.0 - 0.5).clamp(0.0, 1.0);
-            let steps = (steps as f32 * (low * 15.0 + 1.0).clamp(1.0, 4.0)) as u32;
+            let steps = if low > -0.05 { 3 * steps } else { steps };
             for step in 0..steps {
                 let s = (step as f32 + 0.5) / steps as f32;
                 // Cubic by day: the ends of the integral vanish, so that midpoints converge fast.
@@ -141,16 +157,17 @@ impl Air {
                 let (way, length) = (reach * place, reach * (slope * lamp.strength / steps as f32));
                 let radius = (way * (way + back * 2.0) + begin * begin).sqrt();
                 let height = radius - EARTH;
-                let inward = columns(simd, height, (way * cosine + begin * lamp.direction.y) / radius);
-                let rest = columns(simd, height, ((way + back) / radius).min(one));
+                let [thick, hazy] = density(simd, height);
+                let inward = columns(simd, height, [thick, hazy], (way * cosine + begin * lamp.direction.y) / radius);
+                let rest = columns(simd, height, [thick, hazy], ((way + back) / radius).min(one));
                 let seen = V3 {
                     x: (whole.x - rest.x).max(zero),
                     y: (whole.y - rest.y).max(zero),
                     z: (whole.z - rest.z).max(zero),
                 };
                 let left = exp3(simd, self.depth(simd, inward + seen), -1.0);
-                let thick = math::exp2(simd, height * (-LOG2_E / THIN[0])) * length * gas;
-                let hazy = math::exp2(simd, height * (-LOG2_E / THIN[1])) * length * haze * (HAZE * self.haze);
+                let thick = thick * length * gas;
+                let hazy = hazy * length * haze * (HAZE * self.haze);
                 sum = sum + left.mulv(V3::splat(simd, GAS) * Lane(thick) + V3 { x: hazy, y: hazy, z: hazy });
             }
         }

@@ -2,7 +2,7 @@
 
 use super::dome::Dome;
 use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, V3};
+use crate::lanes::{F, Lane};
 use crate::noise;
 use crate::tile::Tile;
 use crate::view::View;
@@ -48,7 +48,7 @@ impl Dome {
             radius: super::sun::RADIUS as f32 * (1.0 + 0.6 / (1.0 + near * near)),
             reach: 0.35,
             color,
-            glare: 0.02 * into * into * into * into,
+            glare: 0.06 * into * into * into * into,
             lamp: Vec3::ZERO,
             unlit: 0.0,
         }
@@ -153,7 +153,7 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, behind: bool, tile: &mut
                     k += 1;
                 }
                 light = light + end * end * rays * (disc.glare * around) / (squared + around);
-                light = light + end * end * end * (disc.glare * 0.02);
+                light = light + end * end * end * (disc.glare * 0.05);
             }
             let left = if behind { one - load::<S, F<S>>(simd, coverage, i) } else { one };
             let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];

@@ -12,8 +12,8 @@ use crate::quality::Quality;
 use fearless_simd::{Level, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 
-/// The moon's full light over the sun's: six times the truth, and
-pub(super) const MOONLIGHT: f32 = 1.5e-5;
+/// The moon's full light over the sun's: sixteen times the truth, and
+pub(super) const MOONLIGHT: f32 = 4e-5;
 /// light of the night itself, a hundred times its airglow, as one remembers nights; the dusk fades into it.
 const NIGHT: Vec3 = vec3(1.5e-7, 2.2e-7, 4.5e-7);
 /// Light shown of a scene of light 1, and how little the eye lets it fall as that falls: `l^(1 - ADAPTION)`.
@@ -69,7 +69,7 @@ impl Air {
     pub fn of_season(days: f64, place: &Place) -> Air {
         // Day 205 of a year is 24 July, when it is warmest north of the equator.
         let summer = ((days - 205.0) / 365.25).fract() as f32;
-        let warmth = (sane(summer as f64) * std::f64::consts::TAU).cos() as f32 * place.latitude.sin() as f32;
+        let warmth = (sane(summer as f64) * std::f64::consts::TAU).cos() as f32 * sane(place.latitude).sin() as f32;
         Air { haze: 1.3 + 0.7 * warmth, ozone: 1.15 - 0.15 * warmth, again: 0.7 }
     }
 }
@@ -77,7 +77,7 @@ impl Air {
 /// Speed against error of the dome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DomeQuality {
-    /// Points along a direction where light is gathered, by day; four times as many in the dusk. The error falls with
+    /// Points along a direction where light is gathered, by day; three times as many in the dusk. The error falls with
     /// their square.
     pub steps: u32,
     /// Largest angle between directions that are evaluated, radians; light is interpolated between. 0 is every pixel.
@@ -90,7 +90,7 @@ impl DomeQuality {
     /// What that quality takes: 10 points, and 100 at every pixel where it is exact.
     pub fn new(quality: &Quality) -> DomeQuality {
         let exact = quality.cell == 1;
-        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.02 }, grid: quality.grid }
+        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.022 }, grid: quality.grid }
     }
 }
 
@@ -122,6 +122,9 @@ impl Dome {
         dome.again = mean * vec3(0.5, 1.0, 2.5) * sky.air.again;
         dome.level = mean.dot(vec3(0.21, 0.72, 0.07));
         dome.exposure = dispatch!(best(), simd => power(simd, dome.level.max(1e-9)));
+        // The eye gets used to moonlight less, or no night would be lighter than another.
+        let moon = sky.lamps().0[1];
+        dome.exposure *= 1.0 + (moon.strength * moon.direction.y.max(0.0) * 0.02 / dome.level.max(1e-9)).min(1.0);
         dome
     }
 

@@ -52,9 +52,8 @@ pub fn fill<S: Simd, G: Field>(simd: S, field: &G, view: &View, cells: Cells, ti
                 x[i] = left + (corner % row * size) as u32 as f32;
                 y[i] = top + (corner / row * size) as u32 as f32;
             }
-            if block * BLOCK < row * row {
-                evaluate(simd, field, view, &x, &y, light);
-            }
+            let count = (row * row).saturating_sub(block * BLOCK).min(BLOCK);
+            evaluate(simd, field, view, &x, &y, count, light);
         }
     }
     let mut bounds = [[[0.0; BLOCK]; 3]; 2];
@@ -100,7 +99,7 @@ fn covered(tile: &Tile) -> bool {
         .all(|row| row[..tile.width].iter().all(|c| *c >= 1.0))
 }
 
-/// The light of 64 points of the picture, in pixels.
+/// The light of the first `count` of 64 points of the picture, in pixels.
 #[simd]
 pub fn evaluate<S: Simd, G: Field>(
     simd: S,
@@ -108,10 +107,11 @@ pub fn evaluate<S: Simd, G: Field>(
     view: &View,
     x: &[f32; BLOCK],
     y: &[f32; BLOCK],
+    count: usize,
     out: &mut Block3,
 ) {
     let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
+    while i * F::<S>::LEN < count {
         let ray = view.rays(simd, load(simd, x, i), load(simd, y, i));
         let light = field.light(simd, ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt()));
         store(light.x, &mut out[0], i);
@@ -132,7 +132,7 @@ fn sample<S: Simd, G: Field>(simd: S, field: &G, view: &View, grid: usize, left:
         for (i, x) in x.iter_mut().enumerate() {
             *x = left + i as u32 as f32 + ((part % grid) as u32 as f32 + 0.5) * step;
         }
-        evaluate(simd, field, view, &x, &y, &mut light);
+        evaluate(simd, field, view, &x, &y, BLOCK, &mut light);
         for (sum, light) in out.iter_mut().zip(&light) {
             for (sum, light) in sum.iter_mut().zip(light) {
                 *sum += light * step * step;

@@ -86,10 +86,17 @@ impl Moon {
         let center = sun::equatorial(longitude.to_radians(), latitude.to_radians(), days) * (385_000.6 + range);
         let turn = place.turn(days);
         // From the place rather than from the earth's centre: up to a degree.
-        let moon = turn * center - DVec3::Y * EARTH;
+        let from_center = turn * center;
+        let moon = from_center - DVec3::Y * EARTH;
+        let sun = turn * sun::equator(days) * SUN;
         let distance = moon.length();
-        let to_sun = (turn * sun::equator(days) * SUN - moon).normalize();
-        let direction = moon / distance;
-        Moon { direction, distance, radius: (RADIUS / distance).asin(), to_sun, lit: 0.5 - 0.5 * to_sun.dot(direction) }
+        let phase = (sun - from_center).normalize().dot(from_center.normalize());
+        Moon {
+            direction: moon / distance,
+            distance,
+            radius: (RADIUS / distance).asin(),
+            to_sun: (sun - moon).normalize(),
+            lit: 0.5 - 0.5 * phase,
+        }
     }
 }

@@ -14,9 +14,9 @@ const COUNT: u32 = 5000;
 #[derive(Clone, Copy, Debug)]
 pub struct Star {
     /// Its place in the picture, pixels.
-    at: (f32, f32),
-    /// Its light, spread over about four pixels.
-    color: Vec3,
+    pub at: (f32, f32),
+    /// Its linear light, spread over about four pixels.
+    pub color: Vec3,
 }
 
 /// The three words of entry `n` of a table of noise. Widynski's Squares would do; this is murmur's finalizer (Appleby).
@@ -38,8 +38,9 @@ impl Dome {
     /// are of each as in the true sky, and the light of the sky says which magnitude is seen.
     pub fn stars(&self, view: &View, width: usize, height: usize, shimmer: f64) -> Vec<Star> {
         let mut stars = Vec::new();
-        // Decades of light from the darkest sky. By day there are seven, and each costs 1.3 magnitudes.
-        let faintest = 6.2 - 1.3 * (self.level.max(1e-9) / 3e-7).log10();
+        // Decades of light from the darkest sky. Each costs 1.8 magnitudes: the first star is out when
+        // the sun is 2 degrees down.
+        let faintest = 6.2 - 1.8 * (self.level.max(1e-9) / 3e-7).log10();
         let moon = (self.sky.moon, self.sky.moon_radius);
         for n in 0..COUNT {
             let magnitude = 6.0 + 2.0 * ((n as f32 + 0.5) / COUNT as f32).log10();
@@ -63,7 +64,7 @@ impl Dome {
                 let low = 1.0 / (1.0 + 12.0 * d.y);
                 let phase = shimmer * (5.0 + 3.0 * random(n) as f64) + n as f64;
                 let twinkle = 1.0 + (0.1 + 0.4 * low) * phase.sin() as f32;
-                let light = (0.05 * seen + 0.035 * seen * seen).min(1.8) * twinkle * (1.0 - low);
+                let light = (0.09 * seen + 0.03 * seen * seen).min(1.8) * twinkle * (1.0 - low);
                 // From orange to blue, as black bodies are.
                 let hue = random(n + 7) * 0.25;
                 stars.push(Star { at: (x, y), color: vec3(1.0 + hue, 1.0, 1.0 - hue) * light });

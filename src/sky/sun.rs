@@ -35,9 +35,11 @@ pub fn equator(days: f64) -> DVec3 {
 
 /// The sun's true unit direction on world axes, without refraction; see [`super::place::refracted`].
 ///
-/// Within 0.02 degrees in 1900 to 2100. The parallax, 0.0024 degrees, is left out.
+/// Within 0.01 degrees in 1900 to 2100.
 pub fn direction(days: f64, place: &Place) -> DVec3 {
-    place.turn(days) * equator(days)
+    // From the place rather than from the earth's centre, 1/23,455 of the way: 0.0024 degrees, ten minutes of a pole's
+    // sunrise.
+    (place.turn(days) * equator(days) - DVec3::Y / 23_455.0).normalize()
 }
 
 /// One passage of the sun through an altitude.

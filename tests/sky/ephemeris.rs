@@ -142,16 +142,19 @@ fn sun_rises_and_sets_when_spa_says() {
         let [start, latitude, longitude, up] = row[..4] else { panic!() };
         let place = Place::degrees(latitude, longitude);
         let day = Day::new(start, &place, RISE);
-        let truth: Vec<(f64, bool)> = row[4..].chunks(2).map(|c| (c[0], c[1] == 1.0)).collect();
-        let directions: Vec<bool> = day.crossings.iter().map(|c| c.rising).collect();
+        // What is so near to the day's ends may fall to another day.
+        let within = |t: f64| (t - start - 0.5).abs() < 0.5 - RISE_SECONDS / 86_400.0;
+        let truth: Vec<(f64, bool)> = row[4..].chunks(2).map(|c| (c[0], c[1] == 1.0)).filter(|c| within(c.0)).collect();
+        let found: Vec<_> = day.crossings.iter().filter(|c| within(c.time)).collect();
+        let directions: Vec<bool> = found.iter().map(|c| c.rising).collect();
         assert_eq!(directions, truth.iter().map(|t| t.1).collect::<Vec<_>>(), "{row:?} {day:?}");
-        if truth.iter().all(|t| t.0 - start > 1e-3) {
+        if truth.len() == row[4..].len() / 2 {
             assert_eq!(day.starts_up, up == 1.0, "{row:?}");
+            assert_eq!(day.is_polar_day(), truth.is_empty() && up == 1.0);
+            assert_eq!(day.is_polar_night(), truth.is_empty() && up == 0.0);
         }
-        assert_eq!(day.is_polar_day(), truth.is_empty() && up == 1.0);
-        assert_eq!(day.is_polar_night(), truth.is_empty() && up == 0.0);
         doubles += (truth.iter().filter(|t| t.1).count() > 1) as u32;
-        for (found, (time, _)) in day.crossings.iter().zip(&truth) {
+        for (found, (time, _)) in found.iter().zip(&truth) {
             let off = (found.time - time).abs() * 86_400.0;
             // How fast it climbs, degrees an hour.
             let climb = |t: f64| angles(sun::direction(t, &place)).0.to_degrees();
