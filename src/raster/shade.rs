@@ -364,7 +364,6 @@ fn paint<S: Simd>(
     color: &mut Block3,
 ) {
     let mut footprint = [0.0; BLOCK];
-    let (_, pixels) = view.screen();
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (load3(simd, point, i), load3(simd, normal, i));
@@ -372,7 +371,7 @@ fn paint<S: Simd>(
         let cosine = way.dot(n).abs() / way.dot(way).sqrt();
         // Between the pixel's width and its length.
         let stretch = F::<S>::splat(simd, 1.0) / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
-        store(load::<S, F<S>>(simd, depth, i) * stretch * (1.0 / pixels), &mut footprint, i);
+        store(load::<S, F<S>>(simd, depth, i) * stretch * view.pixel(), &mut footprint, i);
         i += 1;
     }
     let mut painted = [[0.0; BLOCK]; 3];

@@ -9,6 +9,8 @@ pub mod shadow;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
+pub mod sky;
+#[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
 use crate::camera::{Camera, Eye};
@@ -89,6 +91,8 @@ pub const ALL: &[Scene] = &[
     shadow::SHADOW,
     #[cfg(feature = "bench-scenes")]
     shadow::SHADOW_CUBE,
+    #[cfg(feature = "bench-scenes")]
+    sky::SKY,
 ];
 
 /// The intro's own show: what plays when no scene is named.
