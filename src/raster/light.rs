@@ -99,13 +99,11 @@ impl Lit {
         Lit { light, map: None, first, views, cut, scale: 1.0 / (1.0 - cut) }
     }
 
-    /// May it reach a box?
-    pub fn reaches(&self, low: Vec3, high: Vec3) -> bool {
+    /// May it reach into a ball?
+    pub fn reaches(&self, center: Vec3, radius: f32) -> bool {
         match self.light.source {
             Source::Sun(_) => true,
-            Source::Lamp { position, reach, .. } => {
-                position.clamp(low, high).distance_squared(position) <= reach * reach
-            }
+            Source::Lamp { position, reach, .. } => center.distance(position) <= reach + radius,
         }
     }
 

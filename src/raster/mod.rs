@@ -76,6 +76,8 @@ pub struct World {
     pub haze: Haze,
     /// The sky straight above, for gloss.
     pub zenith: Vec3,
+    /// Is light squeezed by `1 - exp(-light)`, as on film? Haze and zenith are taken to be so already.
+    pub film: bool,
     /// What is behind all, if the raster is to fill it.
     pub background: Option<Vec3>,
 }
@@ -211,7 +213,8 @@ impl Layer for Drawn {
         for (slot, light) in world.lights.iter().enumerate() {
             let mut lit = Lit::new(light.clone(), rasters.len());
             if let Some(plan) = &light.shadow {
-                let key = Key { slot, plan: plan.clone(), casters: world.bodies.clone() };
+                let casters = world.bodies.iter().filter(|body| lit.reaches(body.bound.0, body.bound.1)).cloned();
+                let key = Key { slot, plan: plan.clone(), casters: casters.collect() };
                 match shadow::recall(&key) {
                     Ok(map) => lit.map = Some(map),
                     Err(map) => {

@@ -197,6 +197,12 @@ impl Fragments {
 /// How fast the mirrored sky goes from the horizon's colour to the zenith's: half of it in 1 / this of the sine.
 const RISE: f32 = 4.0;
 
+/// What film shows of light.
+#[inline(always)]
+fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
+    -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
+}
+
 /// A plane at offsets from its anchor, where `here`.
 #[inline(always)]
 fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
@@ -265,7 +271,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
     let mut near = [0u32; 32];
     let mut reaching = 0;
     for (index, light) in lights.iter().enumerate() {
-        if light.reaches(low, high) && reaching < near.len() {
+        if light.reaches((low + high) * 0.5, low.distance(high) * 0.5) && reaching < near.len() {
             near[reaching] = index as u32;
             reaching += 1;
         }
@@ -296,6 +302,9 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             let grazing = grazing * grazing * rest;
             let gloss = load::<S, F<S>>(simd, &glosses, i) * (grazing * 0.95 + 0.05);
             color_here = color_here + (sky - color_here) * Lane(gloss);
+        }
+        if world.film {
+            color_here = V3 { x: film(simd, color_here.x), y: film(simd, color_here.y), z: film(simd, color_here.z) };
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
         let before = haze.at(simd, way).0;

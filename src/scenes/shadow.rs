@@ -70,6 +70,7 @@ fn picture(shot: &Shot, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
         ambient: [ambient * 0.6, ambient * 0.4],
         haze: Haze { color: fog, density: 0.012, glow: (Vec3::Y, Vec3::ZERO) },
         zenith: fog,
+        film: false,
         background: Some(fog),
     };
     shot.drawn(world, shot.camera(camera), Transfer::Gamma22)

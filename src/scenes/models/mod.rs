@@ -43,10 +43,11 @@ pub static PAINTS: [Paint; 14] = [
     Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None, gloss: 1.0 },
 ];
 
-const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
+/// Grass in summer.
+pub const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
 
-/// The textures that they name: grass, heights, bark, leaves, masonry, tiles. All but the second vary about 1.
-pub static TEXTURES: [Texture; 6] = [
+/// The textures that they name: grass, heights, bark, needles, masonry, tiles, leaves. All but the second vary about 1.
+pub static TEXTURES: [Texture; 7] = [
     clouds(vec3(-0.5, 0.0, 0.2), vec3(2.5, 2.0, 1.8), 0.09, 6),
     // The sine rises from -50 m to 1250 m.
     layers(
@@ -60,6 +61,7 @@ pub static TEXTURES: [Texture; 6] = [
     clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
     clouds(vec3(0.2, 0.2, 0.25), vec3(1.8, 1.8, 1.75), 0.9, 4),
     layers(Palette::Mix(vec3(0.6, 0.6, 0.6), vec3(1.4, 1.4, 1.4)), 14.0, 5.0, 6.0, 0.0),
+    clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
 ];
 
 const fn solid(albedo: Vec3, texture: u8) -> Paint {
