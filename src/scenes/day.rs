@@ -16,6 +16,7 @@ use crate::tile::Picture;
 use crate::timeline::{self, Key, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
+use std::f32::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// The part.
@@ -104,7 +105,9 @@ fn picture(shot: &Shot) -> Picture {
     let way = (shot.time / 15.0 - (shot.time / 15.0).floor() - 0.5) as f32 * 900.0;
     let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
-    let spin = turn * Mat3::from_rotation_z((shot.time * 31.0 % 6.283) as f32);
+    // Turns a second, five.
+    let turns = 5.0 * shot.time;
+    let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
     for (mesh, turn, at) in [(&aeroplane[0], turn, Vec3::ZERO), (&aeroplane[1], spin, turn * mustang::HUB)] {
         bodies.push(Body::new(mesh.clone(), Affine3A::from_mat3_translation(turn, place + at)));
     }
