@@ -152,8 +152,8 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, behind: bool, tile: &mut
                     rays += p * 0.22;
                     k += 1;
                 }
-                light = light + end * end * rays * (disc.glare * around) / (squared + around);
-                light = light + end * end * end * (disc.glare * 0.05);
+                light += end * end * rays * (disc.glare * around) / (squared + around);
+                light += end * end * end * (disc.glare * 0.05);
             }
             let left = if behind { one - load::<S, F<S>>(simd, coverage, i) } else { one };
             let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
