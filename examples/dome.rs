@@ -1,6 +1,6 @@
 //! The dome of the sky: contact sheets through the day, and error against milliseconds.
 //!
-//! usage: dome sheet FILE.png [HAZE] | dome day FILE.png | dome table
+//! usage: dome sheet FILE.png [HAZE] | dome day FILE.png | dome moon FILE.png | dome table
 
 use glam::{Mat3, Vec3, vec3};
 use image::{Rgb, RgbImage, imageops};
@@ -29,10 +29,10 @@ fn sky(altitude: f32, haze: f32) -> Sky {
     }
 }
 
-fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
+fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize), look: Look) -> RgbImage {
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
-    let layer = Backdrop::new(dome, camera, size.0, size.1, Look::default());
+    let layer = Backdrop::new(dome, camera, size.0, size.1, look);
     Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
         let p = frame.pixels[y as usize * size.0 + x as usize];
@@ -54,7 +54,7 @@ fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32)
     for _ in 0..repeat {
         let start = std::time::Instant::now();
         let dome = Dome::new(sky(altitude, 1.3), quality);
-        pictures = [-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.35, side), 50.0, size)).to_vec();
+        pictures = [-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.35, side), 50.0, size, Look::default())).to_vec();
         best = best.min(start.elapsed().as_secs_f64() * 500.0);
     }
     (pictures, best)
@@ -99,7 +99,7 @@ fn main() {
                 let dome = Dome::new(sky(altitude, haze), quality);
                 println!("{altitude}: level {:.3e} exposure {:.3e}", dome.level, dome.exposure);
                 for (j, side) in [-1.0, 1.0].into_iter().enumerate() {
-                    let picture = render(dome, vec3(0.0, 0.45, side), 75.0, size);
+                    let picture = render(dome, vec3(0.0, 0.45, side), 75.0, size, Look::default());
                     let (x, y) = (i % 2 * 2 + j, i / 2);
                     imageops::replace(&mut sheet, &picture, (x * size.0) as i64, (y * size.1) as i64);
                 }
@@ -119,9 +119,28 @@ fn main() {
                 println!("{hour}: sun {:.1} {:.2?}", sky.sun.y.asin().to_degrees(), light);
                 for (column, d) in [sky.sun, sky.moon, vec3(0.1, 0.0, -1.0)].into_iter().enumerate() {
                     let d = vec3(d.x, d.y.max(0.35), d.z);
-                    let picture = render(dome, d, 50.0, size);
+                    let picture = render(dome, d, 50.0, size, Look::default());
                     imageops::replace(&mut sheet, &picture, (column * size.0) as i64, (row * size.1) as i64);
                 }
+            }
+            sheet.save(&arguments[1]).unwrap();
+        }
+        "moon" => {
+            // Every third day of a month at the moon's highest, ten times its size, up on a night's sky and on a day's.
+            let size = (200, 200);
+            let mut sheet = RgbImage::new(size.0 as u32 * 5, size.1 as u32 * 2);
+            for i in 0..10 {
+                let mut days = 9662.0 + i as f64 * 2.9;
+                let height = |t: f64| Sky::new(t, &Place::PLZEN).moon.y;
+                days += (0..96)
+                    .map(|q| q as f64 / 96.0)
+                    .max_by(|a, b| height(days + a).total_cmp(&height(days + b)))
+                    .unwrap();
+                let sky = Sky::new(days, &Place::PLZEN);
+                let look = Look { moon: 10.0, ..Look::default() };
+                let picture = render(Dome::new(sky, quality), sky.moon, 8.0, size, look);
+                println!("lit {:.2} sun {:.0}", sky.lit, sky.sun.y.asin().to_degrees());
+                imageops::replace(&mut sheet, &picture, (i % 5 * size.0) as i64, (i / 5 * size.1) as i64);
             }
             sheet.save(&arguments[1]).unwrap();
         }

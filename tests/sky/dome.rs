@@ -306,7 +306,7 @@ fn fills_what_solids_leave() {
 fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 1.0, -1.0), 1.2, 0.0);
     let view = View::new(camera, 640, 360);
-    let count = |altitude: f32| Dome::new(sky(altitude), EXACT).stars(&view, 640, 360, 0.0).len();
+    let count = |altitude: f32| Dome::new(sky(altitude), EXACT).stars(&view, 640, 360, 0.0, 1.0).len();
     assert_eq!(count(3.0), 0);
     let counts: Vec<usize> = (0..40).map(|i| count(2.0 - 0.5 * i as f32)).collect();
     assert!(counts.windows(2).all(|w| w[0] <= w[1]), "{counts:?}");
@@ -314,7 +314,7 @@ fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     // A sidereal day later each is where it was.
     let dark = |days: f64| {
         let turn = Place::PLZEN.turn(days).as_mat3();
-        Dome::new(Sky { turn, ..sky(-30.0) }, EXACT).stars(&view, 640, 360, 0.0)
+        Dome::new(Sky { turn, ..sky(-30.0) }, EXACT).stars(&view, 640, 360, 0.0, 1.0)
     };
     let (now, later) = (dark(5000.0), dark(5000.0 + 0.997_269_57));
     let near = |a: (f32, f32), b: (f32, f32)| (a.0 - b.0).hypot(a.1 - b.1) < 0.1;
