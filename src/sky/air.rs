@@ -86,10 +86,10 @@ fn columns<S: Simd>(simd: S, height: F<S>, density: [F<S>; 2], up: F<S>) -> V3<S
     let mut ozone = zero;
     let (squared, back) = (lowest * lowest, radius * up);
     for (edge, sign) in OZONE.into_iter().zip([-1.0, 1.0]) {
-        // The length of the way within a ball, whose edge is soft by some 2 km: at a hard one all light that grazes the
+        // The length of the way within a ball, whose edge is soft by a km: at a hard one all light that grazes the
         // shell would change at once, and dusk would jerk.
         let q = -squared + (EARTH + edge) * (EARTH + edge);
-        let half: F<S> = ((q + (q * q + 6e8).sqrt()) * 0.5).sqrt();
+        let half: F<S> = ((q + (q * q + 1.5e8).sqrt()) * 0.5).sqrt();
         ozone += ((half - back).max(zero) - (-half - back).max(zero)) * sign;
     }
     V3 { x: sums[0], y: sums[1], z: ozone.max(zero) }

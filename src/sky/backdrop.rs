@@ -23,6 +23,8 @@ pub struct Backdrop {
 pub struct Look {
     /// It only fills what solids have left of each pixel. Else it fills every pixel.
     pub behind: bool,
+    /// The sun's size over its true one.
+    pub sun: f32,
     /// The moon's size over its true one.
     pub moon: f32,
     /// The time that stars twinkle by, seconds: the show's, not the sky's, which may run faster.
@@ -30,9 +32,9 @@ pub struct Look {
 }
 
 impl Default for Look {
-    /// The whole sky, the moon as large as it seems: twice its size.
+    /// The whole sky, sun and moon as large as they seem: twice their size.
     fn default() -> Look {
-        Look { behind: false, moon: 2.0, shimmer: 0.0 }
+        Look { behind: false, sun: 2.0, moon: 2.0, shimmer: 0.0 }
     }
 }
 
@@ -45,8 +47,8 @@ impl Backdrop {
             size /= 2;
         }
         let cells = Cells { size: if size < 8 { 1 } else { size }, grid: dome.quality.grid, behind: look.behind };
-        let discs = [dome.sun_disc(camera.forward), dome.moon_disc(look.moon)];
-        let stars = dome.stars(&view, width, height, look.shimmer);
+        let discs = [dome.sun_disc(camera.forward, look.sun), dome.moon_disc(look.moon)];
+        let stars = dome.stars(&view, width, height, look.shimmer, look.moon);
         Backdrop { dome, view, cells, discs, stars }
     }
 }

