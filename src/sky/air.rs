@@ -117,62 +117,61 @@ impl Air {
         let depth = self.depth(simd, columns(simd, eye, density(simd, eye), d.y));
         exp3(simd, depth, -1.0)
     }
+}
 
-    /// The light that air sends from unit directions: what it scatters once, an integral along each over `steps` points (three
-    /// times as many in the dusk),
-    /// and `again`, the mean light from all around, as it scatters that.
-    ///
-    /// Below the horizon it is the horizon's, and darker downwards.
-    #[inline(always)]
-    pub fn scattered<S: Simd>(&self, simd: S, lamps: &[Lamp], again: Vec3, steps: u32, d: V3<S>) -> V3<S> {
-        let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        // Bent away from the ground smoothly, so that the horizon is no edge.
-        let up: F<S> = ((d.y + (d.y * d.y + 1.5e-4).sqrt()) * 0.5).min(1.0);
-        let ground = math::exp2(simd, (d.y - up) * 3.0);
-        let level: F<S> = ((one - up * up) / (one - d.y * d.y).max(1e-6)).max(zero).sqrt();
-        let d: V3<S> = V3 { x: d.x * level, y: up, z: d.z * level };
-        let begin = EARTH + EYE;
-        let eye = F::<S>::splat(simd, EYE);
-        let whole = columns(simd, eye, density(simd, eye), up);
-        let back = up * begin;
-        let reach = (back * back + (TOP - EYE) * (2.0 * EARTH + TOP + EYE)).sqrt() - back;
-        let opaque = V3::splat(simd, Vec3::ONE) - exp3(simd, self.depth(simd, whole), -1.0);
-        let mut sum = opaque.mulv(V3::splat(simd, again));
-        for lamp in lamps {
-            let cosine = d.dot1(lamp.direction);
-            let gas = (cosine * cosine + 1.0) * (3.0 / 16.0 * FRAC_1_PI);
-            // Cornette and Shanks, "Physically reasonable analytic expression for the single-scattering phase
-            // function", 1992.
-            const G2: f32 = FORWARD * FORWARD;
-            let far = cosine * (-2.0 * FORWARD) + (1.0 + G2);
-            let haze = gas * (2.0 * (1.0 - G2) / (2.0 + G2)) / (far * far.sqrt());
-            // When only what is far and high is lit, points lie less dense near the eye, and there are more of them.
-            let low = -lamp.direction.y;
-            let even = (low * 10.0 - 0.5).clamp(0.0, 1.0);
-            let steps = if low > -0.05 { 3 * steps } else { steps };
-            for step in 0..steps {
-                let s = (step as f32 + 0.5) / steps as f32;
-                // Cubic by day: the ends of the integral vanish, so that midpoints converge fast.
-                let (place, slope) = (s * s * (s + even * (1.0 - s)), s * (3.0 * s + even * (2.0 - 3.0 * s)));
-                let (way, length) = (reach * place, reach * (slope * lamp.strength / steps as f32));
-                let radius = (way * (way + back * 2.0) + begin * begin).sqrt();
-                let height = radius - EARTH;
-                let [thick, hazy] = density(simd, height);
-                let inward = columns(simd, height, [thick, hazy], (way * cosine + begin * lamp.direction.y) / radius);
-                let rest = columns(simd, height, [thick, hazy], ((way + back) / radius).min(one));
-                let seen = V3 {
-                    x: (whole.x - rest.x).max(zero),
-                    y: (whole.y - rest.y).max(zero),
-                    z: (whole.z - rest.z).max(zero),
-                };
-                let left = exp3(simd, self.depth(simd, inward + seen), -1.0);
-                let thick = thick * length * gas;
-                let hazy = hazy * length * haze * (HAZE * self.haze);
-                sum = sum + left.mulv(V3::splat(simd, GAS) * Lane(thick) + V3 { x: hazy, y: hazy, z: hazy });
-            }
+/// The light that air sends from unit directions: what it scatters once, an integral along each over `steps` points (three
+/// times as many in the dusk), and `again`, the mean light from all around, as it scatters that.
+///
+/// Below the horizon it is the horizon's, and darker downwards.
+#[simd]
+pub fn scattered<S: Simd>(simd: S, air: &Air, lamps: &[Lamp], again: Vec3, steps: u32, d: V3<S>) -> V3<S> {
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    // Bent away from the ground smoothly, so that the horizon is no edge.
+    let up: F<S> = ((d.y + (d.y * d.y + 1.5e-4).sqrt()) * 0.5).min(1.0);
+    let ground = math::exp2(simd, (d.y - up) * 3.0);
+    let level: F<S> = ((one - up * up) / (one - d.y * d.y).max(1e-6)).max(zero).sqrt();
+    let d: V3<S> = V3 { x: d.x * level, y: up, z: d.z * level };
+    let begin = EARTH + EYE;
+    let eye = F::<S>::splat(simd, EYE);
+    let whole = columns(simd, eye, density(simd, eye), up);
+    let back = up * begin;
+    let reach = (back * back + (TOP - EYE) * (2.0 * EARTH + TOP + EYE)).sqrt() - back;
+    let opaque = V3::splat(simd, Vec3::ONE) - exp3(simd, air.depth(simd, whole), -1.0);
+    let mut sum = opaque.mulv(V3::splat(simd, again));
+    for lamp in lamps {
+        let cosine = d.dot1(lamp.direction);
+        let gas = (cosine * cosine + 1.0) * (3.0 / 16.0 * FRAC_1_PI);
+        // Cornette and Shanks, "Physically reasonable analytic expression for the single-scattering phase
+        // function", 1992.
+        const G2: f32 = FORWARD * FORWARD;
+        let far = cosine * (-2.0 * FORWARD) + (1.0 + G2);
+        let haze = gas * (2.0 * (1.0 - G2) / (2.0 + G2)) / (far * far.sqrt());
+        // When only what is far and high is lit, points lie less dense near the eye, and there are more of them.
+        let low = -lamp.direction.y;
+        let even = (low * 10.0 - 0.5).clamp(0.0, 1.0);
+        let steps = if low > -0.05 { 3 * steps } else { steps };
+        for step in 0..steps {
+            let s = (step as f32 + 0.5) / steps as f32;
+            // Cubic by day: the ends of the integral vanish, so that midpoints converge fast.
+            let (place, slope) = (s * s * (s + even * (1.0 - s)), s * (3.0 * s + even * (2.0 - 3.0 * s)));
+            let (way, length) = (reach * place, reach * (slope * lamp.strength / steps as f32));
+            let radius = (way * (way + back * 2.0) + begin * begin).sqrt();
+            let height = radius - EARTH;
+            let [thick, hazy] = density(simd, height);
+            let inward = columns(simd, height, [thick, hazy], (way * cosine + begin * lamp.direction.y) / radius);
+            let rest = columns(simd, height, [thick, hazy], ((way + back) / radius).min(one));
+            let seen = V3 {
+                x: (whole.x - rest.x).max(zero),
+                y: (whole.y - rest.y).max(zero),
+                z: (whole.z - rest.z).max(zero),
+            };
+            let left = exp3(simd, air.depth(simd, inward + seen), -1.0);
+            let thick = thick * length * gas;
+            let hazy = hazy * length * haze * (HAZE * air.haze);
+            sum = sum + left.mulv(V3::splat(simd, GAS) * Lane(thick) + V3 { x: hazy, y: hazy, z: hazy });
         }
-        sum * Lane(ground)
     }
+    sum * Lane(ground)
 }
 
 /// `e^(v k)` by component.

@@ -1,6 +1,6 @@
 //! The sky at a time and place, as an eye sees it that has got used to the light.
 
-use super::air::{Air, Lamp, exp3};
+use super::air::{Air, Lamp, exp3, scattered};
 use super::grid::Field;
 use super::moon::Moon;
 use super::place::{Place, refracted};
@@ -146,7 +146,7 @@ impl Dome {
     #[inline(always)]
     fn gathered<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
         let (lamps, first, end) = self.sky.lamps();
-        let light = self.sky.air.scattered(simd, &lamps[first..end], self.again, self.quality.steps, d);
+        let light = scattered(simd, &self.sky.air, &lamps[first..end], self.again, self.quality.steps, d);
         // Airglow is a thin shell: more of it towards the horizon.
         let low = F::<S>::splat(simd, 1.0) - d.y.abs();
         light + V3::splat(simd, NIGHT) * Lane(low * low + 1.0)
