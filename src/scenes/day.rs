@@ -40,7 +40,7 @@ struct Season {
 const SEASONS: [Season; 4] = [
     Season { midnight: 9674.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
     Season { midnight: 9757.5 - HOUR, grass: vec3(0.16, 0.14, 0.045), leaves: vec3(2.2, 0.8, 0.3), snow: 0.0 },
-    Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.7, 0.5, 1.2), snow: 1.0 },
+    Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.6, 0.35, 0.7), snow: 1.0 },
     Season { midnight: 9929.5 - HOUR, grass: vec3(0.12, 0.15, 0.03), leaves: vec3(1.0, 1.1, 0.8), snow: 0.15 },
 ];
 
@@ -55,9 +55,15 @@ pub fn clock(time: f64) -> (usize, f64) {
 
 /// Eye, target, vertical field of view in degrees, by the hour.
 const CAMERA: &[Key<7>] = &[
-    (4.0, [-34.0, 13.0, 16.0, 0.0, 16.0, -2.0, 50.0]),
-    (16.0, [30.0, 16.0, 40.0, 0.0, 14.0, -2.0, 50.0]),
-    (28.0, [-34.0, 13.0, 16.0, 0.0, 16.0, -2.0, 50.0]),
+    (4.0, [-36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0]),
+    (8.0, [-24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0]),
+    (11.0, [20.0, 19.0, -42.0, 0.0, 16.0, 0.0, 54.0]),
+    (15.0, [46.0, 17.0, 2.0, 0.0, 17.0, 0.0, 54.0]),
+    (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
+    (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
+    // To the south, where the moon stands over the lake.
+    (22.0, [-12.0, 15.5, -44.0, 4.0, 19.0, 0.0, 54.0]),
+    (28.0, [12.0, 16.5, -46.0, 2.0, 20.0, 0.0, 54.0]),
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
@@ -123,7 +129,7 @@ fn picture(shot: &Shot) -> Picture {
     let mut lights = vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: Some(plan) }];
     // Somebody lights a lamp when it gets dark.
     let dark = ease(-0.02, 0.1, -dome.sky.sun.y as f64);
-    for (position, color, reach) in [(vec3(0.0, 14.5, 1.0), vec3(1.6, 0.75, 0.25), 30.0)] {
+    for (position, color, reach) in [(vec3(0.0, 14.5, 1.0), vec3(3.2, 1.5, 0.5), 30.0)] {
         if dark > 0.0 {
             let plan = Plan {
                 views: fit::cube(position, 512),
