@@ -28,7 +28,7 @@ pub const LENGTH: f64 = 60.0;
 
 /// A day of the year.
 struct Season {
-    /// Days from J2000 to midnight, Central European Time: 2026-06-28, 2026-09-19, 2026-12-22, 2027-03-10.
+    /// Days from J2000 to midnight, Central European Time: 2026-06-25, 2026-09-19, 2026-12-22, 2027-03-10.
     midnight: f64,
     /// Albedo of the meadows, and what that of leaves is multiplied by.
     grass: Vec3,
@@ -38,7 +38,7 @@ struct Season {
 }
 
 const SEASONS: [Season; 4] = [
-    Season { midnight: 9674.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
+    Season { midnight: 9671.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
     Season { midnight: 9757.5 - HOUR, grass: vec3(0.16, 0.14, 0.045), leaves: vec3(2.2, 0.8, 0.3), snow: 0.0 },
     Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.6, 0.35, 0.7), snow: 1.0 },
     Season { midnight: 9929.5 - HOUR, grass: vec3(0.12, 0.15, 0.03), leaves: vec3(1.0, 1.1, 0.8), snow: 0.15 },
@@ -62,8 +62,8 @@ const CAMERA: &[Key<7>] = &[
     (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
     (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
     // To the south, where the moon stands over the lake.
-    (22.0, [-12.0, 15.5, -44.0, 4.0, 19.0, 0.0, 54.0]),
-    (28.0, [12.0, 16.5, -46.0, 2.0, 20.0, 0.0, 54.0]),
+    (22.0, [-4.0, 15.5, -46.0, -6.0, 19.5, 0.0, 54.0]),
+    (28.0, [14.0, 16.5, -45.0, -4.0, 20.0, 0.0, 54.0]),
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.

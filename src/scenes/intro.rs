@@ -1,6 +1,6 @@
 //! The show: parts, one after another, each a scene of its own. It fades to black before a part ends.
 
-use super::{Scene, Shot, lumen};
+use super::{Scene, Shot, day, lumen};
 use crate::tile::{Layer, Picture, Stats, Tile};
 use crate::timeline::{self, ease};
 use fearless_simd::Level;
@@ -10,13 +10,15 @@ pub const INTRO: Scene =
     Scene { name: "intro", about: "the show: its parts one after another", duration: END, picture };
 
 /// The parts by the second that each starts, with the second of its own time that it begins at.
-pub const PARTS: &[(f64, (Scene, f64))] = &[(0.0, (lumen::LUMEN, 0.0))];
+pub const PARTS: &[(f64, (Scene, f64))] = &[
+    (0.0, (lumen::LUMEN, 0.0)),
+    // A day in summer, and one in winter.
+    (56.0, (day::DAY, 0.0)),
+    (56.0 + day::LENGTH, (day::DAY, 2.0 * day::LENGTH)),
+];
 
-/// Seconds that the show takes: all of the last part.
-const END: f64 = {
-    let (start, (part, from)) = PARTS[PARTS.len() - 1];
-    start + part.duration - from
-};
+/// Seconds that the show takes.
+const END: f64 = 56.0 + 2.0 * day::LENGTH;
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;
