@@ -131,7 +131,7 @@ impl Crew {
         work: impl Fn(&mut M, T) -> u64 + Sync,
     ) -> u64 {
         let jobs = Mutex::new(jobs);
-        self.pool.sum(|| {
+        self.pool.sum(&|| {
             let mut own = make();
             let mut sum = 0;
             loop {

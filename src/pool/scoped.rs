@@ -20,11 +20,11 @@ impl Pool {
     }
 
     /// Does `work` on every thread at once; the sum of what it gives.
-    pub fn sum(&self, work: impl Fn() -> u64 + Sync) -> u64 {
+    pub fn sum(&self, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         thread::scope(|scope| {
             let hands: Vec<_> = (1..self.0)
                 // Where no more threads can start, those that did do the work.
-                .map_while(|_| Builder::new().stack_size(STACK).spawn_scoped(scope, &work).ok())
+                .map_while(|_| Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok())
                 .collect();
             work() + hands.into_iter().filter_map(|hand| hand.join().ok()).sum::<u64>()
         })

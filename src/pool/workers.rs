@@ -22,7 +22,7 @@ impl Pool {
     }
 
     /// Does `work` on every thread at once; the sum of what it gives.
-    pub fn sum(&self, work: impl Fn() -> u64 + Sync) -> u64 {
+    pub fn sum(&self, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         let sum = AtomicU64::new(0);
         let add = || sum.fetch_add(work(), Ordering::Relaxed);
         self.0.scope(|scope| {

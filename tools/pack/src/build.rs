@@ -36,6 +36,8 @@ const SETTINGS: &[&str] = &[
     "profile.release.debug='line-tables-only'",
     // As fast as 3 for half of its bytes, see ARCHITECTURE.md.
     "profile.release.package.paprsek.opt-level=2",
+    // Kernels say themselves what is inlined.
+    "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inlinedefault-threshold=10']",
 ];
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
@@ -51,6 +53,7 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     let mut cargo = toolchain.cargo(&root);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
     cargo.args(["--no-default-features", "--features", "x11"]);
+    cargo.arg("-Zprofile-rustflags");
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
     cargo.arg("--target-dir").arg(&target);
     for setting in SETTINGS {

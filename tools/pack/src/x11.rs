@@ -2,7 +2,7 @@
 //!
 //! x11-dl looks up all 767 functions of Xlib when a window opens, one after another in code: 66 kB of an executable.
 //! minifb names 56 of them, and of Xcursor one of 59. Cargo's `paths` takes a copy of the crate with only those in
-//! its lists, and leaves the lock file as it is.
+//! its lists, and leaves the lock file as it is. There a loop over a table of names looks them up.
 
 use std::collections::HashSet;
 use std::fs;
@@ -11,11 +11,60 @@ use std::path::{Path, PathBuf};
 /// The files with lists that minifb opens. Other lists do not get into the executable.
 const LISTS: [&str; 2] = ["xlib.rs", "xcursor.rs"];
 
+/// The file with the code that looks functions up, and what becomes of its parts.
+const CODE: &str = "link.rs";
+const LOOP: [(&str, &str); 4] = [
+    // All fields but the empty one are pointers, in the order of the names.
+    ("    pub struct $struct_name {", "    #[repr(C)]\n    #[derive(Clone, Copy)]\n    pub struct $struct_name {"),
+    (
+        "            let funcs = $struct_name {
+              _private: (),
+              $($fn_name: ::std::mem::transmute(lib.symbol(stringify!($fn_name))?),)*
+              $($vfn_name: ::std::mem::transmute(lib.symbol(stringify!($vfn_name))?),)*
+              $($var_name: ::std::mem::transmute(lib.symbol(stringify!($var_name))?),)*
+            };
+",
+        "            let names = concat!($(stringify!($fn_name), \" \",)* $(stringify!($vfn_name), \" \",)* \
+         $(stringify!($var_name), \" \",)*);
+            let mut funcs = ::std::mem::MaybeUninit::<$struct_name>::uninit();
+            lib.symbols(names, funcs.as_mut_ptr().cast())?;
+            let funcs = funcs.assume_init();
+",
+    ),
+    (
+        "        Ok($struct_name {
+          _private: (),
+          $($fn_name: funcs.$fn_name,)*
+          $($vfn_name: funcs.$vfn_name,)*
+          $($var_name: funcs.$var_name,)*
+        })
+",
+        "        Ok(*funcs)
+",
+    ),
+    (
+        "    pub fn symbol(&self,",
+        "    /// Looks up names that end in spaces; `to` has room for as many.
+    pub unsafe fn symbols(&self, mut names: &str, mut to: *mut *mut c_void) -> Result<(), OpenError> {
+        while let Some((name, rest)) = names.split_once(' ') {
+            unsafe {
+                *to = self.symbol(name)?;
+                to = to.add(1);
+            }
+            names = rest;
+        }
+        Ok(())
+    }
+
+    pub fn symbol(&self,",
+    ),
+];
+
 /// Copies x11-dl into `copy`, cut down to what minifb names; both are found in the output of `cargo metadata`.
 pub fn cut(metadata: &str, copy: &Path) -> Result<(), String> {
     let words = words(&source(metadata, "minifb")?.join("src"))?;
     let from = source(metadata, "x11-dl")?;
-    for name in LISTS {
+    for name in LISTS.into_iter().chain([CODE]) {
         read(&from.join("src").join(name))?;
     }
     // What another version left there.
@@ -28,10 +77,10 @@ pub fn cut(metadata: &str, copy: &Path) -> Result<(), String> {
         let place = path.strip_prefix(&from).unwrap_or(&path);
         let mut bytes = fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         if LISTS.iter().any(|name| place == Path::new("src").join(name)) {
-            let cut = cut_list(&read(&path)?, &words).map_err(|why| {
-                format!("{}: {why}; has x11-dl changed? tools/pack/src/x11.rs must follow", path.display())
-            })?;
-            bytes = cut.into_bytes();
+            bytes = cut_list(&read(&path)?, &words).map_err(|why| changed(&path, &why))?.into_bytes();
+        }
+        if place == Path::new("src").join(CODE) {
+            bytes = with_loop(&read(&path)?).map_err(|why| changed(&path, &why))?.into_bytes();
         }
         let copy = copy.join(place);
         // Written anew, a file that is the same would have cargo build all that needs it once more.
@@ -42,6 +91,18 @@ pub fn cut(metadata: &str, copy: &Path) -> Result<(), String> {
         made.map_err(|error| format!("cannot write {}: {error}", copy.display()))?;
     }
     Ok(())
+}
+
+fn changed(path: &Path, why: &str) -> String {
+    format!("{}: {why}; has x11-dl changed? tools/pack/src/x11.rs must follow", path.display())
+}
+
+/// The text with [`LOOP`] in it.
+fn with_loop(text: &str) -> Result<String, String> {
+    LOOP.iter().try_fold(text.to_owned(), |text, (old, new)| match text.matches(old).count() {
+        1 => Ok(text.replace(old, new)),
+        count => Err(format!("{count} times '{old}'")),
+    })
 }
 
 /// The directory of a package of crates.io, by the paths of manifests in cargo's metadata.
@@ -152,6 +213,15 @@ mod tests {
         assert!(cut_list(LIST, &words(&["XThree"])).is_err());
         assert!(cut_list(&LIST.replace(") -> c_int,", ")\n    -> c_int,"), &words(&["XOne"])).is_err());
         assert!(cut_list(&LIST.replace("variadic:", "#[cfg(x)]"), &words(&["XOne"])).is_err());
+    }
+
+    #[test]
+    fn names_are_looked_up_in_a_loop() {
+        let text = LOOP.map(|(old, _)| old).concat();
+        let looped = with_loop(&text).unwrap();
+        assert!(looped.contains("lib.symbols(names,") && !looped.contains("transmute"), "{looped}");
+        assert!(with_loop(&looped).is_err());
+        assert!(with_loop(&text.repeat(2)).is_err());
     }
 
     #[test]
