@@ -1,5 +1,7 @@
 //! The scene `day`: its calendar, its light through the hours, and that nothing jumps.
 
+#![cfg(feature = "day")]
+
 use paprsek::quality::Quality;
 use paprsek::scenes::day::{DAY, LENGTH, clock};
 use paprsek::tile::{Frame, Renderer};

@@ -1,6 +1,8 @@
 //! Meshes from formulas: closed where they should be, turned outwards, without cracks; and the bench set against its
 //! other writing.
 
+#![cfg(feature = "day")]
+
 use glam::{DVec3, Mat3, Vec3, vec3};
 use paprsek::hash::{pcg, rnd};
 use paprsek::raster::form::{Body, SQUARE};

@@ -1,6 +1,8 @@
 //! The show: parts, one after another, each a scene of its own. It fades to black before a part ends.
 
-use super::{Scene, Shot, day, lumen};
+#[cfg(feature = "day")]
+use super::day;
+use super::{Scene, Shot, lumen};
 use crate::tile::{Layer, Picture, Stats, Tile};
 use crate::timeline::{self, ease};
 use fearless_simd::Level;
@@ -13,12 +15,14 @@ pub const INTRO: Scene =
 pub const PARTS: &[(f64, (Scene, f64))] = &[
     (0.0, (lumen::LUMEN, 0.0)),
     // A day in summer, and one in winter.
+    #[cfg(feature = "day")]
     (56.0, (day::DAY, 0.0)),
+    #[cfg(feature = "day")]
     (56.0 + day::LENGTH, (day::DAY, 2.0 * day::LENGTH)),
 ];
 
 /// Seconds that the show takes.
-const END: f64 = 56.0 + 2.0 * day::LENGTH;
+const END: f64 = 56.0 + if cfg!(feature = "day") { 120.0 } else { 0.0 };
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;
@@ -37,7 +41,7 @@ fn picture(shot: &Shot) -> Picture {
 /// once, since a first frame should show something.
 pub fn light<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
     let cuts = parts[1..].iter().map(|&(start, _)| ease(0.0, FADE, (time - start).abs()));
-    let light = cuts.fold(1.0 - ease(end - FADE, end, time), f32::min);
+    let light = cuts.fold(ease(0.0, FADE, end - time), f32::min);
     // Eyes, and codes, take about the root of it.
     light * light
 }

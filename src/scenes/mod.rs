@@ -1,8 +1,10 @@
 //! One file a scene; only scenes know more than one renderer.
 
+#[cfg(feature = "day")]
 pub mod day;
 pub mod intro;
 pub mod lumen;
+#[cfg(feature = "day")]
 pub mod models;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
@@ -16,10 +18,12 @@ pub mod spheres;
 use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
+#[cfg(feature = "bench-scenes")]
 use crate::raster::{self, Drawn};
 use crate::tile::Picture;
 use crate::trace::Traced;
 use crate::trace::world::World;
+#[cfg(feature = "bench-scenes")]
 use crate::view::View;
 
 /// A scene of the command line.
@@ -70,6 +74,7 @@ impl Shot {
     }
 
     /// A picture that is all triangles.
+    #[cfg(feature = "bench-scenes")]
     fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
         let view = View::new(camera, self.width, self.height);
         Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
@@ -80,6 +85,7 @@ impl Shot {
 pub const ALL: &[Scene] = &[
     intro::INTRO,
     lumen::LUMEN,
+    #[cfg(feature = "day")]
     day::DAY,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
