@@ -45,6 +45,8 @@ pub struct Haze {
     pub density: f32,
     /// A direction (unit) in which it shines by that much more, with the eighth power of the cosine.
     pub glow: (Vec3, Vec3),
+    /// Light of the sun's image there, where a mirror shows it.
+    pub image: Vec3,
 }
 
 impl Haze {
@@ -57,8 +59,8 @@ impl Haze {
                 *power *= *power;
             }
         }
-        let glow = V3::splat(simd, self.glow.1);
-        (V3::splat(simd, self.color) + glow * Lane(powers[0]), glow * Lane(powers[1] * 8.0))
+        let haze = V3::splat(simd, self.color) + V3::splat(simd, self.glow.1) * Lane(powers[0]);
+        (haze, V3::splat(simd, self.image) * Lane(powers[1]))
     }
 }
 

@@ -57,8 +57,8 @@ pub fn clock(time: f64) -> (usize, f64) {
 const CAMERA: &[Key<7>] = &[
     (4.0, [-36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0]),
     (8.0, [-24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0]),
-    (11.0, [20.0, 19.0, -42.0, 0.0, 16.0, 0.0, 54.0]),
-    (15.0, [46.0, 17.0, 2.0, 0.0, 17.0, 0.0, 54.0]),
+    (12.0, [0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0]),
+    (14.0, [38.0, 19.0, -28.0, 0.0, 16.5, 0.0, 54.0]),
     (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
     (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
     // To the south, where the moon stands over the lake.
@@ -144,12 +144,13 @@ fn picture(shot: &Shot) -> Picture {
     }
     let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
     let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
+    let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
     let world = World {
         bodies,
         textures: textures(season),
         lights,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
-        haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)) },
+        haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },
         zenith: dome.radiance(Vec3::Y),
         film: true,
         background: None,
