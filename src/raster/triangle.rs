@@ -32,7 +32,7 @@ pub struct Triangle {
     pub nearness: Plane,
     /// Index of the world's texture, or [`PLAIN`].
     pub texture: u32,
-    /// Nearness of the farthest and of the nearest corner: on slivers the plane overshoots.
+    /// Nearness of the farthest and of the nearest corner: on slivers the plane leaves them.
     pub range: [f32; 2],
 }
 
