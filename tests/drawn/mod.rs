@@ -14,7 +14,7 @@ use paprsek::view::View;
 use std::sync::{Arc, Mutex};
 
 /// A picture before it becomes codes, row by row from the top left.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone)]
 pub struct Planes {
     pub width: usize,
     pub height: usize,
@@ -22,6 +22,17 @@ pub struct Planes {
     /// 1 / distance along the axis; 0 for nothing.
     pub closeness: Vec<f32>,
     pub coverage: Vec<f32>,
+}
+
+impl Planes {
+    /// The first pixel that has other bits, if any.
+    pub fn differs(&self, other: &Planes) -> Option<usize> {
+        let bits = |p: &Planes, i: usize| {
+            let Vec3 { x, y, z } = p.color[i];
+            [x, y, z, p.closeness[i], p.coverage[i]].map(f32::to_bits)
+        };
+        (0..self.color.len().max(other.color.len())).find(|&i| bits(self, i) != bits(other, i))
+    }
 }
 
 /// A layer that draws nothing and remembers what is below it.
