@@ -1,0 +1,457 @@
+//! Shadows by depth maps against what stands between a point and the light, in f64; and that a kept map changes nothing.
+//!
+//! A point is misclassified where more than half of the light comes though it should not, or the other way round. Acne
+//! (dark instead of lit) and leaks (lit instead of dark) are counted apart.
+
+mod common;
+mod drawn;
+
+use drawn::{Planes, block, body, dark, draw, ground, ray};
+use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
+use paprsek::camera::Camera;
+use paprsek::quality::Quality;
+use paprsek::raster::light::{Light, Source};
+use paprsek::raster::mesh::Mesh;
+use paprsek::raster::project::Projection;
+use paprsek::raster::shadow::{Bias, Plan};
+use paprsek::raster::{Body, World};
+use std::sync::Arc;
+
+const SIZE: [usize; 2] = [220, 130];
+/// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
+const QUALITY: Quality = Quality::FAST;
+/// A map cannot know an edge better than its 3x3 texels reach.
+const REACH: f64 = 1.5;
+/// The target: misclassified points, of the receiver's visible pixels.
+const SHARE: f64 = 0.01;
+
+/// Boxes by their least and greatest corners.
+type Boxes = Vec<(Vec3, Vec3)>;
+
+/// Where a ray enters a box, and through which axis.
+fn enters(o: DVec3, d: DVec3, (low, high): (Vec3, Vec3)) -> Option<(f64, usize)> {
+    let (a, b) = ((low.as_dvec3() - o) / d, (high.as_dvec3() - o) / d);
+    let first = a.min(b);
+    let (enter, leave) = (first.max_element(), a.max(b).min_element());
+    (enter < leave && leave > 0.0).then(|| (enter, (0..3).find(|&k| first[k] == enter).unwrap_or(0)))
+}
+
+#[derive(Default, Debug, Clone, Copy)]
+struct Count {
+    pixels: u32,
+    dark: u32,
+    acne: u32,
+    leaks: u32,
+    /// Misclassified, but farther from a true edge than a map may err.
+    far: u32,
+}
+
+impl Count {
+    fn add(&mut self, truth: bool, found: bool, far: bool) {
+        self.pixels += 1;
+        self.dark += !truth as u32;
+        self.acne += (truth && !found) as u32;
+        self.leaks += (!truth && found) as u32;
+        self.far += (truth != found && far) as u32;
+    }
+
+    fn share(&self) -> f64 {
+        (self.acne + self.leaks) as f64 / self.pixels as f64
+    }
+}
+
+/// The distance of a point from the outline of the convex hull of others.
+fn from_outline(points: &[DVec2], p: DVec2) -> f64 {
+    // An edge of the hull has all points on one side.
+    let mut least = f64::MAX;
+    for &a in points {
+        for &b in points {
+            let along = b - a;
+            let length = along.length();
+            if length < 1e-9 || points.iter().any(|&q| along.perp_dot(q - a) < -1e-9 * length) {
+                continue;
+            }
+            let k = ((p - a).dot(along) / (length * length)).clamp(0.0, 1.0);
+            least = least.min(p.distance(a + along * k));
+        }
+    }
+    least
+}
+
+/// Direction to a sun.
+fn sun(elevation: f64, azimuth: f64) -> DVec3 {
+    let (sin, cos) = elevation.to_radians().sin_cos();
+    if elevation == 90.0 { DVec3::Y } else { dvec3(cos * azimuth.sin(), sin, cos * azimuth.cos()) }
+}
+
+/// A box above level ground under a sun, whose map is `width` metres wide.
+struct Sunny {
+    elevation: f64,
+    texels: u32,
+    width: f32,
+    bias: Bias,
+    smooth: bool,
+    ground_casts: bool,
+    back_faces: bool,
+}
+
+const BOX: (Vec3, Vec3) = (vec3(-1.5, 2.5, -1.0), vec3(1.5, 4.0, 2.0));
+
+impl Sunny {
+    fn towards(&self) -> DVec3 {
+        sun(self.elevation, 0.7)
+    }
+
+    /// It stands on the ground where the sun is low, and else above it: so that the shadow is seen.
+    fn block(&self) -> (Vec3, Vec3) {
+        (if self.elevation < 10.0 { BOX.0.with_y(0.0) } else { BOX.0 }, BOX.1)
+    }
+
+    fn plan(&self) -> Plan {
+        let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
+        Plan { views: vec![view], bias: self.bias, back_faces: self.back_faces, smooth: self.smooth }
+    }
+
+    fn draw(&self, camera: Camera) -> Planes {
+        let (low, high) = self.block();
+        let bodies = vec![body(ground(14.0, 0.0, 6), self.ground_casts), body(block(low, high), true)];
+        let source = Source::Sun(self.towards().as_vec3());
+        let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(self.plan()) }];
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
+    }
+
+    /// Each pixel that shows the ground: where, and the share of the sun's light there.
+    fn receivers(&self, camera: Camera) -> Vec<(DVec3, f64)> {
+        let planes = self.draw(camera);
+        let point = |pixel: usize| {
+            let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+            let t = -camera.eye.as_dvec3().y / d.y;
+            let seen = (planes.closeness[pixel] as f64 * t - 1.0).abs() < 1e-3;
+            seen.then(|| (camera.eye.as_dvec3() + d * t, planes.color[pixel].x as f64 / self.towards().y))
+        };
+        (0..planes.color.len()).filter_map(point).collect()
+    }
+
+    fn count(&self, camera: Camera, reach: f64) -> Count {
+        let towards = self.towards();
+        let texel = (self.width / self.texels as f32) as f64;
+        let side = towards.any_orthonormal_vector();
+        let over = towards.cross(side);
+        let flat = |p: DVec3| DVec2::new(p.dot(side), p.dot(over));
+        let (low, high) = self.block();
+        let corners: Vec<DVec2> = (0..8)
+            .map(|i| flat(Vec3::select(glam::BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), low, high).as_dvec3()))
+            .collect();
+        let mut count = Count::default();
+        for (p, share) in self.receivers(camera) {
+            let lit = enters(p, towards, (low, high)).is_none();
+            let far = from_outline(&corners, flat(p)) > reach * texel;
+            count.add(lit, share > 0.5, far);
+        }
+        count
+    }
+}
+
+/// From above and from the side.
+fn cameras() -> [Camera; 2] {
+    let look = |eye: Vec3| Camera::look_at(eye, vec3(0.0, 0.0, 0.5), 0.9, 0.0);
+    [look(vec3(3.0, 16.0, 9.0)), look(vec3(-9.0, 5.0, 7.0))]
+}
+
+#[test]
+fn the_suns_shadow_has_its_outline() {
+    let none = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [128, 512, 2048] {
+            for (smooth, back_faces) in [(false, false), (true, false), (true, true)] {
+                let scene =
+                    Sunny { elevation, texels, width: 44.0, bias: none, smooth, ground_casts: false, back_faces };
+                for camera in cameras() {
+                    let count = scene.count(camera, REACH);
+                    println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
+                    assert!(count.pixels > 5000 && count.dark > 100, "{elevation} {texels}: {count:?}");
+                    assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+                    // At a third of a metre the texels themselves are some hundredths of what is seen.
+                    assert!(texels < 512 || count.share() <= SHARE, "{elevation} {texels}: {count:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn ground_does_not_shadow_itself() {
+    // Two texels along the normal lift level ground over all texels that are looked up, however low the sun is; they
+    // move what is seen of the map by as much.
+    let bias = Bias { constant: 0.002, slope: 0.0, normal: 2.0 };
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [512, 2048] {
+            for smooth in [false, true] {
+                let scene =
+                    Sunny { elevation, texels, width: 44.0, bias, smooth, ground_casts: true, back_faces: false };
+                let count = scene.count(cameras()[0], REACH + 2.0);
+                println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
+                assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+            }
+        }
+    }
+    // Without, it does: the test can fail.
+    let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
+    let (smooth, back_faces) = (true, false);
+    let scene = Sunny { elevation: 30.0, texels: 512, width: 44.0, bias, smooth, ground_casts: true, back_faces };
+    let count = scene.count(cameras()[0], REACH + 2.0);
+    assert!(count.acne > 1000, "{count:?}");
+}
+
+#[test]
+fn beyond_the_map_is_light() {
+    // The box is larger than the map.
+    let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    for smooth in [false, true] {
+        let (texels, width) = (64, 2.5);
+        let scene = Sunny { elevation: 9.0, texels, width, bias, smooth, ground_casts: false, back_faces: false };
+        let view = scene.plan().views[0];
+        let (mut beyond, mut dark, mut cut) = (0, 0, 0);
+        for (p, share) in scene.receivers(cameras()[0]) {
+            let at = view.matrix.project_point3(p.as_vec3());
+            if at.x < 0.0 || at.y < 0.0 || at.x > texels as f32 || at.y > texels as f32 {
+                assert!((share - 1.0).abs() < 1e-5, "{p}: {share}");
+                beyond += 1;
+                cut += enters(p, scene.towards(), BOX).is_some() as u32;
+            } else {
+                dark += (share < 0.5) as u32;
+            }
+        }
+        assert!(beyond > 1000 && dark > 100 && cut > 20, "{beyond} {dark} {cut}");
+    }
+}
+
+#[test]
+fn the_finest_map_that_reaches_is_looked_up() {
+    // Two maps: a wide one, and a fine one around the box. Within the fine one it is as if that were alone.
+    let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    let scene = |width| Sunny {
+        elevation: 40.0,
+        texels: 128,
+        width,
+        bias,
+        smooth: true,
+        ground_casts: false,
+        back_faces: false,
+    };
+    let (fine, wide) = (scene(6.0), scene(44.0));
+    let camera = cameras()[0];
+    let both = {
+        let mut plan = fine.plan();
+        plan.views.extend(wide.plan().views);
+        let bodies = vec![body(ground(14.0, 0.0, 6), false), body(block(BOX.0, BOX.1), true)];
+        let source = Source::Sun(fine.towards().as_vec3());
+        let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
+    };
+    let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
+    let view = fine.plan().views[0];
+    let (mut inside, mut outside) = (0, 0);
+    for pixel in 0..both.color.len() {
+        if both.closeness[pixel] == 0.0 {
+            continue;
+        }
+        let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+        let p = camera.eye.as_dvec3() + d / both.closeness[pixel] as f64;
+        let at = view.matrix.project_point3(p.as_vec3());
+        // Three texels around its border either may be looked up.
+        let (low, high) = (at.x.min(at.y), at.x.max(at.y));
+        if low > 3.0 && high < 125.0 {
+            assert_eq!(both.color[pixel], fine_alone.color[pixel], "{p}");
+            inside += 1;
+        } else if low < 1.0 || high > 127.0 {
+            assert_eq!(both.color[pixel], wide_alone.color[pixel], "{p}");
+            outside += 1;
+        }
+    }
+    assert!(inside > 1000 && outside > 1000, "{inside} {outside}");
+}
+
+/// A room around the origin, turned inwards.
+fn room(half: Vec3) -> Mesh {
+    let mut mesh = block(-half, half);
+    for face in &mut mesh.faces {
+        face.corners.swap(1, 2);
+    }
+    mesh
+}
+
+/// A torch in a room with boxes: every pixel that is not within 1.5 texels of a true edge.
+#[derive(Default, Debug)]
+struct Torch {
+    count: Count,
+    /// Points whose direction lies within two texels of an edge, and of a corner, of the cube.
+    edges: u32,
+    corners: u32,
+}
+
+fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, cameras: &[Camera], into: &mut Torch) {
+    // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
+    let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
+    let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
+    let plan = Plan { views, bias, back_faces: false, smooth };
+    let source = Source::Lamp { position: torch, falloff: Vec2::ZERO, reach: f32::INFINITY };
+    let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
+    let mut bodies = vec![body(room(half), true)];
+    bodies.extend(boxes.iter().map(|b| body(block(b.0, b.1), true)));
+    let world = World { lights, ..dark(bodies) };
+    let from = torch.as_dvec3();
+    let lit = |p: DVec3| !boxes.iter().any(|b| enters(p, from - p, *b).is_some_and(|(t, _)| t > 1e-9 && t < 1.0));
+    for &camera in cameras {
+        let planes = draw(&world, camera, SIZE, QUALITY, common::levels()[0].1);
+        for pixel in 0..planes.color.len() {
+            let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+            let eye = camera.eye.as_dvec3();
+            // The room's wall, and the first box before it.
+            let (a, b) = ((-half.as_dvec3() - eye) / d, (half.as_dvec3() - eye) / d);
+            let mut way = a.max(b).min_element();
+            let mut axis = (0..3).find(|&k| a[k].max(b[k]) == way).unwrap();
+            for (t, k) in boxes.iter().filter_map(|b| enters(eye, d, *b)) {
+                if t < way {
+                    (way, axis) = (t, k);
+                }
+            }
+            if (planes.closeness[pixel] as f64 * way - 1.0).abs() > 1e-4 {
+                // Another surface, on an edge.
+                continue;
+            }
+            let p = eye + d * way;
+            // The face looks at the eye.
+            let normal = -DVec3::AXES[axis] * d[axis].signum();
+            let q = p - from;
+            let cosine = -q.normalize().dot(normal);
+            let major = q.abs().max_element();
+            // Slopes above 4 are not made up for.
+            if cosine < 1.0 / 17f64.sqrt() {
+                assert!(cosine > 0.0 || planes.color[pixel].x == 0.0, "{p}: light from behind");
+                continue;
+            }
+            let found = planes.color[pixel].x as f64 / cosine > 0.5;
+            let truth = lit(p);
+            // The same point as 1.5 texels away on the cube's face, where it stands in the light's way; each a little
+            // towards the light, so that its own surface is none.
+            let step = REACH * 2.0 * major / texels as f64;
+            let moved = |i: i32| {
+                let k = [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1].map(|k| k as f64 * step);
+                let off = DVec3::from(k);
+                // Across the light's major axis, on the same surface.
+                let to = q + off - DVec3::select(q.abs().cmpge(DVec3::splat(major)), off, DVec3::ZERO);
+                from + to * (q.dot(normal) / to.dot(normal)) * (1.0 - 1e-6)
+            };
+            let far = (0..27).all(|i| lit(moved(i)) == truth);
+            into.count.add(truth, found, far);
+            let mut sides = q.abs().to_array();
+            sides.sort_by(f64::total_cmp);
+            let near = |k: usize| sides[2] - sides[k] < 2.0 * 2.0 * major / texels as f64;
+            into.edges += near(1) as u32;
+            into.corners += (near(1) && near(0)) as u32;
+        }
+    }
+}
+
+#[test]
+fn a_torchs_shadows_pass_the_cubes_edges_and_corners() {
+    // Boxes across directions of equal components, in all octants and some of the twelve edges.
+    let mut boxes: Boxes = Vec::new();
+    for (k, d) in [
+        vec3(1.0, 1.0, 1.0),
+        vec3(-1.0, 1.0, -1.0),
+        vec3(1.0, -1.0, -1.0),
+        vec3(-1.0, -1.0, 1.0),
+        vec3(1.0, 0.0, -1.0),
+        vec3(-1.0, 0.0, -1.0),
+        vec3(0.0, -1.0, 1.0),
+        vec3(0.0, 1.0, -1.0),
+        vec3(1.0, -0.9, 0.2),
+        vec3(-1.0, 0.1, 0.2),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let half = vec3(0.35, 0.3, 0.4) * (1.0 + 0.1 * k as f32);
+        boxes.push((d * 1.5 - half, d * 1.5 + half));
+    }
+    let half = Vec3::splat(3.5);
+    let eyes = [vec3(3.2, 3.0, 3.1), vec3(-3.2, -3.0, 3.1), vec3(-3.0, 3.2, -3.1), vec3(3.2, -3.0, -3.1)];
+    let cameras = eyes.map(|eye| Camera::look_at(eye, Vec3::ZERO, 1.5, 0.0));
+    for texels in [128, 512] {
+        for smooth in [false, true] {
+            let mut sum = Torch::default();
+            for place in [Vec3::ZERO, vec3(0.2, 0.3, -0.1), vec3(-0.5, 0.1, 0.4)] {
+                torch(texels, place, half, smooth, &boxes, &cameras, &mut sum);
+            }
+            println!("{texels}, smooth: {smooth}: {:.3} %, {sum:?}", 100.0 * sum.count.share());
+            assert!(
+                sum.count.pixels > 50_000 && sum.count.dark > 5000 && sum.edges > 500 && sum.corners > 5,
+                "{sum:?}"
+            );
+            assert_eq!(sum.count.far, 0, "{texels}: {sum:?}");
+            // At 128 texels each is five hundredths of a metre at the walls, an eighth of a box.
+            assert!(texels < 512 || sum.count.share() <= SHARE, "{sum:?}");
+        }
+    }
+}
+
+#[test]
+fn kept_maps_change_no_frame() {
+    let shapes: Vec<Arc<Mesh>> = [1.0, 1.0, 0.6].map(|s| Arc::new(block(BOX.0 * s, BOX.1 * s))).to_vec();
+    let floor = Arc::new(ground(14.0, 0.0, 6));
+    // Box, its place, does it cast, the sun, texels, lights.
+    let frame = |k: usize, fresh: bool| {
+        let renew = |mesh: &Arc<Mesh>| if fresh { Arc::new(Mesh::clone(mesh)) } else { mesh.clone() };
+        // Every way in which one frame may resemble the last.
+        let shape = [0, 0, 1, 1, 0, 2, 0, 0, 0, 0][k % 10];
+        let at = [0.0, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-3][k % 10];
+        let casts = k % 10 != 6;
+        let (elevation, texels) = ([40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 41.0][k % 8], [200, 64][k % 7 / 6]);
+        let scene = Sunny {
+            elevation,
+            texels,
+            width: [44.0, 30.0][k % 5 / 4],
+            bias: Bias { constant: 0.01, slope: 2.0, normal: 1.0 },
+            smooth: k % 3 != 0,
+            ground_casts: true,
+            back_faces: k % 9 == 8,
+        };
+        let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
+        let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
+        let lamp = Light {
+            source: Source::Lamp { position, falloff: Vec2::new(0.0, 0.1), reach: 20.0 },
+            color: Vec3::X,
+            shadow: Some(Plan { views, ..scene.plan() }),
+        };
+        let source = Source::Sun(scene.towards().as_vec3());
+        let mut lights = vec![Light { source, color: Vec3::ONE, shadow: Some(scene.plan()) }, lamp];
+        if k % 4 == 3 {
+            lights.reverse();
+        }
+        lights.truncate(1 + (k % 6 != 5) as usize);
+        let place = Affine3A::from_translation(vec3(at, 0.0, 0.0));
+        let bodies = vec![
+            Body { mesh: renew(&floor), place: Affine3A::IDENTITY, casts_shadow: true },
+            Body { mesh: renew(&shapes[shape]), place, casts_shadow: casts },
+        ];
+        let size = [[90, 60], [64, 64], [33, 70]][k % 3];
+        draw(&World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, common::levels()[0].1)
+    };
+    let truths: Vec<Planes> = (0..40).map(|k| frame(k, true)).collect();
+    // Several at once: they take maps from each other.
+    std::thread::scope(|scope| {
+        for thread in 0..3 {
+            let (frame, truths) = (&frame, &truths);
+            scope.spawn(move || {
+                for k in 0..120 {
+                    // Often the same twice, or back to the one before.
+                    let k = [k, k, k + 1, k][k % 4] * (thread + 1) % truths.len();
+                    assert_eq!(truths[k].differs(&frame(k, false)), None, "frame {k}");
+                }
+            });
+        }
+    });
+    assert!((1..40).filter(|&k| truths[k].color != truths[k - 1].color).count() > 30);
+}
