@@ -258,6 +258,21 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
     }
 }
 
+#[test]
+fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
+    // 8,192 faces under and behind the eye, each cut at the near plane and on three sides of the guard band.
+    let face = [vec3(-4e4, -1.0, 3e4), vec3(4e4, -1.0, 3e4), vec3(0.0, -1.0, -9e4)];
+    let mesh = triangles(&vec![face; 8192]);
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let few = draw(&dark(vec![body(triangles(&[face]), false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    // Before another body, whose pixels must stay its own.
+    let wall = ground(1e5, -2.0, 1);
+    let bodies = vec![body(mesh, false), body(wall, false)];
+    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let low = SIZE[0] * (SIZE[1] - 1) + SIZE[0] / 2;
+    assert!(few.closeness[low] > 0.0 && planes.closeness[low] == few.closeness[low]);
+}
+
 /// A coordinate of any size, some of them special.
 fn coordinate() -> impl Strategy<Value = f32> {
     let log =

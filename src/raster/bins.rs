@@ -9,6 +9,8 @@ pub type Id = u32;
 pub const NOTHING: Id = u32::MAX;
 /// Bits of an [`Id`] that number the triangle, and as many that number the piece.
 const BITS: u32 = 14;
+/// Triangles that a piece may have; the last number is left to [`NOTHING`].
+pub const MOST: usize = (1 << BITS) - 1;
 /// The bit from which on an [`Id`] has the index of a texture, or [`PLAIN`].
 pub const TEXTURE: u32 = 2 * BITS;
 /// In the place of a texture, that there is none.

@@ -1,6 +1,6 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
-use super::bins::PLAIN;
+use super::bins::{MOST, PLAIN};
 use super::mesh::Mesh;
 use super::project::Projection;
 use glam::{Affine3A, Vec3, Vec4};
@@ -212,7 +212,8 @@ impl Setup<'_> {
         let (xs, ys) = ([a.x, b.x, c.x], [a.y, b.y, c.y]);
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
         let bound = [low(xs).max(0), high(xs).min(width), low(ys).max(0), high(ys).min(height)];
-        if bound[0] > bound[1] || bound[2] > bound[3] {
+        // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
+        if bound[0] > bound[1] || bound[2] > bound[3] || piece.triangles.len() == MOST {
             return;
         }
         // In f64, as slivers cancel all digits of f32.
