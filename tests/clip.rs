@@ -239,7 +239,7 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
     let camera = Camera::look_at(vec3(0.0, 0.0, 5.0), Vec3::ZERO, FOV, 0.0);
     let good = [[vec3(-1.0, -1.0, 0.0), vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0)]];
     let truth = draw(&dark(vec![body(triangles(&good), false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
-    assert!(truth.coverage.iter().any(|c| *c == 1.0));
+    assert!(truth.coverage.contains(&1.0));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN] {
         for spoilt in 1..8 {
             for corner in 0..3 {
@@ -381,7 +381,7 @@ fn closed_boxes_show_their_front_and_nothing_from_inside() {
                 let entry = t0.min(t1);
                 let (enter, leave) = (entry.max_element(), t0.max(t1).min_element());
                 let axis = (0..3).find(|&k| entry[k] == enter).unwrap();
-                (enter < leave).then(|| (axis, enter))
+                (enter < leave).then_some((axis, enter))
             };
             let hits = rays(&camera, SIZE, pixel).map(meet);
             if hits.iter().any(|h| h.map(|h| h.0) != hits[0].map(|h| h.0)) {

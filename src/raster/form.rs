@@ -114,7 +114,7 @@ impl Mesh {
         for i in -1..=PARTS + 1 {
             let angle = PI / PARTS as f32 * i.clamp(0, PARTS) as f32;
             let (x, y) = (angle.cos(), angle.sin());
-            let outer = vec3(1.25 * x, if i < 0 || i > PARTS { 0.0 } else { 1.25 }, 0.0);
+            let outer = vec3(1.25 * x, if !(0..=PARTS).contains(&i) { 0.0 } else { 1.25 }, 0.0);
             let inner = vec3(x, y, 0.0);
             for (p, z) in [(inner, -1.0), (inner, 1.0), (outer, 1.0), (outer, -1.0), (inner, -1.0)] {
                 self.points.push(at + *turn * (p + z * Vec3::Z));

@@ -6,6 +6,7 @@ use crate::noise::{fbm, noise};
 use crate::raster::form::Body;
 use crate::raster::mesh::{Mesh, Paint};
 use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
+use std::f64::consts::TAU;
 
 /// Height of the ground at a place, metres. In f64 but for the noise, whose own error is below 4e-7.
 pub fn height(x: f64, z: f64) -> f64 {
@@ -84,7 +85,7 @@ fn place(i: u32) -> Vec3 {
 
 /// How object `i` is turned about y.
 fn turn(i: u32) -> Mat3 {
-    Mat3::from_rotation_y((6.2831853 * random(i, 5) as f64) as f32)
+    Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
 }
 
 fn add_box(mesh: &mut Mesh, i: u32) {
