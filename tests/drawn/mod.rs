@@ -126,3 +126,36 @@ pub fn ground(half: f32, height: f32, cells: usize) -> Mesh {
     mesh.loft(0, cells + 1, &|_, _| 0);
     mesh
 }
+
+/// Where a ray enters a box, and through which axis.
+pub fn enters(o: DVec3, d: DVec3, (low, high): (Vec3, Vec3)) -> Option<(f64, usize)> {
+    let (a, b) = ((low.as_dvec3() - o) / d, (high.as_dvec3() - o) / d);
+    let first = a.min(b);
+    let (enter, leave) = (first.max_element(), a.max(b).min_element());
+    (enter < leave && leave > 0.0).then(|| (enter, (0..3).find(|&k| first[k] == enter).unwrap_or(0)))
+}
+
+/// Points of shadows: acne is dark instead of lit, leaks are lit instead of dark.
+#[derive(Default, Debug, Clone, Copy)]
+pub struct Count {
+    pub pixels: u32,
+    pub dark: u32,
+    pub acne: u32,
+    pub leaks: u32,
+    /// Misclassified, but farther from a true edge than a map may err.
+    pub far: u32,
+}
+
+impl Count {
+    pub fn add(&mut self, truth: bool, found: bool, far: bool) {
+        self.pixels += 1;
+        self.dark += !truth as u32;
+        self.acne += (truth && !found) as u32;
+        self.leaks += (!truth && found) as u32;
+        self.far += (truth != found && far) as u32;
+    }
+
+    pub fn share(&self) -> f64 {
+        (self.acne + self.leaks) as f64 / self.pixels as f64
+    }
+}
