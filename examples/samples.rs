@@ -3,6 +3,7 @@
 //!
 //! `cargo run --release --example samples -- [SCENE [SECONDS [QUALITY [FILE.png]]]]`
 
+use paprsek::camera::Eye;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Shot};
 use paprsek::tile::{Frame, Renderer, Tile};
@@ -20,7 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let picture = scene.picture(&Shot { time, width: *width, height: *height, quality });
+    let picture = scene.picture(&Shot { time, width: *width, height: *height, quality, eye: Eye::MIDDLE });
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {
         *pixel = (*pixel >> 1) & 0x7f7f7f;

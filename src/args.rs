@@ -1,6 +1,7 @@
 //! The command line: what was asked for, or the one line that says why not.
 
 use crate::number::decimal;
+use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use std::ffi::{OsStr, OsString};
@@ -17,24 +18,42 @@ paprsek [SCENE] [options]      play the intro (or loop one SCENE) in a window; E
                                fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
                                exact: no shortcut, one sample at each pixel centre;
                                reference: no shortcut, 64 samples a pixel
+  --stereo                     two eyes side by side; --eye-distance METRES, default 0.065; --convergence METRES, default 5
   --list  --help  --version
 keys: Esc ends, Space pauses, Left and Right seek 5 s
 ";
 
-/// Options that take a value, and what that is; the order is that of [`Args::read`].
-const VALUED: [(&str, &str); 8] = [
-    ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
-    ("threads", "a number from 1 to 1024"),
+/// Options that take a value, and what that is: first those of [`RANGES`], then the others; the order is that of
+/// [`Args::read`].
+const VALUED: [(&str, &str); 10] = [
     ("at", "seconds, 0 or more"),
     ("from", "seconds, 0 or more"),
     ("to", "seconds, 0 or more"),
     ("fps", "a number above 0, up to 1000"),
+    ("eye-distance", "metres, 0 to 100"),
+    ("convergence", "metres, 0.01 to 10000"),
+    ("size", "WIDTHxHEIGHT, each 1 to 16384 and 67108864 pixels in all"),
+    ("threads", "a number from 1 to 1024"),
     ("quality", "a name"),
     ("capture", "a directory or -"),
 ];
+/// Places of the options in [`VALUED`] that have functions of their own.
+const SIZE: usize = 6;
+const THREADS: usize = 7;
+
+/// The least and the largest value of each option that takes a decimal number. A lens shifted much farther than its
+/// picture is wide, or eyes farther apart than a street, show nothing.
+const RANGES: [(f64, f64); 6] =
+    [(0.0, f64::MAX), (0.0, f64::MAX), (0.0, f64::MAX), (f64::MIN_POSITIVE, 1000.0), (0.0, 100.0), (0.01, 10000.0)];
 
 /// Options that take none, in the same way.
-const FLAGS: [&str; 5] = ["help", "version", "list", "bench", "json"];
+const FLAGS: [&str; 6] = ["help", "version", "list", "bench", "json", "stereo"];
+
+/// Metres between the eyes: the mean of adults is 0.063 (Dodgson, "Variation and extrema of human interpupillary
+/// distance", 2004).
+const EYE_DISTANCE: f64 = 0.065;
+/// Metres to what both eyes see at the same place: the show's subjects are at 3 to 10.
+const CONVERGENCE: f64 = 5.0;
 
 /// Longest side of a picture, pixels.
 const MAX_SIDE: usize = 16384;
@@ -89,6 +108,8 @@ pub struct Args {
     pub when: When,
     /// Frames per second of a capture.
     pub fps: f64,
+    /// Two eyes instead of one.
+    pub stereo: Option<Stereo>,
     /// Speed against error.
     pub quality: Quality,
     /// What `quality` is called.
@@ -107,15 +128,20 @@ impl Args {
     }
 
     fn read(words: &Words) -> Result<Args, String> {
-        let [size, threads, at, from, to, fps, quality, capture] = &words.values;
-        let [help, version, list, bench, json] = words.flags;
+        let [.., size, threads, quality, capture] = &words.values;
+        let [help, version, list, bench, json, stereo] = words.flags;
+        let [at, from, to, fps, apart, agree] = words.numbers()?;
         let mut args = Args {
             mode: Mode::Play,
             scene: words.scene.as_deref().map(scene).transpose()?,
             size: size.as_deref().map_or(Ok((1280, 720)), self::size)?,
             threads: threads.as_deref().map_or(Ok(0), self::threads)?,
-            when: when(seconds(2, at)?, seconds(3, from)?, seconds(4, to)?)?,
-            fps: fps.as_deref().map_or(Ok(30.0), rate)?,
+            when: when(at, from, to)?,
+            fps: fps.unwrap_or(30.0),
+            stereo: stereo.then_some(Stereo {
+                eye_distance: apart.unwrap_or(EYE_DISTANCE) as f32,
+                convergence: agree.unwrap_or(CONVERGENCE) as f32,
+            }),
             quality: Quality::DEFAULT,
             quality_name: "default",
         };
@@ -128,6 +154,10 @@ impl Args {
             _ if list => Mode::List,
             Some(_) if bench => return Err("--bench and --capture: choose one".into()),
             _ if json && !bench => return Err("--json goes with --bench".into()),
+            _ if !stereo && apart.or(agree).is_some() => {
+                return Err("--eye-distance and --convergence go with --stereo".into());
+            }
+            _ if stereo && args.size.0 < 2 => return Err("--stereo needs a width of 2 or more".into()),
             Some(target) if target == "-" => Mode::Capture(None),
             Some(directory) => Mode::Capture(Some(directory.into())),
             None if bench => Mode::Bench { json },
@@ -221,6 +251,18 @@ impl Words {
         }
         Ok(sorted)
     }
+
+    /// The decimal numbers, where they were given.
+    fn numbers(&self) -> Result<[Option<f64>; RANGES.len()], String> {
+        let mut numbers = [None; RANGES.len()];
+        for (option, (least, most)) in RANGES.iter().enumerate() {
+            if let Some(value) = &self.values[option] {
+                let number = decimal(text(value)).filter(|n| n >= least && n <= most);
+                numbers[option] = Some(number.ok_or_else(|| needs(option, value))?);
+            }
+        }
+        Ok(numbers)
+    }
 }
 
 /// The text of a word. What is not Unicode names nothing, and is quoted as `?`.
@@ -253,20 +295,11 @@ fn quality(name: &OsStr) -> Result<(&'static str, Quality), String> {
 fn size(value: &OsStr) -> Result<(usize, usize), String> {
     let side = |side: &str| natural(side).filter(|n| (1..=MAX_SIDE).contains(n));
     let size = text(value).split_once('x').and_then(|(width, height)| side(width).zip(side(height)));
-    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| needs(0, value))
+    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| needs(SIZE, value))
 }
 
 fn threads(value: &OsStr) -> Result<usize, String> {
-    natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(1, value))
-}
-
-fn seconds(option: usize, value: &Option<OsString>) -> Result<Option<f64>, String> {
-    let read = |value: &OsString| decimal(text(value)).ok_or_else(|| needs(option, value));
-    value.as_ref().map(read).transpose()
-}
-
-fn rate(value: &OsStr) -> Result<f64, String> {
-    decimal(text(value)).filter(|fps| *fps > 0.0 && *fps <= 1000.0).ok_or_else(|| needs(5, value))
+    natural(text(value)).filter(|n| (1..=1024).contains(n)).ok_or_else(|| needs(THREADS, value))
 }
 
 /// Digits only: the standard parser would take a leading plus sign.

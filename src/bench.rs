@@ -79,7 +79,7 @@ fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) 
     };
     let warming = Instant::now();
     for _ in 0..WARM_UP {
-        renderer.render(scene, start, &args.quality, frame);
+        renderer.render_eyes(scene, start, &args.quality, args.stereo, frame);
         if warming.elapsed() >= LIMIT / 4 {
             break;
         }
@@ -89,7 +89,7 @@ fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) 
     while began.elapsed() < LIMIT && (times.ms.len() < ENOUGH.0 || began.elapsed() < ENOUGH.1) {
         let instant = instant(start, end, times.ms.len());
         let frame_began = Instant::now();
-        let stats = renderer.render(scene, instant, &args.quality, frame);
+        let stats = renderer.render_eyes(scene, instant, &args.quality, args.stereo, frame);
         // Never zero, since its inverse is printed: a microsecond is below what a frame can take.
         times.ms.push((frame_began.elapsed().as_secs_f64() * 1000.0).max(1e-3));
         times.samples += stats.samples;

@@ -1,4 +1,4 @@
-//! The pinhole camera of the bench scenes: right-handed, y up.
+//! The pinhole camera of the bench scenes, right-handed, y up; and the eyes of a stereo pair beside it.
 
 use glam::Vec3;
 
@@ -15,6 +15,36 @@ pub struct Camera {
     pub up: Vec3,
     /// How far the lens is shifted to the right, halves of the picture's height: 0 but for the two eyes of a stereo pair.
     pub shift: f32,
+}
+
+/// An eye beside a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eye {
+    /// Metres to the right of the camera.
+    pub offset: f32,
+    /// Metres along the view axis, above 0, at which every eye sees a thing at the same place of its picture.
+    pub convergence: f32,
+}
+
+impl Eye {
+    /// The camera's own place.
+    pub const MIDDLE: Eye = Eye { offset: 0.0, convergence: 1.0 };
+}
+
+/// Two eyes beside a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stereo {
+    /// Metres between the eyes, 0 or more.
+    pub eye_distance: f32,
+    /// As in [`Eye`].
+    pub convergence: f32,
+}
+
+impl Stereo {
+    /// The left eye for a `side` of -1/2, the right one for 1/2.
+    pub fn eye(self, side: f32) -> Eye {
+        Eye { offset: side * self.eye_distance, convergence: self.convergence }
+    }
 }
 
 impl Camera {
@@ -36,5 +66,14 @@ impl Camera {
             up: (up * cos - right * sin) * scale,
             shift: 0.0,
         }
+    }
+
+    /// The camera moved to an eye; itself for [`Eye::MIDDLE`].
+    ///
+    /// The axis stays parallel and the lens is shifted: of axes that meet each eye would see the same point at another
+    /// height.
+    pub fn at(self, eye: Eye) -> Camera {
+        let metre = eye.offset / self.right.length();
+        Camera { eye: self.eye + self.right * metre, shift: self.shift - metre / eye.convergence, ..self }
     }
 }

@@ -20,7 +20,8 @@ pub fn run(args: &Args, directory: Option<&Path>) -> Result<(), String> {
     let scene = args.scene();
     for number in 0..args.frames() {
         // Divided, not accumulated: frame k is the same instant whatever was captured before it.
-        renderer.render(&scene, args.start() + number as f64 / args.fps, &args.quality, &mut frame);
+        let time = args.start() + number as f64 / args.fps;
+        renderer.render_eyes(&scene, time, &args.quality, args.stereo, &mut frame);
         match directory {
             Some(directory) => write_file(directory, number, &frame)?,
             None => write_stdout(&frame).map_err(|error| format!("cannot write to stdout: {error}"))?,

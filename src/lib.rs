@@ -13,6 +13,7 @@ mod pool;
 pub mod quality;
 pub mod raster;
 pub mod scenes;
+pub mod sky;
 pub mod texture;
 pub mod tile;
 pub mod timeline;

@@ -66,12 +66,12 @@ impl Screen {
         let mut frame = canvas::frame(args.size)?;
         let desk = Desk { clock: Clock::new(args), frame: canvas::frame(args.size)?, fresh: false, ended: None };
         let shared: Arc<Shared> = Arc::new((Mutex::new(desk), Condvar::new()));
-        let (theirs, scene, quality) = (shared.clone(), args.scene(), args.quality);
+        let (theirs, scene, quality, stereo) = (shared.clone(), args.scene(), args.quality, args.stereo);
         let (threads, back) = (args.threads, canvas::frame(args.size)?);
         let render = move || {
             let ended = Renderer::new(threads).map(|renderer| {
                 render(renderer, back, &theirs, |renderer, time, frame| {
-                    renderer.render(&scene, time, &quality, frame);
+                    renderer.render_eyes(&scene, time, &quality, stereo, frame);
                 });
             });
             lock(&theirs).ended = Some(ended);

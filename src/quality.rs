@@ -19,6 +19,8 @@ pub struct Quality {
     pub grid: usize,
     /// Samples of a pixel for the edges of triangles: 1, 2, 4, 8 or 16. Each triangle in a pixel is shaded once.
     pub coverage: usize,
+    /// Texels along an edge of the shadow maps of scenes that leave it to the quality; 0 traces shadows instead.
+    pub shadow_map: u32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -33,6 +35,7 @@ impl Quality {
         subpixel: 0,
         grid: 1,
         coverage: 1,
+        shadow_map: 1024,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
@@ -46,6 +49,7 @@ impl Quality {
         subpixel: 0,
         grid: 1,
         coverage: 1,
+        shadow_map: 0,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.

@@ -1,5 +1,6 @@
 //! How a frame is cut into tiles and run.
 
+use crate::camera::Stereo;
 use crate::color::{self, Transfer};
 use crate::pool::Pool;
 use crate::quality::Quality;
@@ -216,20 +217,48 @@ impl Renderer {
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
-        let shot = Shot { time, width: frame.width, height: frame.height, quality: *quality };
-        self.draw(scene.picture(&shot), frame)
+        self.render_eyes(scene, time, quality, None, frame)
+    }
+
+    /// The same with a picture for each eye, side by side and equally wide: columns that are left over are black, at the
+    /// right. A picture has the pixels that it has alone, as tiles and dither start at its own edge.
+    pub fn render_eyes(
+        &mut self,
+        scene: &Scene,
+        time: f64,
+        quality: &Quality,
+        stereo: Option<Stereo>,
+        frame: &mut Frame,
+    ) -> Stats {
+        let (eyes, pair) = stereo.map_or((1, Stereo { eye_distance: 0.0, convergence: 1.0 }), |pair| (2, pair));
+        let (width, height, quality) = (frame.width / eyes, frame.height, *quality);
+        if width * eyes < frame.width {
+            frame.pixels.fill(0);
+        }
+        let mut samples = 0;
+        for number in 0..eyes {
+            let eye = pair.eye(number as u32 as f32 - 0.5);
+            let picture = scene.picture(&Shot { time, width, height, quality, eye });
+            samples += self.draw_at(picture, number * width, width, frame).samples;
+        }
+        Stats { samples }
     }
 
     /// Draws a picture that was made for a frame of that size.
-    pub fn draw(&mut self, mut picture: Picture, frame: &mut Frame) -> Stats {
+    pub fn draw(&mut self, picture: Picture, frame: &mut Frame) -> Stats {
+        self.draw_at(picture, 0, frame.width, frame)
+    }
+
+    /// Draws a picture that was made for that many columns of the frame, from column `x` on.
+    fn draw_at(&mut self, mut picture: Picture, x: usize, width: usize, frame: &mut Frame) -> Stats {
         for layer in &mut picture.layers {
             layer.prepare(&self.crew);
         }
-        let (level, width, height) = (self.crew.level, frame.width, frame.height);
+        let (level, stride, height) = (self.crew.level, frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
         // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
         // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
-        let bands = frame.pixels.chunks_mut((width * Tile::SIZE).max(1)).enumerate();
+        let bands = frame.pixels.chunks_mut((stride * Tile::SIZE).max(1)).enumerate();
         let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
             for column in 0..columns {
@@ -238,7 +267,7 @@ impl Renderer {
                     tile.solids_matter = index + 1 < picture.layers.len();
                     samples += layer.draw(level, tile).samples;
                 }
-                dispatch!(level, simd => develop(simd, picture.transfer, tile, width, pixels));
+                dispatch!(level, simd => develop(simd, picture.transfer, tile, stride, &mut pixels[x..]));
             }
             samples
         };

@@ -33,6 +33,11 @@ impl View {
         ((self.half.0 / self.pixel, self.half.1 / self.pixel), 1.0 / (scale * self.pixel))
     }
 
+    /// The angle of a pixel in the middle of the view, radians: the widest.
+    pub fn pixel(&self) -> f32 {
+        self.camera.up.length() * self.pixel
+    }
+
     /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
     #[inline(always)]
     pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {

@@ -10,10 +10,11 @@ use glam::{Affine3A, DVec3, Vec3, vec3};
 use oracle::random::Random;
 use paprsek::camera::Camera;
 use paprsek::quality::Quality;
-use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::NEAR;
+use paprsek::raster::{Body, World};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 const SIZE: [usize; 2] = [150, 90];
 const FOV: f32 = 0.9;
@@ -48,7 +49,7 @@ fn ground_is_where_the_rays_meet_it() {
         let eye = vec3(aside as f32, up as f32, random.range(-0.8, 0.8) as f32 * half);
         let look = [random.direction(), Vec3::NEG_Y, vec3(1.0, 0.0, 0.0), vec3(0.3, -0.4, 0.5)][case % 7 % 4];
         let camera = Camera::look_at(eye, eye + look, FOV, random.range(-1.0, 1.0) as f32);
-        let world = dark(vec![body(ground(half, 0.0, cells), false)]);
+        let world = dark(vec![body(ground(half, 0.0, cells))]);
         let mut first: Option<Planes> = None;
         for (name, level) in common::levels() {
             let planes = draw(&world, camera, SIZE, Quality::EXACT, level);
@@ -89,7 +90,7 @@ fn a_plane_of_a_million_metres_has_a_horizon() {
     // to centimetres, so the eye is far above.
     let camera = Camera::look_at(vec3(0.0, 100.0, 0.0), vec3(10.0, 99.0, -3.0), FOV, 0.2);
     for half in [1e5, 1e6] {
-        let world = dark(vec![body(ground(half, 0.0, 1), false)]);
+        let world = dark(vec![body(ground(half, 0.0, 1))]);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
         let mut off = 0;
         for pixel in 0..planes.closeness.len() {
@@ -118,7 +119,7 @@ fn long_roads_lead_straight_past_the_eye() {
         let (along, across) = (DVec3::new(angle.sin(), 0.0, -angle.cos()), DVec3::new(angle.cos(), 0.0, angle.sin()));
         let corner = |z: f64, x: f64| (along * z + across * x).as_vec3();
         let [a, b, c, d] = [corner(-5.0, -1.0), corner(-5.0, 1.0), corner(length, -1.0), corner(length, 1.0)];
-        let world = dark(vec![body(triangles(&[[a, b, c], [b, d, c]]), false)]);
+        let world = dark(vec![body(triangles(&[[a, b, c], [b, d, c]]))]);
         let eye = vec3(0.1, 1.7, 0.0);
         let camera = Camera::look_at(eye, eye + vec3(0.05, -0.2, -1.0), FOV, 0.1);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
@@ -147,8 +148,7 @@ fn nothing_behind_the_eye_or_before_the_near_plane_is_seen() {
     for z in distances {
         let r = 3.0 * z.abs().max(1.0);
         let faces = [[vec3(-r, -r, -z), vec3(r, -r, -z), vec3(0.0, r, -z)]];
-        let planes =
-            draw(&dark(vec![body(triangles(&faces), false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&dark(vec![body(triangles(&faces))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
         let middle = planes.closeness[SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2];
         if z < NEAR {
             assert!(planes.closeness.iter().all(|c| *c == 0.0), "{z}");
@@ -179,7 +179,7 @@ fn clipped_neighbours_leave_no_gap() {
         let eye = Vec3::ZERO;
         let camera = Camera::look_at(eye, random.direction(), 1.4, random.range(-3.0, 3.0) as f32);
         // What the near plane cuts out of the box is open; nothing else is.
-        let planes = draw(&dark(vec![body(mesh, false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&dark(vec![body(mesh)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
         for pixel in 0..planes.closeness.len() {
             let way = |d: DVec3| {
                 let t = |p: f32, d: f64| p as f64 / d;
@@ -210,7 +210,7 @@ fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
                 *p = vec3(p.x, -p.z, -distance + tilt.x * p.x - tilt.y * p.z);
             }
             mesh.paints[0].albedo = vec3(red, 0.0, 1.0);
-            body(mesh, false)
+            body(mesh)
         };
         let mut bodies = vec![layer(5000.0, 7, 1.0), layer(5001.0, 5, 0.0)];
         for _ in 0..2 {
@@ -238,7 +238,7 @@ fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
 fn corners_that_are_no_numbers_spoil_only_their_faces() {
     let camera = Camera::look_at(vec3(0.0, 0.0, 5.0), Vec3::ZERO, FOV, 0.0);
     let good = [[vec3(-1.0, -1.0, 0.0), vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0)]];
-    let truth = draw(&dark(vec![body(triangles(&good), false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let truth = draw(&dark(vec![body(triangles(&good))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
     assert!(truth.coverage.contains(&1.0));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN] {
         for spoilt in 1..8 {
@@ -249,7 +249,7 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
                         face[corner][axis] = bad;
                     }
                     let faces = [order.map(|i| face[i]), good[0]];
-                    let mesh = body(triangles(&faces), false);
+                    let mesh = body(triangles(&faces));
                     let planes = draw(&dark(vec![mesh]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
                     assert_eq!(planes.differs(&truth), None, "{bad} in {face:?}");
                 }
@@ -264,10 +264,10 @@ fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
     let face = [vec3(-4e4, -1.0, 3e4), vec3(4e4, -1.0, 3e4), vec3(0.0, -1.0, -9e4)];
     let mesh = triangles(&vec![face; 8192]);
     let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
-    let few = draw(&dark(vec![body(triangles(&[face]), false)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let few = draw(&dark(vec![body(triangles(&[face]))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
     // Before another body, whose pixels must stay its own.
     let wall = ground(1e5, -2.0, 1);
-    let bodies = vec![body(mesh, false), body(wall, false)];
+    let bodies = vec![body(mesh), body(wall)];
     let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
     let low = SIZE[0] * (SIZE[1] - 1) + SIZE[0] / 2;
     assert!(few.closeness[low] > 0.0 && planes.closeness[low] == few.closeness[low]);
@@ -294,7 +294,7 @@ proptest! {
         let faces: Vec<[Vec3; 3]> = points.windows(3).flat_map(|w| [[w[0], w[1], w[2]], [w[0], w[2], w[1]]]).collect();
         let eye = if eye.is_finite() { eye.clamp(Vec3::splat(-1e6), Vec3::splat(1e6)) } else { Vec3::ZERO };
         let camera = Camera::look_at(eye, if look.is_finite() { look } else { Vec3::X }, FOV, 0.3);
-        let world = World { ambient: [Vec3::ONE, vec3(0.1, 0.2, 0.3)], ..dark(vec![body(triangles(&faces), false)]) };
+        let world = World { ambient: [Vec3::ONE, vec3(0.1, 0.2, 0.3)], ..dark(vec![body(triangles(&faces))]) };
         let mut first: Option<Planes> = None;
         for (name, level) in common::levels() {
             let planes = draw(&world, camera, [40, 30], Quality::DEFAULT, level);
@@ -328,7 +328,7 @@ fn normals_are_interpolated_in_perspective() {
         }
         let mut mesh = triangles(&[face]);
         mesh.normals = normals.to_vec();
-        let world = World { lights: suns(), ..dark(vec![body(mesh, false)]) };
+        let world = World { lights: suns(), ..dark(vec![body(mesh)]) };
         let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[case % common::levels().len()].1);
         let [a, b, c] = face.map(Vec3::as_dvec3);
@@ -361,8 +361,7 @@ fn closed_boxes_show_their_front_and_nothing_from_inside() {
     let mut seen = 0;
     for case in 0..40 {
         let place = Affine3A::from_mat3(random.turn());
-        let mut cube = body(block(low, high), false);
-        cube.place = place;
+        let cube = Body::new(Arc::new(block(low, high)), place);
         let world = World { lights: suns(), ..dark(vec![cube]) };
         let inside = case % 4 == 0;
         let eye = if inside { random.direction() * 0.3 } else { random.direction() * random.range(2.0, 9.0) as f32 };

@@ -39,7 +39,6 @@ fn bad_usage_is_one_line_and_exit_2() {
         "nosuchscene",
         "lumen lumen",
         "--nosuchoption",
-        "--stereo",
         "-x",
         "-1",
         "--bench=1",
@@ -103,6 +102,24 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--quality",
         "--quality best",
         "--quality DEFAULT",
+        "--stereo=1",
+        "--stereo --size 1x5",
+        "--eye-distance 0.07",
+        "--convergence 4",
+        "--bench --convergence 4 --eye-distance 0.07",
+        "--stereo --eye-distance",
+        "--stereo --eye-distance -0.1",
+        "--stereo --eye-distance NaN",
+        "--stereo --eye-distance inf",
+        "--stereo --eye-distance 101",
+        "--stereo --eye-distance wide",
+        "--stereo --convergence",
+        "--stereo --convergence 0",
+        "--stereo --convergence -5",
+        "--stereo --convergence NaN",
+        "--stereo --convergence 1e-9",
+        "--stereo --convergence 10001",
+        "--stereo --convergence 5m",
     ];
     for line in lines {
         let output = run(&line.split(' ').collect::<Vec<_>>());
@@ -136,9 +153,12 @@ fn help_version_and_list_are_answered() {
     let help = String::from_utf8(succeeds(run(&["--help"]))).unwrap();
     for option in
         ["--size", "--threads", "--at", "--from", "--to", "--fps", "--bench", "--json", "--capture", "--quality"]
+            .into_iter()
+            .chain(["--stereo", "--eye-distance", "--convergence"])
     {
         assert!(help.contains(option), "{option}");
     }
+    assert!(include_str!("../README.md").contains(&*help), "the README has another help");
     let version = String::from_utf8(succeeds(run(&["--version"]))).unwrap();
     assert_eq!(version, concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n"));
     let list = String::from_utf8(succeeds(run(&["--list"]))).unwrap();
@@ -178,6 +198,25 @@ fn threads_do_not_change_a_byte() {
         let one = capture(&[&words[..], &["1"]].concat());
         assert_eq!(one.len(), 3);
         assert_eq!(one, capture(&[&words[..], &["2"]].concat()));
+    }
+}
+
+#[test]
+fn without_a_scene_the_show_plays() {
+    let words = ["--at", "2", "--size", "64x36"];
+    assert_eq!(capture(&words), capture(&[&["intro"], &words[..]].concat()));
+}
+
+#[test]
+fn two_eyes_see_what_their_distance_lets_them() {
+    let words = ["lumen", "--at", "15", "--size", "64x36", "--stereo"];
+    let usual = capture(&words);
+    // The eyes of the help's defaults.
+    assert_eq!(usual, capture(&[&words[..], &["--eye-distance", "0.065", "--convergence", "5"]].concat()));
+    let others =
+        [["--eye-distance", "0"], ["--eye-distance", "100"], ["--convergence", "0.01"], ["--convergence", "1e4"]];
+    for other in others {
+        assert_ne!(usual, capture(&[&words[..], &other].concat()), "{other:?}");
     }
 }
 
@@ -261,6 +300,10 @@ fn a_benchmark_prints_one_object_a_line() {
     assert!(number("fps_p1") > 0.0 && number("fps_p1") <= number("fps_median"), "{row}");
     // The milliseconds are rounded to three places.
     assert!((1000.0 / number("fps_median") - number("ms_median")).abs() < 0.001, "{row}");
+    let stereo = String::from_utf8(succeeds(run(&[&words[..], &["--stereo"]].concat()))).unwrap();
+    let stereo: Value = serde_json::from_str(&stereo).unwrap();
+    assert!(stereo.as_object().unwrap().keys().eq(row.as_object().unwrap().keys()), "{stereo}");
+    assert_eq!((&stereo["width"], &stereo["height"]), (&row["width"], &row["height"]));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 
-const BENCH: [&str; 5] = ["spheres", "spheres-flat", "spheres-glass", "shadow", "shadow-cube"];
+const BENCH: [&str; 6] = ["spheres", "spheres-flat", "spheres-glass", "shadow", "shadow-cube", "sky"];
 
 fn scene(name: &str) -> Scene {
     scenes::named(name).unwrap()

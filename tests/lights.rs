@@ -46,7 +46,7 @@ fn lamps_fade_by_their_formula_and_end_at_their_reach() {
                 continue;
             }
             let lights = vec![lamp(place, falloff, reach, Vec3::ONE)];
-            let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4), false)]) };
+            let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
             let planes = draw(&world, camera, SIZE, ONE, common::levels()[0].1);
             let (a, b, r) = (falloff.x as f64, falloff.y as f64, reach as f64);
             let left = |d: f64| 1.0 / (1.0 + a * d + b * d * d);
@@ -83,7 +83,7 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
             let color = vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
             let position =
                 vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
-            let plan = |views| Some(Plan { views, bias, back_faces: false, smooth: k % 2 == 0 });
+            let plan = |views| Some(Plan { views, bias, back_faces: false, traced: false, smooth: k % 2 == 0 });
             match k % 4 {
                 0 => {
                     let towards = random.direction().with_y(0.7).normalize();
@@ -104,9 +104,9 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
 /// What the lights shine on.
 fn stage() -> World {
     dark(vec![
-        body(ground(9.0, 0.0, 5), true),
-        body(block(vec3(-2.0, 0.0, -1.0), vec3(-1.0, 2.0, 1.0)), true),
-        body(block(vec3(1.0, 0.5, -1.0), vec3(2.0, 1.0, 3.0)), true),
+        body(ground(9.0, 0.0, 5)),
+        body(block(vec3(-2.0, 0.0, -1.0), vec3(-1.0, 2.0, 1.0))),
+        body(block(vec3(1.0, 0.5, -1.0), vec3(2.0, 1.0, 3.0))),
     ])
 }
 
@@ -151,6 +151,25 @@ fn a_light_out_of_reach_changes_no_bit() {
     }
 }
 
+/// `exp2` and its argument's rounding.
+const FILM: f64 = 1e-6;
+
+#[test]
+fn film_squeezes_light() {
+    let mut random = Random(5);
+    let world = World { lights: lights(&mut random, 8), ..stage() };
+    for (name, level) in common::levels() {
+        let plain = draw(&world, camera(), SIZE, ONE, level);
+        let film = draw(&World { film: true, ..world.clone() }, camera(), SIZE, ONE, level);
+        assert!(plain.color.iter().any(|c| c.max_element() > 1.0));
+        for (pixel, (light, found)) in plain.color.iter().zip(&film.color).enumerate() {
+            let truth = light.as_dvec3().to_array().map(|c| 1.0 - (-c).exp());
+            let gap = (found.as_dvec3() - DVec3::from(truth)).abs().max_element();
+            assert!(gap <= FILM, "{name}, pixel {pixel}: {found} of {light}");
+        }
+    }
+}
+
 #[test]
 fn shares_of_a_pixel_sum_up_to_one() {
     // A fan of many small triangles that covers the picture: whatever the samples show, all of them show something.
@@ -161,7 +180,7 @@ fn shares_of_a_pixel_sum_up_to_one() {
         *p = vec3(p.x + wiggle(&mut random), -p.z + wiggle(&mut random), wiggle(&mut random));
     }
     let camera = Camera::look_at(vec3(0.0, 0.0, 1.0), Vec3::ZERO, 0.9, 0.2);
-    let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points, false)]) };
+    let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points)]) };
     for (name, level) in common::levels() {
         for (coverage, grid) in [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)] {
             let planes = draw(&world, camera, [100, 70], Quality { coverage, grid, ..Quality::EXACT }, level);
@@ -213,7 +232,7 @@ fn coverage_nears_the_area_with_more_samples() {
             let scale = 0.5 * h / (0.45f64).tan();
             dvec2(0.5 * SIZE[0] as f64 + p.x * scale, 0.5 * h - p.y * scale)
         });
-        let world = dark(vec![body(triangles(&[face]), false)]);
+        let world = dark(vec![body(triangles(&[face]))]);
         let drawn: Vec<Planes> = qualities
             .iter()
             .map(|&(coverage, grid)| {

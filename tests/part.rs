@@ -2,6 +2,7 @@
 //! and never inside of things.
 
 use paprsek::quality::Quality;
+use paprsek::scenes::intro::PARTS;
 use paprsek::scenes::lumen::{CUTS, LUMEN, stage};
 use paprsek::tile::{Frame, Renderer};
 use paprsek::trace::scalar;
@@ -33,8 +34,9 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[test]
-fn it_is_the_intro_and_long_enough() {
-    assert_eq!(paprsek::scenes::INTRO.name, LUMEN.name);
+fn it_opens_the_show_and_is_long_enough() {
+    let (start, (part, from)) = PARTS[0];
+    assert_eq!((start, part.name, from), (0.0, LUMEN.name, 0.0));
     assert!((45.0..=60.0).contains(&LUMEN.duration));
     assert!((4..=6).contains(&CUTS.len()));
     assert!(CUTS.windows(2).all(|pair| pair[1].0 - pair[0].0 >= 8.0));

@@ -31,7 +31,7 @@ const SIZES: [[u32; 2]; 5] = [[100, 70], [64, 64], [65, 63], [1, 1], [131, 5]];
 const GUARD: i32 = 16384 * SUB;
 
 fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
-    let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3::ONE, texture: None }], ..Mesh::default() };
+    let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }], ..Mesh::default() };
     for corners in triangles {
         let first = mesh.points.len() as u16;
         mesh.faces.push(Face { corners: [first, first + 1, first + 2], paint: 0 });
@@ -39,7 +39,7 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
         mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
     }
     let projection = Projection { matrix: Mat4::IDENTITY, size, near: NEAR };
-    Setup { projection: &projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
+    Setup { projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
 }
 
 /// What each pixel of a picture shows: nearness and number of the triangle.

@@ -1,7 +1,8 @@
 //! Shadows of the sun by depth maps against what stands between a point and the light, in f64; and that a kept map changes nothing.
 //!
 //! A point is misclassified where more than half of the light comes though it should not, or the other way round. Acne
-//! (dark instead of lit) and leaks (lit instead of dark) are counted apart.
+//! (dark instead of lit) and leaks (lit instead of dark) are counted apart. Only the box is to cast a shadow where what
+//! looks away from the sun is drawn: level ground does not.
 
 mod common;
 mod drawn;
@@ -22,6 +23,9 @@ const SIZE: [usize; 2] = [220, 130];
 const QUALITY: Quality = Quality::FAST;
 /// A map cannot know an edge better than its 3x3 texels reach.
 const REACH: f64 = 1.5;
+/// Texels along a map's border in which it is not looked up, and how far rounding may move a point there.
+const MARGIN: f32 = 2.0;
+const NEAR: f32 = 0.01;
 /// The target: misclassified points, of the receiver's visible pixels.
 const SHARE: f64 = 0.01;
 
@@ -56,8 +60,8 @@ struct Sunny {
     width: f32,
     bias: Bias,
     smooth: bool,
-    ground_casts: bool,
     back_faces: bool,
+    traced: bool,
 }
 
 const BOX: (Vec3, Vec3) = (vec3(-1.5, 2.5, -1.0), vec3(1.5, 4.0, 2.0));
@@ -74,12 +78,13 @@ impl Sunny {
 
     fn plan(&self) -> Plan {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
-        Plan { views: vec![view], bias: self.bias, back_faces: self.back_faces, smooth: self.smooth }
+        let Sunny { bias, smooth, back_faces, traced, .. } = *self;
+        Plan { views: vec![view], bias, back_faces, traced, smooth }
     }
 
     fn draw(&self, camera: Camera) -> Planes {
         let (low, high) = self.block();
-        let bodies = vec![body(ground(14.0, 0.0, 6), self.ground_casts), body(block(low, high), true)];
+        let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
         let source = Source::Sun(self.towards().as_vec3());
         let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(self.plan()) }];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
@@ -133,9 +138,9 @@ fn the_suns_shadow_has_its_outline() {
     let none = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
     for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
         for texels in [128, 512, 2048] {
-            for (smooth, back_faces) in [(false, false), (true, false), (true, true)] {
-                let scene =
-                    Sunny { elevation, texels, width: 44.0, bias: none, smooth, ground_casts: false, back_faces };
+            for smooth in [false, true] {
+                let (width, bias, back_faces, traced) = (44.0, none, true, false);
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
                 for camera in cameras() {
                     let count = scene.count(camera, REACH);
                     println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
@@ -157,8 +162,8 @@ fn ground_does_not_shadow_itself() {
     for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
         for texels in [512, 2048] {
             for smooth in [false, true] {
-                let scene =
-                    Sunny { elevation, texels, width: 44.0, bias, smooth, ground_casts: true, back_faces: false };
+                let (width, back_faces, traced) = (44.0, false, false);
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
                 let count = scene.count(cameras()[0], REACH + 2.0);
                 println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
                 assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
@@ -167,10 +172,32 @@ fn ground_does_not_shadow_itself() {
     }
     // Without, it does: the test can fail.
     let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-    let (smooth, back_faces) = (true, false);
-    let scene = Sunny { elevation: 30.0, texels: 512, width: 44.0, bias, smooth, ground_casts: true, back_faces };
+    let (smooth, back_faces, traced) = (true, false, false);
+    let scene = Sunny { elevation: 30.0, texels: 512, width: 44.0, bias, smooth, back_faces, traced };
     let count = scene.count(cameras()[0], REACH + 2.0);
     assert!(count.acne > 1000, "{count:?}");
+}
+
+/// Texels: corners are snapped to 1/256, and a little is left of the bias.
+const TRACED_REACH: f64 = 0.1;
+
+#[test]
+fn traced_shadows_have_their_outline() {
+    let (width, smooth, traced) = (44.0, true, true);
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [64, 512] {
+            // Where the ground is drawn it must not hide itself; where the box's back is, there is no need.
+            for (back_faces, share) in [(false, 1.0), (true, 0.0)] {
+                let bias = Bias { constant: 0.02, slope: share, normal: share };
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
+                for camera in cameras() {
+                    let count = scene.count(camera, TRACED_REACH);
+                    assert!(count.pixels > 5000 && count.dark > 20, "{elevation} {texels}: {count:?}");
+                    assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+                }
+            }
+        }
+    }
 }
 
 #[test]
@@ -179,12 +206,14 @@ fn beyond_the_map_is_light() {
     let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
     for smooth in [false, true] {
         let (texels, width) = (64, 2.5);
-        let scene = Sunny { elevation: 9.0, texels, width, bias, smooth, ground_casts: false, back_faces: false };
+        let (back_faces, traced) = (true, false);
+        let scene = Sunny { elevation: 9.0, texels, width, bias, smooth, back_faces, traced };
         let view = scene.plan().views[0];
         let (mut beyond, mut dark, mut cut) = (0, 0, 0);
         for (p, share) in scene.receivers(cameras()[0]) {
             let at = view.matrix.project_point3(p.as_vec3());
-            if at.x < 0.0 || at.y < 0.0 || at.x > texels as f32 || at.y > texels as f32 {
+            let (low, high) = (at.x.min(at.y), at.x.max(at.y));
+            if low < MARGIN - NEAR || high > texels as f32 - MARGIN + NEAR {
                 assert!((share - 1.0).abs() < 1e-5, "{p}: {share}");
                 beyond += 1;
                 cut += enters(p, scene.towards(), BOX).is_some() as u32;
@@ -200,21 +229,14 @@ fn beyond_the_map_is_light() {
 fn the_finest_map_that_reaches_is_looked_up() {
     // Two maps: a wide one, and a fine one around the box. Within the fine one it is as if that were alone.
     let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
-    let scene = |width| Sunny {
-        elevation: 40.0,
-        texels: 128,
-        width,
-        bias,
-        smooth: true,
-        ground_casts: false,
-        back_faces: false,
-    };
+    let scene =
+        |width| Sunny { elevation: 40.0, texels: 128, width, bias, smooth: true, back_faces: true, traced: false };
     let (fine, wide) = (scene(6.0), scene(44.0));
     let camera = cameras()[0];
     let both = {
         let mut plan = fine.plan();
         plan.views.extend(wide.plan().views);
-        let bodies = vec![body(ground(14.0, 0.0, 6), false), body(block(BOX.0, BOX.1), true)];
+        let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
         let source = Source::Sun(fine.towards().as_vec3());
         let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
@@ -229,12 +251,12 @@ fn the_finest_map_that_reaches_is_looked_up() {
         let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
         let p = camera.eye.as_dvec3() + d / both.closeness[pixel] as f64;
         let at = view.matrix.project_point3(p.as_vec3());
-        // Three texels around its border either may be looked up.
+        // On the margin's edge either may be looked up.
         let (low, high) = (at.x.min(at.y), at.x.max(at.y));
-        if low > 3.0 && high < 125.0 {
+        if low > MARGIN + NEAR && high < 128.0 - MARGIN - NEAR {
             assert_eq!(both.color[pixel], fine_alone.color[pixel], "{p}");
             inside += 1;
-        } else if low < 1.0 || high > 127.0 {
+        } else if low < MARGIN - NEAR || high > 128.0 - MARGIN + NEAR {
             assert_eq!(both.color[pixel], wide_alone.color[pixel], "{p}");
             outside += 1;
         }
@@ -246,22 +268,22 @@ fn the_finest_map_that_reaches_is_looked_up() {
 fn kept_maps_change_no_frame() {
     let shapes: Vec<Arc<Mesh>> = [1.0, 1.0, 0.6].map(|s| Arc::new(block(BOX.0 * s, BOX.1 * s))).to_vec();
     let floor = Arc::new(ground(14.0, 0.0, 6));
-    // Box, its place, does it cast, the sun, texels, lights.
+    // Box, its place, is it there, the sun, texels, lights.
     let frame = |k: usize, fresh: bool| {
         let renew = |mesh: &Arc<Mesh>| if fresh { Arc::new(Mesh::clone(mesh)) } else { mesh.clone() };
         // Every way in which one frame may resemble the last.
         let shape = [0, 0, 1, 1, 0, 2, 0, 0, 0, 0][k % 10];
         let at = [0.0, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-3][k % 10];
-        let casts = k % 10 != 6;
-        let (elevation, texels) = ([40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 41.0][k % 8], [200, 64][k % 7 / 6]);
+        let there = k % 10 != 6;
+        let (elevation, texels) = ([40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 41.0][k % 8], [192, 64][k % 7 / 6]);
         let scene = Sunny {
             elevation,
             texels,
             width: [44.0, 30.0][k % 5 / 4],
             bias: Bias { constant: 0.01, slope: 2.0, normal: 1.0 },
             smooth: !k.is_multiple_of(3),
-            ground_casts: true,
             back_faces: k % 9 == 8,
+            traced: k % 11 == 10,
         };
         let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
         let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
@@ -277,10 +299,8 @@ fn kept_maps_change_no_frame() {
         }
         lights.truncate(1 + (k % 6 != 5) as usize);
         let place = Affine3A::from_translation(vec3(at, 0.0, 0.0));
-        let bodies = vec![
-            Body { mesh: renew(&floor), place: Affine3A::IDENTITY, casts_shadow: true },
-            Body { mesh: renew(&shapes[shape]), place, casts_shadow: casts },
-        ];
+        let mut bodies = vec![Body::new(renew(&floor), Affine3A::IDENTITY), Body::new(renew(&shapes[shape]), place)];
+        bodies.truncate(1 + there as usize);
         let size = [[90, 60], [64, 64], [33, 70]][k % 3];
         draw(&World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, common::levels()[0].1)
     };

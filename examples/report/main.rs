@@ -21,8 +21,8 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// The scenes that show what the knobs do; the intro's own comes on top.
-const SCENES: [&str; 2] = ["spheres", "spheres-glass"];
+/// The scenes that show what the knobs do.
+const SCENES: [&str; 3] = ["spheres", "spheres-glass", "lumen"];
 /// Minutes.
 const FULL: Effort = Effort { size: (1280, 720), instants: &[0.1, 0.4, 0.7], rounds: 9, threads: 2 };
 /// Seconds: shows that the report works; its figures are rough.
@@ -72,14 +72,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The scenes of these names; without any the usual ones, and the intro's own.
+/// The scenes of these names; without any the usual ones.
 fn choose(names: &[String]) -> Result<Vec<Scene>, String> {
     if names.is_empty() {
-        let mut scenes: Vec<_> = SCENES.iter().filter_map(|name| scenes::named(name)).collect();
-        if scenes.iter().all(|scene| scene.name != scenes::INTRO.name) {
-            scenes.push(scenes::INTRO);
-        }
-        return Ok(scenes);
+        return Ok(SCENES.iter().filter_map(|name| scenes::named(name)).collect());
     }
     names.iter().map(|name| scenes::named(name).ok_or(format!("there is no scene '{name}'"))).collect()
 }

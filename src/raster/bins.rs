@@ -52,10 +52,13 @@ impl Bins {
         Bins { columns, starts, list }
     }
 
-    /// The triangles of the tile in that column and row of tiles.
+    /// The triangles of the tile in that column and row of tiles; none where there is no such tile.
     pub fn of(&self, column: usize, row: usize) -> &[Id] {
         let tile = row * self.columns as usize + column;
-        &self.list[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+        match self.starts.get(tile..tile + 2) {
+            Some(&[from, to]) => &self.list[from as usize..to as usize],
+            _ => &[],
+        }
     }
 }
 

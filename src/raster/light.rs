@@ -1,8 +1,10 @@
 //! Lights, and what they give to a point: all of them in one pass over the pixels that are seen, each as far as it reaches.
 
+use super::Raster;
 use super::project::Projection;
 use super::shadow::{DepthMap, Plan};
-use crate::lanes::{F, Lane, M, V3};
+use super::traced::hides;
+use crate::lanes::{Bits, F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -45,13 +47,34 @@ pub struct Haze {
     pub glow: (Vec3, Vec3),
 }
 
+impl Haze {
+    /// Its light in a direction (unit), and that of the sun's image where a mirror shows it.
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> (V3<S>, V3<S>) {
+        let mut powers = [d.dot1(self.glow.0).max(F::<S>::splat(simd, 0.0)); 2];
+        for (power, squarings) in powers.iter_mut().zip([3, 9]) {
+            for _ in 0..squarings {
+                *power *= *power;
+            }
+        }
+        let glow = V3::splat(simd, self.glow.1);
+        (V3::splat(simd, self.color) + glow * Lane(powers[0]), glow * Lane(powers[1] * 8.0))
+    }
+}
+
 /// Texels along a map's border in which it is not looked up.
 const MARGIN: f32 = 2.0;
+
+/// What is left of a bias where shadows are traced: enough for the snapping of corners and for rounding.
+const TRACED_BIAS: f32 = 1.0 / 32.0;
 
 /// A light, ready to be looked up.
 pub struct Lit {
     light: Light,
-    map: Option<Arc<DepthMap>>,
+    /// What it sees, where that is mapped.
+    pub map: Option<Arc<DepthMap>>,
+    /// The first of its rasters, where it has any.
+    pub first: usize,
     /// Each view's matrix by rows, and metres a texel where it is a parallel projection.
     views: Vec<(Mat4, f32)>,
     /// What would be left of it at the end of its reach, which is taken off everywhere, and what it is then scaled by.
@@ -60,8 +83,8 @@ pub struct Lit {
 }
 
 impl Lit {
-    /// With the depths of its plan's views, where it has one.
-    pub fn new(light: Light, map: Option<Arc<DepthMap>>) -> Lit {
+    /// A light whose rasters, if it gets any, begin with that one.
+    pub fn new(light: Light, first: usize) -> Lit {
         let cut = match light.source {
             Source::Lamp { falloff, reach, .. } if reach.is_finite() => {
                 1.0 / (1.0 + falloff.x * reach + falloff.y * reach * reach)
@@ -73,22 +96,20 @@ impl Lit {
             (rows, 1.0 / rows.x_axis.truncate().length())
         };
         let views = light.shadow.iter().flat_map(|plan| &plan.views).map(view).collect();
-        Lit { light, map, views, cut, scale: 1.0 / (1.0 - cut) }
+        Lit { light, map: None, first, views, cut, scale: 1.0 / (1.0 - cut) }
     }
 
-    /// May it reach a box?
-    pub fn reaches(&self, low: Vec3, high: Vec3) -> bool {
+    /// May it reach into a ball?
+    pub fn reaches(&self, center: Vec3, radius: f32) -> bool {
         match self.light.source {
             Source::Sun(_) => true,
-            Source::Lamp { position, reach, .. } => {
-                position.clamp(low, high).distance_squared(position) <= reach * reach
-            }
+            Source::Lamp { position, reach, .. } => center.distance(position) <= reach + radius,
         }
     }
 
     /// Its light at points with unit normals, without albedo.
     #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, point: V3<S>, normal: V3<S>) -> V3<S> {
+    pub fn at<S: Simd>(&self, simd: S, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let (towards, left) = match self.light.source {
             Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -102,10 +123,10 @@ impl Lit {
         let cosine = normal.dot(towards).max(zero);
         let wanted = (cosine * left).simd_gt(zero);
         let mut light = cosine * left;
-        if let (Some(plan), Some(map)) = (&self.light.shadow, &self.map)
+        if let Some(plan) = &self.light.shadow
             && wanted.any_true()
         {
-            light *= self.seen(simd, plan, map, point, normal, cosine, wanted);
+            light *= self.seen(simd, plan, rasters, point, normal, cosine, wanted);
         }
         V3::splat(simd, self.light.color) * Lane(light)
     }
@@ -117,14 +138,15 @@ impl Lit {
         &self,
         simd: S,
         plan: &Plan,
-        map: &DepthMap,
+        rasters: &[Raster],
         point: V3<S>,
         normal: V3<S>,
         cosine: F<S>,
         wanted: M<S>,
     ) -> F<S> {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        let size = map.size as u32 as f32;
+        let size = plan.views[0].size[0] as f32;
+        let bias = plan.bias.times(if plan.traced { TRACED_BIAS } else { 1.0 });
         let sine = (one - cosine * cosine).max(zero).sqrt();
         let tangent = (sine / cosine.max(F::<S>::splat(simd, 1e-3))).min(F::<S>::splat(simd, 4.0));
         let (mut view, mut x, mut y, mut near) = (zero, zero, zero, zero);
@@ -135,11 +157,11 @@ impl Lit {
                 // The finest map that the texels around are in.
                 while k < self.views.len() {
                     let (rows, texel) = self.views[k];
-                    let p = point + normal * Lane(sine * (plan.bias.normal * texel));
+                    let p = point + normal * Lane(sine * (bias.normal * texel));
                     let (px, py, z) = (apply(rows.x_axis, p), apply(rows.y_axis, p), apply(rows.z_axis, p));
                     let (low, high) = (px.min(py), px.max(py));
                     let here = low.simd_ge(MARGIN) & high.simd_le(size - MARGIN) & !inside;
-                    let bias = tangent * (plan.bias.slope * texel) + plan.bias.constant;
+                    let bias = tangent * (bias.slope * texel) + bias.constant;
                     (x, y) = (here.select(px, x), here.select(py, y));
                     near = here.select(z + bias, near);
                     view = here.select(F::<S>::splat(simd, k as u32 as f32), view);
@@ -157,7 +179,7 @@ impl Lit {
                 view = pair + axis.simd_gt(zero).select(zero, one);
                 // Texels are wider where the face is farther.
                 let texel = depth * (2.0 / size);
-                let p = point + normal * Lane(sine * texel * plan.bias.normal);
+                let p = point + normal * Lane(sine * texel * bias.normal);
                 while k < self.views.len() {
                     let here = view.simd_eq(k as u32 as f32);
                     if (here & wanted).any_true() {
@@ -166,7 +188,7 @@ impl Lit {
                         let inverse = one / w;
                         x = here.select(apply(rows.x_axis, p) * inverse, x);
                         y = here.select(apply(rows.y_axis, p) * inverse, y);
-                        let bias = tangent * texel * plan.bias.slope + plan.bias.constant;
+                        let bias = tangent * texel * bias.slope + bias.constant;
                         near = here.select(one / (w - bias).max(F::<S>::splat(simd, 1e-6)), near);
                     }
                     k += 1;
@@ -174,7 +196,24 @@ impl Lit {
                 inside = M::<S>::splat(simd, true);
             }
         }
-        let seen = map.light(simd, view, x, y, near, plan.smooth, wanted & inside);
+        let wanted = wanted & inside;
+        let seen = match &self.map {
+            Some(map) => map.light(simd, view, x, y, near, plan.smooth, wanted),
+            None => {
+                let end = F::<S>::splat(simd, size - 0.01);
+                let mut numbers = [[0.0; 16]; 4];
+                let lanes = F::<S>::LEN;
+                for (row, of) in numbers.iter_mut().zip([view, x.max(zero).min(end), y.max(zero).min(end), near]) {
+                    of.store_slice(&mut row[..lanes]);
+                }
+                let mut seen = [0.0; 16];
+                for lane in Bits(wanted.to_bitmask()) {
+                    let [view, x, y, near] = [0, 1, 2, 3].map(|row: usize| numbers[row][lane]);
+                    seen[lane] = if hides(&rasters[self.first + view as usize], x, y, near) { 0.0 } else { 1.0 };
+                }
+                F::<S>::from_slice(simd, &seen[..lanes])
+            }
+        };
         inside.select(seen, one)
     }
 }

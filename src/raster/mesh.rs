@@ -9,6 +9,8 @@ pub struct Paint {
     pub albedo: Vec3,
     /// The world's texture that the albedo is multiplied by, if any.
     pub texture: Option<u8>,
+    /// Share of the sky that is mirrored where the surface is grazed; a twentieth of it where it is met straight.
+    pub gloss: f32,
 }
 
 /// A triangle, counter-clockwise from outside.

@@ -6,12 +6,14 @@
 
 pub mod bins;
 pub mod fill;
+pub mod fit;
 pub mod form;
 pub mod light;
 pub mod mesh;
 pub mod project;
 pub mod shade;
 pub mod shadow;
+pub mod traced;
 pub mod triangle;
 
 use crate::block::{BLOCK, load, store};
@@ -28,7 +30,7 @@ use light::{Haze, Light, Lit};
 use mesh::Mesh;
 use project::Projection;
 use shade::{Context, Fragments, Samples};
-use shadow::{DepthMap, Kept, Key};
+use shadow::{DepthMap, Key};
 use std::sync::{Arc, Mutex, PoisonError};
 use triangle::{Piece, SUB, Setup};
 
@@ -36,11 +38,27 @@ use triangle::{Piece, SUB, Setup};
 #[derive(Clone)]
 pub struct Body {
     /// Its surface: at most 8,192 faces.
-    pub mesh: Arc<Mesh>,
-    /// From its own space to the world: turned, moved, scaled alike in all directions.
-    pub place: Affine3A,
-    /// Does it stop light?
-    pub casts_shadow: bool,
+    mesh: Arc<Mesh>,
+    /// From its own space to the world.
+    place: Affine3A,
+    /// Middle and radius of a ball around it in the world.
+    bound: (Vec3, f32),
+}
+
+impl Body {
+    /// A mesh of at most 8,192 faces where `place` takes it: turned, moved, scaled alike in all directions.
+    pub fn new(mesh: Arc<Mesh>, place: Affine3A) -> Body {
+        let (center, radius) = mesh.bound();
+        let scale = place.matrix3.x_axis.length();
+        Body { bound: (place.transform_point3(center), radius * scale), mesh, place }
+    }
+}
+
+/// Equal are bodies of one mesh in one place.
+impl PartialEq for Body {
+    fn eq(&self, other: &Body) -> bool {
+        Arc::ptr_eq(&self.mesh, &other.mesh) && self.place == other.place
+    }
 }
 
 /// All that the rasterizer draws.
@@ -54,10 +72,22 @@ pub struct World {
     pub lights: Vec<Light>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
-    /// The haze before what is far.
+    /// The haze before what is far, and the sky at the horizon that gloss mirrors.
     pub haze: Haze,
+    /// The sky straight above, for gloss.
+    pub zenith: Vec3,
+    /// Is light squeezed by `1 - exp(-light)`, as on film? Haze and zenith are taken to be so already.
+    pub film: bool,
     /// What is behind all, if the raster is to fill it.
     pub background: Option<Vec3>,
+}
+
+/// The bodies in one raster.
+pub struct Raster {
+    setup: Setup,
+    /// One for each body.
+    pieces: Vec<Piece>,
+    bins: Bins,
 }
 
 /// A world seen by a camera, as a layer of a picture: the first one.
@@ -66,8 +96,8 @@ pub struct Drawn {
     view: View,
     size: [u32; 2],
     quality: Quality,
-    pieces: Vec<Piece>,
-    bins: Bins,
+    /// The camera's, then those of lights that have no map from an earlier frame.
+    rasters: Vec<Raster>,
     lights: Vec<Lit>,
 }
 
@@ -75,18 +105,18 @@ impl Drawn {
     /// Prepares a picture of `width` x `height` pixels.
     pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> Drawn {
         let size = [width as u32, height as u32];
-        Drawn { world, view, size, quality, pieces: Vec::new(), bins: Bins::default(), lights: Vec::new() }
+        Drawn { world, view, size, quality, rasters: Vec::new(), lights: Vec::new() }
     }
 
     /// Draws a tile; returns the number of fragments.
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let Drawn { world, view, pieces, bins, lights, quality, .. } = self;
-        let context = Context { world, lights, pieces, view };
+        let Drawn { world, view, rasters, lights, quality, .. } = self;
+        let context = Context { world, lights, rasters, view };
         let count = if quality.grid > 1 { 1 } else { quality.coverage };
         scratch.visible.resize_with(count.max(scratch.visible.len()), Visible::new);
         let visible = &mut scratch.visible[..count];
-        let ids = bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
+        let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
         tile.clear();
         tile.coverage.fill(0.0);
         tile.closeness.fill(0.0);
@@ -101,7 +131,7 @@ impl Drawn {
                         grid => [pass % grid, pass / grid].map(|n| ((2 * n + 1) * SUB as usize / (2 * grid)) as i32),
                     };
                     plane.clear(0.0);
-                    fill(simd, pieces, ids, tile.x as i32, tile.y as i32, *sample, plane);
+                    fill(simd, &rasters[0].pieces, ids, tile.x as i32, tile.y as i32, *sample, plane);
                 }
                 let samples = Samples { visible, places: &samples[..count], share };
                 fragments += scratch.fragments.collect(simd, &context, &samples, tile);
@@ -172,54 +202,48 @@ fn with_scratch<T>(work: impl FnOnce(&mut Scratch) -> T) -> T {
 
 impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
-        let lights = self.world.lights.iter().enumerate();
-        let kept: Vec<_> = lights
-            .map(|(slot, light)| Some(shadow::recall(Key::new(slot, light.shadow.as_ref()?, &self.world.bodies))))
-            .collect();
-        // The camera's raster first, then those of the lights whose maps have changed.
-        let mut rasters = vec![(Projection::of_view(&self.view, self.size), false, true)];
-        for kept in kept.iter().flatten() {
-            if let Kept::Other(_, Key { plan, .. }) = kept {
-                rasters.extend(plan.views.iter().map(|view| (*view, plan.back_faces, false)));
-            }
-        }
-        let mut jobs = Vec::new();
-        for (index, (projection, _, shaded)) in rasters.iter().enumerate() {
-            for body in self.world.bodies.iter().filter(|body| *shaded || body.casts_shadow) {
-                let (center, radius) = body.mesh.bound();
-                let scale = body.place.matrix3.x_axis.length();
-                if !projection.misses(body.place.transform_point3(center), radius * scale) {
-                    jobs.push((index, body, Piece::default()));
+        let Drawn { world, rasters, lights, .. } = self;
+        let raster = |projection, back_faces, shaded| Raster {
+            setup: Setup { projection, back_faces, shaded },
+            pieces: world.bodies.iter().map(|_| Piece::default()).collect(),
+            bins: Bins::default(),
+        };
+        rasters.push(raster(Projection::of_view(&self.view, self.size), false, true));
+        let mut missing = Vec::new();
+        for (slot, light) in world.lights.iter().enumerate() {
+            let mut lit = Lit::new(light.clone(), rasters.len());
+            if let Some(plan) = &light.shadow {
+                let casters = world.bodies.iter().filter(|body| lit.reaches(body.bound.0, body.bound.1)).cloned();
+                let key = Key { slot, plan: plan.clone(), casters: casters.collect() };
+                match shadow::recall(&key) {
+                    Ok(map) => lit.map = Some(map),
+                    Err(map) => {
+                        rasters.extend(plan.views.iter().map(|view| raster(*view, plan.back_faces, false)));
+                        if !plan.traced {
+                            missing.push((key, map));
+                        }
+                    }
                 }
             }
+            lights.push(lit);
         }
-        crew.each(jobs.iter_mut(), |(raster, body, piece)| {
-            let (projection, back_faces, shaded) = &rasters[*raster];
-            let setup = Setup { projection, back_faces: *back_faces, shaded: *shaded };
-            *piece = setup.piece(&body.mesh, &body.place);
+        let jobs = rasters.iter_mut().flat_map(|Raster { setup, pieces, .. }| {
+            let setup = &*setup;
+            pieces.iter_mut().zip(&world.bodies).map(move |(piece, body)| (setup, piece, body))
         });
-        let mut binned: Vec<(Vec<Piece>, Bins)> = Vec::new();
-        binned.resize_with(rasters.len(), Default::default);
-        for (raster, _, piece) in jobs {
-            binned[raster].0.push(piece);
-        }
-        crew.each(binned.iter_mut().zip(&rasters), |((pieces, bins), (projection, _, _))| {
-            *bins = Bins::new(pieces, projection.size);
+        crew.each(jobs, |(setup, piece, body)| {
+            if !setup.projection.misses(body.bound.0, body.bound.1) {
+                *piece = setup.piece(&body.mesh, &body.place);
+            }
         });
-        let mut rest = binned.into_iter();
-        (self.pieces, self.bins) = rest.next().unwrap_or_default();
-        self.lights.clear();
-        for (light, kept) in self.world.lights.iter().zip(kept) {
-            let map = kept.map(|kept| match kept {
-                Kept::Same(map) => map,
-                Kept::Other(mut map, key) => {
-                    let views: Vec<_> = rest.by_ref().take(key.plan.views.len()).collect();
-                    map.resize(key.plan.views[0].size[0] as usize, views.len());
-                    draw_map(crew, &mut map, &views);
-                    shadow::keep(key, map)
-                }
-            });
-            self.lights.push(Lit::new(light.clone(), map));
+        crew.each(rasters.iter_mut(), |raster| {
+            raster.bins = Bins::new(&raster.pieces, raster.setup.projection.size);
+        });
+        for (key, mut map) in missing {
+            let lit = &mut lights[key.slot];
+            map.resize(key.plan.views[0].size[0] as usize, key.plan.views.len());
+            draw_map(crew, &mut map, &rasters[lit.first..]);
+            lit.map = Some(shadow::keep(key, map));
         }
     }
 
@@ -229,29 +253,24 @@ impl Layer for Drawn {
     }
 }
 
-/// Draws the depths of binned triangles, a band of tiles at a time.
-fn draw_map(crew: &Crew, map: &mut DepthMap, views: &[(Vec<Piece>, Bins)]) {
-    let (size, level, stride) = (map.size, crew.level(), map.stride());
-    let bands = map.bands(Tile::SIZE);
-    crew.each(bands, |(view, band, texels)| {
-        let (pieces, bins) = &views[view];
+/// Draws the depths of triangles, a row of tiles at a time.
+fn draw_map(crew: &Crew, map: &mut DepthMap, rasters: &[Raster]) {
+    let (size, level) = (map.size, crew.level());
+    crew.each(map.bands().enumerate(), |(index, texels)| {
+        let (view, band) = (index * Tile::SIZE / size, index % (size / Tile::SIZE));
+        let Raster { pieces, bins, .. } = &rasters[view];
         with_scratch(|scratch| {
-            if scratch.visible.is_empty() {
-                scratch.visible.push(Visible::new());
-            }
+            scratch.visible.resize_with(scratch.visible.len().max(1), Visible::new);
             let visible = &mut scratch.visible[0];
-            for column in 0..size.div_ceil(Tile::SIZE) {
-                let ids = bins.of(column, band);
-                let (x, y) = (column * Tile::SIZE, band * Tile::SIZE);
+            for x in (0..size).step_by(Tile::SIZE) {
+                let ids = bins.of(x / Tile::SIZE, band);
                 visible.clear(shadow::NOTHING);
-                dispatch!(level, simd => fill(simd, pieces, ids, x as i32, y as i32, CENTER, visible));
-                let width = Tile::SIZE.min(size - x);
-                for (row, texels) in texels.chunks_mut(stride).enumerate() {
-                    let from = &visible.nearness[row * Tile::SIZE..][..width];
-                    texels[shadow::PAD + x..][..width].copy_from_slice(from);
+                let y = (band * Tile::SIZE) as i32;
+                dispatch!(level, simd => fill(simd, pieces, ids, x as i32, y, CENTER, visible));
+                for (from, to) in visible.nearness.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
+                    to[x..][..Tile::SIZE].copy_from_slice(from);
                 }
             }
         });
     });
-    map.close();
 }

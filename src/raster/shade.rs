@@ -1,10 +1,10 @@
 //! From what is visible in a tile to light: fragments wait until a block of one texture is full, and each is shaded once.
 
-use super::World;
 use super::bins::{Id, NOTHING, PLAIN, TEXTURE, parts};
 use super::fill::{CENTER, STEPS, Sample, Visible};
 use super::light::Lit;
-use super::triangle::{Piece, Plane, SUB};
+use super::triangle::{Plane, SUB};
+use super::{Raster, World};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{Bits, F, Lane, U, V3};
 use crate::math;
@@ -21,8 +21,8 @@ pub struct Context<'a> {
     pub world: &'a World,
     /// Lights with their maps.
     pub lights: &'a [Lit],
-    /// Triangles and their surfaces.
-    pub pieces: &'a [Piece],
+    /// The camera's raster, and those of lights.
+    pub rasters: &'a [Raster],
     /// The camera.
     pub view: &'a View,
 }
@@ -197,6 +197,15 @@ impl Fragments {
     }
 }
 
+/// How fast the mirrored sky goes from the horizon's colour to the zenith's: half of it in 1 / this of the sine.
+const RISE: f32 = 4.0;
+
+/// What film shows of light.
+#[inline(always)]
+fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
+    -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
+}
+
 /// A plane at offsets from its anchor, where `here`.
 #[inline(always)]
 fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
@@ -206,7 +215,8 @@ fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
-    let Context { world, lights, pieces, view } = *context;
+    let Context { world, lights, rasters, view } = *context;
+    let pieces = &rasters[0].pieces;
     let count = queue.count.min(BLOCK);
     // What stands behind the last is left over from others.
     let (id, x, y) = (queue.id[0], queue.x[0], queue.y[0]);
@@ -214,7 +224,8 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
     queue.x[count..BLOCK].fill(x);
     queue.y[count..BLOCK].fill(y);
     let (mut point, mut normal, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let (mut depth, mut nearness) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let (mut depth, mut nearness, mut glosses) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+    let mut glossy = false;
     let one = F::<S>::splat(simd, 1.0);
     let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
     let lanes = F::<S>::LEN;
@@ -224,7 +235,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         let (x, y): (F<S>, F<S>) = (load(simd, head(&queue.x), i), load(simd, head(&queue.y), i));
         let mut n = V3::splat(simd, Vec3::ZERO);
         let mut albedo = n;
-        let mut near = one;
+        let (mut near, mut gloss) = (one, one);
         let mut todo = ids.simd_eq(ids).to_bitmask();
         while todo != 0 {
             let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
@@ -235,9 +246,11 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             let (dx, dy) = (x - triangle.anchor[0], y - triangle.anchor[1]);
             let [nx, ny, nz] = &surface.normal;
             n = V3::select(here, V3 { x: at::<S>(nx, dx, dy), y: at::<S>(ny, dx, dy), z: at::<S>(nz, dx, dy) }, n);
-            albedo = V3::select(here, V3::splat(simd, surface.albedo), albedo);
+            albedo = V3::select(here, V3::splat(simd, surface.paint.albedo), albedo);
             let z = at::<S>(&triangle.nearness, dx, dy).max(triangle.range[0]).min(triangle.range[1]);
             near = here.select(z, near);
+            gloss = here.select(F::<S>::splat(simd, surface.paint.gloss), gloss);
+            glossy |= surface.paint.gloss > 0.0;
         }
         let far = one / near.max(F::<S>::splat(simd, FARTHEST));
         let p = V3::splat(simd, view.camera().eye) + view.rays(simd, x, y) * Lane(far);
@@ -251,6 +264,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         }
         store(far, &mut depth, i);
         store(near, &mut nearness, i);
+        store(gloss, &mut glosses, i);
         i += 1;
     }
     if let Some(texture) = world.textures.get(texture) {
@@ -260,7 +274,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
     let mut near = [0u32; 32];
     let mut reaching = 0;
     for (index, light) in lights.iter().enumerate() {
-        if light.reaches(low, high) && reaching < near.len() {
+        if light.reaches((low + high) * 0.5, low.distance(high) * 0.5) && reaching < near.len() {
             near[reaching] = index as u32;
             reaching += 1;
         }
@@ -271,18 +285,33 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
         let mut light = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
         let mut k = 0;
         while k < reaching {
-            light = light + lights[near[k] as usize].at(simd, p, n);
+            light = light + lights[near[k] as usize].at(simd, rasters, p, n);
             k += 1;
         }
+        let mut color_here = albedo.mulv(light);
         let haze = &world.haze;
         let way = p.sub1(view.camera().eye);
         let distance = way.dot(way).sqrt();
+        let way = way * Lane(one / distance);
+        if glossy {
+            let cosine = way.dot(n);
+            let mirrored = way - n * Lane(cosine + cosine);
+            let (horizon, sun) = haze.at(simd, mirrored);
+            let height = one - math::exp2(simd, mirrored.y.max(F::<S>::splat(simd, 0.0)) * -RISE);
+            let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
+            // Schlick's approximation.
+            let rest = one - cosine.abs().min(one);
+            let grazing = rest * rest;
+            let grazing = grazing * grazing * rest;
+            let gloss = load::<S, F<S>>(simd, &glosses, i) * (grazing * 0.95 + 0.05);
+            color_here = color_here + (sky - color_here) * Lane(gloss);
+        }
+        if world.film {
+            color_here = V3 { x: film(simd, color_here.x), y: film(simd, color_here.y), z: film(simd, color_here.z) };
+        }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
-        let glow = (way.dot1(haze.glow.0) / distance).max(F::<S>::splat(simd, 0.0));
-        let glow = glow * glow;
-        let glow = glow * glow;
-        let before = V3::splat(simd, haze.color) + V3::splat(simd, haze.glow.1) * Lane(glow * glow);
-        let seen = before + (albedo.mulv(light) - before) * Lane(clear);
+        let before = haze.at(simd, way).0;
+        let seen = before + (color_here - before) * Lane(clear);
         let seen = seen * Lane(load(simd, head(&queue.weight), i));
         store(seen.x, &mut color[0], i);
         store(seen.y, &mut color[1], i);
@@ -347,7 +376,6 @@ fn paint<S: Simd>(
     color: &mut Block3,
 ) {
     let mut footprint = [0.0; BLOCK];
-    let (_, pixels) = view.screen();
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (load3(simd, point, i), load3(simd, normal, i));
@@ -355,7 +383,7 @@ fn paint<S: Simd>(
         let cosine = way.dot(n).abs() / way.dot(way).sqrt();
         // Between the pixel's width and its length.
         let stretch = F::<S>::splat(simd, 1.0) / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
-        store(load::<S, F<S>>(simd, depth, i) * stretch * (1.0 / pixels), &mut footprint, i);
+        store(load::<S, F<S>>(simd, depth, i) * stretch * view.pixel(), &mut footprint, i);
         i += 1;
     }
     let mut painted = [[0.0; BLOCK]; 3];

@@ -4,13 +4,12 @@
 //! D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", 1987.
 
 use super::Body;
-use super::mesh::Mesh;
 use super::project::Projection;
-use crate::lanes::{F, M};
+use crate::lanes::{Bits, F, M};
+use crate::tile::Tile;
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
-use glam::Affine3A;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// How a lookup keeps a lit surface from shadowing itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,77 +22,65 @@ pub struct Bias {
     pub normal: f32,
 }
 
+impl Bias {
+    /// That share of it.
+    pub fn times(self, share: f32) -> Bias {
+        Bias { constant: self.constant * share, slope: self.slope * share, normal: self.normal * share }
+    }
+}
+
 /// What a light is to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Parallel projections from the finest to the coarsest, or the six faces of a cube; of one square size.
+    /// Parallel projections from the finest to the coarsest, or the six faces of a cube; of one size,
+    /// square, a multiple of 64 pixels.
     pub views: Vec<Projection>,
     /// Against self-shadowing.
     pub bias: Bias,
     /// Are the faces that look away from the light drawn, instead of those that look at it?
     pub back_faces: bool,
+    /// Are shadows traced, without a map? The views then only sort triangles, and the bias is a part of what it says.
+    pub traced: bool,
     /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike.
     pub smooth: bool,
 }
 
-/// Texels around a map that repeat its outermost.
-pub const PAD: usize = 2;
 /// Nearness of nothing: any light passes.
 pub const NOTHING: f32 = f32::MIN;
+/// Texels after the last, which lookups of whole vectors read and leave out.
+const SLACK: usize = 4;
 
 /// The depths of a plan's views.
 #[derive(Default)]
 pub struct DepthMap {
-    /// Texels along an edge.
+    /// Texels along an edge: a multiple of a tile's size.
     pub size: usize,
-    /// Nearness, view by view, row by row, each with its border.
+    /// Nearness, view by view, row by row.
     texels: Vec<f32>,
 }
 
 impl DepthMap {
-    /// Makes room for that many views; what was there may stay.
+    /// Makes room for that many views; what was there may stay. Panics where `size` is no multiple of a tile's.
     pub fn resize(&mut self, size: usize, views: usize) {
+        assert!(size.is_multiple_of(Tile::SIZE));
         self.size = size;
-        self.texels.resize(views * (size + 2 * PAD) * (size + 2 * PAD), 0.0);
+        self.texels.resize(views * size * size + SLACK, 0.0);
     }
 
-    /// Texels from row to row.
-    pub fn stride(&self) -> usize {
-        self.size + 2 * PAD
-    }
-
-    /// The views cut into bands of `rows` rows: the view's index, the band's, and a texel after the other with the border.
-    pub fn bands(&mut self, rows: usize) -> impl Iterator<Item = (usize, usize, &mut [f32])> {
-        let stride = self.stride();
-        let inner = PAD * stride..(PAD + self.size) * stride;
-        self.texels.chunks_mut((stride * stride).max(1)).enumerate().flat_map(move |(view, texels)| {
-            let bands = texels[inner.clone()].chunks_mut(rows * stride).enumerate();
-            bands.map(move |(band, texels)| (view, band, texels))
-        })
-    }
-
-    /// Repeats the outermost texels around the maps.
-    pub fn close(&mut self) {
-        let (stride, size) = (self.stride(), self.size);
-        for texels in self.texels.chunks_mut((stride * stride).max(1)) {
-            for row in texels[PAD * stride..(PAD + size) * stride].chunks_mut(stride) {
-                let (first, last) = (row[PAD], row[PAD + size - 1]);
-                row[..PAD].fill(first);
-                row[PAD + size..].fill(last);
-            }
-            for edge in 0..PAD {
-                texels.copy_within(PAD * stride..(PAD + 1) * stride, edge * stride);
-                texels.copy_within((PAD + size - 1) * stride..(PAD + size) * stride, (PAD + size + edge) * stride);
-            }
-        }
+    /// All views cut into rows of tiles, one view after the other.
+    pub fn bands(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        let end = self.texels.len() - SLACK;
+        self.texels[..end].chunks_exact_mut((self.size * Tile::SIZE).max(1))
     }
 
     /// Nearness at a texel of a view.
     pub fn at(&self, view: usize, x: usize, y: usize) -> f32 {
-        self.texels[(view * self.stride() + y + PAD) * self.stride() + x + PAD]
+        self.texels[(view * self.size + y) * self.size + x]
     }
 
-    /// Share of the light, 0 to 1, at texel coordinates (`x`, `y`) of each lane's `view`, for points of that nearness.
+    /// Share of the light, 0 to 1, at texel coordinates (`x`, `y`) of each lane's `view`, for points of that nearness: of
+    /// the 3x3 texels around, those that hide nothing. Beyond the border, those along it.
+    ///
     /// Lanes that are not `wanted` get what they get.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // Where to look, and how.
@@ -107,108 +94,84 @@ impl DepthMap {
         smooth: bool,
         wanted: M<S>,
     ) -> F<S> {
-        let stride = self.stride();
-        let last = self.size as u32 as f32 - 1.0;
-        let shift = if smooth { 0.5 } else { 0.0 };
-        let (x, y) = ((x - shift).max(-shift).min(last), (y - shift).max(-shift).min(last));
+        let (size, lanes) = (self.size, F::<S>::LEN);
+        // Smooth, the 3x3 texels are a window that meets 4x4.
+        let shift = if smooth { 1.5 } else { 1.0 };
+        let end = (size - SLACK) as u32 as f32;
+        let zero = F::<S>::splat(simd, 0.0);
+        let (x, y) = ((x - shift).max(zero).min(end), (y - shift).max(zero).min(end));
         let (column, row) = (x.floor(), y.floor());
-        // The first of the texels around: one to the left and above.
-        let line = view * stride as u32 as f32 + row + (PAD as f32 - 1.0);
-        let first = line.to_int::<S::i32s>() * stride as i32 + column.to_int::<S::i32s>() + (PAD as i32 - 1);
-        let beyond = self.texels.len() - 3 * stride - 4;
+        let line = (view * size as u32 as f32 + row).to_int::<S::i32s>();
+        let first = line * size as i32 + column.to_int::<S::i32s>();
+        // What is not a number may be anywhere.
+        let beyond = self.texels.len() - (3 * size + SLACK);
         let first = first.bitcast::<S::u32s>().min(S::u32s::splat(simd, beyond as u32));
         let (mut places, mut nears, mut sums) = ([0u32; 16], [0f32; 16], [0f32; 16]);
         let (mut fx, mut fy) = ([0f32; 16], [0f32; 16]);
-        let lanes = F::<S>::LEN;
         first.store_slice(&mut places[..lanes]);
         near.store_slice(&mut nears[..lanes]);
-        if smooth {
-            (x - column).store_slice(&mut fx[..lanes]);
-            (y - row).store_slice(&mut fy[..lanes]);
-        }
-        let mut todo = wanted.to_bitmask();
-        while todo != 0 {
-            let lane = todo.trailing_zeros() as usize & 15;
-            todo &= todo - 1;
+        (x - column).store_slice(&mut fx[..lanes]);
+        (y - row).store_slice(&mut fy[..lanes]);
+        for lane in Bits(wanted.to_bitmask()) {
+            let lane = lane & 15;
             let near = f32x4::splat(simd, nears[lane]);
-            let texels = &self.texels[places[lane] as usize..][..3 * stride + 4];
+            let texels = &self.texels[places[lane] as usize..][..3 * size + SLACK];
             sums[lane] = if smooth {
-                let (fx, fy) = (fx[lane], fy[lane]);
-                let nothing = f32x4::splat(simd, 0.0);
-                let weight = f32x4::from_slice(simd, &[1.0 - fx, 1.0, 1.0, fx]);
-                let a = f32x4::from_slice(simd, &texels[..4]).simd_le(near).select(weight, nothing);
-                let b = f32x4::from_slice(simd, &texels[stride..][..4]).simd_le(near).select(weight, nothing);
-                let c = f32x4::from_slice(simd, &texels[2 * stride..][..4]).simd_le(near).select(weight, nothing);
-                let d = f32x4::from_slice(simd, &texels[3 * stride..][..4]).simd_le(near).select(weight, nothing);
-                let mut sum = [0.0; 4];
-                (a * (1.0 - fy) + b + c + d * fy).store_slice(&mut sum);
-                (sum[0] + sum[1]) + (sum[2] + sum[3])
+                let weight = f32x4::from_slice(simd, &[1.0 - fx[lane], 1.0, 1.0, fx[lane]]);
+                let mut sum = f32x4::splat(simd, 0.0);
+                let mut k = 0;
+                while k < 4 {
+                    let row = f32x4::from_slice(simd, &texels[k * size..][..4]);
+                    let share = [1.0 - fy[lane], 1.0, 1.0, fy[lane]][k];
+                    sum += row.simd_le(near).select(weight * share, f32x4::splat(simd, 0.0));
+                    k += 1;
+                }
+                let mut four = [0.0; 4];
+                sum.store_slice(&mut four);
+                (four[0] + four[1]) + (four[2] + four[3])
             } else {
                 let a = f32x4::from_slice(simd, &texels[..4]).simd_le(near).to_bitmask();
-                let b = f32x4::from_slice(simd, &texels[stride..][..4]).simd_le(near).to_bitmask();
-                let c = f32x4::from_slice(simd, &texels[2 * stride..][..4]).simd_le(near).to_bitmask();
+                let b = f32x4::from_slice(simd, &texels[size..][..4]).simd_le(near).to_bitmask();
+                let c = f32x4::from_slice(simd, &texels[2 * size..][..4]).simd_le(near).to_bitmask();
                 ((a & 7) | (b & 7) << 3 | (c & 7) << 6).count_ones() as f32
             };
         }
-        let sum = F::<S>::from_slice(simd, &sums[..lanes]);
-        sum * (1.0 / 9.0)
+        F::<S>::from_slice(simd, &sums[..lanes]) * (1.0 / 9.0)
     }
 }
 
 /// What a depth map shows: maps of equal keys are equal.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub struct Key {
     /// The light's place in the world's list: each place keeps one map.
-    slot: usize,
+    pub slot: usize,
     /// What it sees.
     pub plan: Plan,
-    /// What stands there. Meshes are held, so that none can come to lie where another was.
-    casters: Vec<(Arc<Mesh>, Affine3A)>,
-}
-
-impl Key {
-    /// Of the light in that place of the world's list.
-    pub fn new(slot: usize, plan: &Plan, bodies: &[Body]) -> Key {
-        let casters = bodies.iter().filter(|body| body.casts_shadow);
-        Key { slot, plan: plan.clone(), casters: casters.map(|body| (body.mesh.clone(), body.place)).collect() }
-    }
-
-    fn equals(&self, other: &Key) -> bool {
-        let pairs = || self.casters.iter().zip(&other.casters);
-        self.plan == other.plan
-            && self.casters.len() == other.casters.len()
-            && pairs().all(|(a, b)| Arc::ptr_eq(&a.0, &b.0) && a.1 == b.1)
-    }
-}
-
-/// A map from an earlier frame.
-pub enum Kept {
-    /// It shows what is wanted.
-    Same(Arc<DepthMap>),
-    /// It does not: memory to draw the map of that key into.
-    Other(DepthMap, Key),
+    /// What stands there. Bodies hold their meshes, so that none can come to lie where another was.
+    pub casters: Vec<Body>,
 }
 
 /// The latest map of each light. A map that is the same again is not drawn again: the frame is, either way.
 static MAPS: Mutex<Vec<(Key, Arc<DepthMap>)>> = Mutex::new(Vec::new());
 
-/// What there is of an earlier frame for a light.
-pub fn recall(key: Key) -> Kept {
-    let mut maps = MAPS.lock().unwrap_or_else(PoisonError::into_inner);
-    let Some(at) = maps.iter().position(|(kept, _)| kept.slot == key.slot) else {
-        return Kept::Other(DepthMap::default(), key);
-    };
-    if maps[at].0.equals(&key) {
-        return Kept::Same(maps[at].1.clone());
+fn maps() -> MutexGuard<'static, Vec<(Key, Arc<DepthMap>)>> {
+    MAPS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The map of that key from an earlier frame; or else memory to draw it into.
+pub fn recall(key: &Key) -> Result<Arc<DepthMap>, DepthMap> {
+    let mut maps = maps();
+    let Some(at) = maps.iter().position(|(kept, _)| kept.slot == key.slot) else { return Err(DepthMap::default()) };
+    if maps[at].0 == *key {
+        return Ok(maps[at].1.clone());
     }
     // Another frame may still be looking at it.
-    let (_, map) = maps.swap_remove(at);
-    Kept::Other(Arc::try_unwrap(map).unwrap_or_default(), key)
+    Err(Arc::try_unwrap(maps.swap_remove(at).1).unwrap_or_default())
 }
 
 /// Keeps a map for later frames.
 pub fn keep(key: Key, map: DepthMap) -> Arc<DepthMap> {
     let map = Arc::new(map);
-    MAPS.lock().unwrap_or_else(PoisonError::into_inner).push((key, map.clone()));
+    maps().push((key, map.clone()));
     map
 }

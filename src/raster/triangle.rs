@@ -1,7 +1,7 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
 use super::bins::{MOST, PLAIN};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Paint};
 use super::project::Projection;
 use glam::{Affine3A, Vec3, Vec4};
 
@@ -43,8 +43,8 @@ pub struct Triangle {
 pub struct Surface {
     /// Components of the normal in the world, of any length.
     pub normal: [Plane; 3],
-    /// Linear.
-    pub albedo: Vec3,
+    /// What it is painted with.
+    pub paint: Paint,
 }
 
 /// One body in one raster.
@@ -55,6 +55,9 @@ pub struct Piece {
     /// Their surfaces; none in depth maps.
     pub surfaces: Vec<Surface>,
 }
+
+/// What depth maps are painted with.
+const NO_PAINT: Paint = Paint { albedo: Vec3::ZERO, texture: None, gloss: 0.0 };
 
 /// A corner before it is snapped.
 #[derive(Clone, Copy)]
@@ -78,16 +81,16 @@ struct Snapped {
 
 /// How bodies become pieces.
 #[derive(Clone, Copy)]
-pub struct Setup<'a> {
+pub struct Setup {
     /// The raster.
-    pub projection: &'a Projection,
+    pub projection: Projection,
     /// Are the faces that look away drawn, instead of those that look here?
     pub back_faces: bool,
     /// Will they be shaded?
     pub shaded: bool,
 }
 
-impl Setup<'_> {
+impl Setup {
     /// The triangles of a body's faces that look towards the eye, and may lie in the picture.
     pub fn piece(&self, mesh: &Mesh, place: &Affine3A) -> Piece {
         let matrix = self.projection.of_body(place);
@@ -112,7 +115,7 @@ impl Setup<'_> {
                 continue;
             }
             let mut normals = [Vec3::ZERO; 3];
-            let mut paint = (Vec3::ZERO, None);
+            let mut paint = NO_PAINT;
             if self.shaded {
                 normals = if mesh.normals.is_empty() {
                     let [a, b, c] = index.map(|i| mesh.points[i]);
@@ -121,8 +124,7 @@ impl Setup<'_> {
                     index.map(|i| mesh.normals[i])
                 };
                 normals = normals.map(|n| (place.matrix3 * n).normalize_or_zero());
-                let of = &mesh.paints[face.paint as usize];
-                paint = (of.albedo, of.texture);
+                paint = mesh.paints[face.paint as usize];
             }
             if !clipped {
                 self.push(&mut piece, [a.2, b.2, c.2], normals, paint);
@@ -196,49 +198,65 @@ impl Setup<'_> {
     }
 
     /// Adds a triangle that has an area.
-    fn push(&self, piece: &mut Piece, corners: [Snapped; 3], normals: [Vec3; 3], paint: (Vec3, Option<u8>)) {
+    #[inline(never)]
+    fn push(&self, piece: &mut Piece, corners: [Snapped; 3], normals: [Vec3; 3], paint: Paint) {
         // Clockwise on the screen, where y points down, is positive: then edges are so inside.
         let order = if self.back_faces { [0, 1, 2] } else { [0, 2, 1] };
-        let [a, b, c] = order.map(|i| corners[i]);
-        let edge = |a: Snapped, b: Snapped| {
+        let corners = order.map(|i: usize| corners[i]);
+        let first = corners[0];
+        let mut edges = [(0, 0, 0); 3];
+        let [width, height] = self.projection.size.map(|n| n as i32 - 1);
+        // First and last column and row, turned around while they are sought.
+        let mut bound = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
+        let mut range = [f32::INFINITY, f32::NEG_INFINITY];
+        for (k, a) in corners.into_iter().enumerate() {
+            let b = corners[(k + 1) % 3];
             let (ex, ey) = (a.y - b.y, b.x - a.x);
             // The top-left rule: a sample on an edge belongs to the triangle on its right or below it.
             let own = ex > 0 || (ex == 0 && ey > 0);
-            (ex, ey, -(ex as i64 * a.x as i64 + ey as i64 * a.y as i64) - !own as i64)
-        };
-        // A sample may lie anywhere in its pixel.
-        let low = |v: [i32; 3]| v[0].min(v[1]).min(v[2]).div_euclid(SUB);
-        let high = |v: [i32; 3]| v[0].max(v[1]).max(v[2]).div_euclid(SUB);
-        let (xs, ys) = ([a.x, b.x, c.x], [a.y, b.y, c.y]);
-        let [width, height] = self.projection.size.map(|n| n as i32 - 1);
-        let bound = [low(xs).max(0), high(xs).min(width), low(ys).max(0), high(ys).min(height)];
+            edges[k] = (ex, ey, -(ex as i64 * a.x as i64 + ey as i64 * a.y as i64) - !own as i64);
+            // A sample may lie anywhere in its pixel.
+            let (x, y) = (a.x >> SUB.ilog2(), a.y >> SUB.ilog2());
+            bound = [bound[0].min(x), bound[1].max(x), bound[2].min(y), bound[3].max(y)];
+            range = [range[0].min(a.nearness), range[1].max(a.nearness)];
+        }
+        bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
         // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
         if bound[0] > bound[1] || bound[2] > bound[3] || piece.triangles.len() == MOST {
             return;
         }
-        // In f64, as slivers cancel all digits of f32.
-        let scale = 1.0 / SUB as f64;
-        let from = |p: Snapped| ((p.x - a.x) as f64 * scale, (p.y - a.y) as f64 * scale);
-        let ((bx, by), (cx, cy)) = (from(b), from(c));
-        let inverse = 1.0 / (bx * cy - cx * by);
-        let plane = |v: [f32; 3]| {
-            let (db, dc) = ((v[1] - v[0]) as f64, (v[2] - v[0]) as f64);
-            let by = [(db * cy - dc * by) * inverse, (dc * bx - db * cx) * inverse];
-            Plane { at: v[0], by: by.map(|slope| slope as f32) }
-        };
-        let near = order.map(|i| corners[i].nearness);
-        piece.triangles.push(Triangle {
-            edges: [edge(a, b), edge(b, c), edge(c, a)],
-            bound,
-            anchor: [a.x as f32 / SUB as f32, a.y as f32 / SUB as f32],
-            nearness: plane(near),
-            texture: paint.1.map_or(PLAIN, u32::from),
-            range: [near[0].min(near[1]).min(near[2]), near[0].max(near[1]).max(near[2])],
-        });
-        if self.shaded {
-            let normal = [0, 1, 2].map(|axis| plane(order.map(|i| normals[i][axis] * corners[i].inverse)));
-            piece.surfaces.push(Surface { normal, albedo: paint.0 });
+        let mut planes = [Plane::default(); 4];
+        for (k, plane) in planes.iter_mut().enumerate().take(if self.shaded { 4 } else { 1 }) {
+            let mut values = corners.map(|corner| corner.nearness);
+            if k > 0 {
+                for (i, value) in values.iter_mut().enumerate() {
+                    *value = normals[order[i]][k - 1] * corners[i].inverse;
+                }
+            }
+            *plane = Plane::through(&corners, values);
         }
+        let [nearness, x, y, z] = planes;
+        let anchor = [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32];
+        let texture = paint.texture.map_or(PLAIN, u32::from);
+        piece.triangles.push(Triangle { edges, bound, anchor, nearness, texture, range });
+        if self.shaded {
+            piece.surfaces.push(Surface { normal: [x, y, z], paint });
+        }
+    }
+}
+
+impl Plane {
+    /// Through values at the corners, anchored at the first.
+    fn through(corners: &[Snapped; 3], values: [f32; 3]) -> Plane {
+        // In f64, as slivers cancel all digits of f32.
+        let [(bx, by), (cx, cy)] = [1, 2].map(|i| {
+            let (x, y) = (corners[i].x - corners[0].x, corners[i].y - corners[0].y);
+            (x as f64 / SUB as f64, y as f64 / SUB as f64)
+        });
+        let inverse = 1.0 / (bx * cy - cx * by);
+        let (b, c) = ((values[1] - values[0]) as f64, (values[2] - values[0]) as f64);
+        let by = [(b * cy - c * by) * inverse, (c * bx - b * cx) * inverse];
+        Plane { at: values[0], by: by.map(|slope| slope as f32) }
     }
 }
 

@@ -1,5 +1,7 @@
 //! One file a scene; only scenes know more than one renderer.
 
+pub mod day;
+pub mod intro;
 pub mod lumen;
 pub mod models;
 #[cfg(feature = "bench-scenes")]
@@ -7,9 +9,11 @@ pub mod shadow;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
+pub mod sky;
+#[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
 use crate::raster::{self, Drawn};
@@ -49,16 +53,23 @@ pub struct Shot {
     pub height: usize,
     /// Speed against error.
     pub quality: Quality,
+    /// Who looks: every scene passes its camera through [`Shot::camera`].
+    pub eye: Eye,
 }
 
 impl Shot {
+    /// The scene's camera, moved to the eye that looks.
+    pub fn camera(&self, camera: Camera) -> Camera {
+        camera.at(self.eye)
+    }
+
     /// A picture that is all ray tracing.
     fn traced(&self, world: World, camera: Camera, transfer: Transfer) -> Picture {
-        Picture { layers: vec![Box::new(Traced::new(world, camera, self.width, self.height, self.quality))], transfer }
+        let traced = Traced::new(world, self.camera(camera), self.width, self.height, self.quality);
+        Picture { layers: vec![Box::new(traced)], transfer }
     }
 
     /// A picture that is all triangles.
-    #[cfg(feature = "bench-scenes")]
     fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
         let view = View::new(camera, self.width, self.height);
         Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
@@ -67,7 +78,9 @@ impl Shot {
 
 /// Every scene, the intro's own first.
 pub const ALL: &[Scene] = &[
+    intro::INTRO,
     lumen::LUMEN,
+    day::DAY,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]
@@ -78,6 +91,8 @@ pub const ALL: &[Scene] = &[
     shadow::SHADOW,
     #[cfg(feature = "bench-scenes")]
     shadow::SHADOW_CUBE,
+    #[cfg(feature = "bench-scenes")]
+    sky::SKY,
 ];
 
 /// The intro's own show: what plays when no scene is named.

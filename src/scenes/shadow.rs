@@ -3,6 +3,7 @@
 use super::{Scene, Shot, shadow_set};
 use crate::camera::Camera;
 use crate::color::Transfer;
+use crate::raster::fit;
 use crate::raster::light::{Haze, Light, Source};
 use crate::raster::project::Projection;
 use crate::raster::shadow::{Bias, Plan};
@@ -37,6 +38,7 @@ fn sun(shot: &Shot) -> Picture {
         // In texels, of which the specification says metres.
         bias: Bias { constant: 0.03, slope: 0.15 * SIZES[0] as f32 / WIDTH, normal: 0.0 },
         back_faces: false,
+        traced: false,
         smooth: false,
     };
     let light = Light { source: Source::Sun(towards), color: vec3(1.05, 0.92, 0.74), shadow: Some(plan) };
@@ -46,9 +48,10 @@ fn sun(shot: &Shot) -> Picture {
 fn torch(shot: &Shot) -> Picture {
     let position = shadow_set::torch(shot.time).as_vec3();
     let plan = Plan {
-        views: (0..6).map(|face| Projection::face(face, position, SIZES[1])).collect(),
+        views: fit::cube(position, SIZES[1]),
         bias: Bias { constant: 0.03, slope: 2.12, normal: 0.0 },
         back_faces: false,
+        traced: false,
         smooth: false,
     };
     let source = Source::Lamp { position, falloff: Vec2::new(0.0, 0.06), reach: f32::INFINITY };
@@ -66,13 +69,15 @@ fn picture(shot: &Shot, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],
         haze: Haze { color: fog, density: 0.012, glow: (Vec3::Y, Vec3::ZERO) },
+        zenith: fog,
+        film: false,
         background: Some(fog),
     };
-    shot.drawn(world, camera, Transfer::Gamma22)
+    shot.drawn(world, shot.camera(camera), Transfer::Gamma22)
 }
 
 /// The set's bodies, as many at a time as one thread draws.
 fn bodies() -> Vec<Body> {
-    let body = |mesh| Body { mesh: Arc::new(mesh), place: Affine3A::IDENTITY, casts_shadow: true };
+    let body = |mesh| Body::new(Arc::new(mesh), Affine3A::IDENTITY);
     shadow_set::meshes().into_iter().map(body).collect()
 }

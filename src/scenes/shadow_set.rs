@@ -4,7 +4,7 @@
 use crate::hash::rnd;
 use crate::noise::{fbm, noise};
 use crate::raster::form::Body;
-use crate::raster::mesh::{Mesh, Paint};
+use crate::raster::mesh::{Face, Mesh, Paint};
 use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
 use std::f64::consts::TAU;
 
@@ -64,12 +64,12 @@ fn ground(first: i32) -> Mesh {
             mesh.normals.push(dvec3(slope(STEP, 0.0), 2.0 * STEP, slope(0.0, STEP)).normalize().as_vec3());
         }
     }
-    mesh.loft(0, 49, &|_, _| 0);
+    mesh.loft(0, 49, 0, &[]);
     mesh
 }
 
 fn paint(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None }
+    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// Number `k` of object `i`.
@@ -88,10 +88,24 @@ fn turn(i: u32) -> Mat3 {
     Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
 }
 
+/// A box whose sides are halved as in the other writing, which [`Mesh::block`] does not do.
 fn add_box(mesh: &mut Mesh, i: u32) {
     let half = vec3(0.3 + 0.6 * random(i, 2), 0.3 + 1.1 * random(i, 3), 0.3 + 0.6 * random(i, 4));
     let middle = place(i) + Vec3::Y * (half.y - 0.2);
-    mesh.block(&(turn(i) * Mat3::from_diagonal(half)), middle, mesh.paints.len() as u16);
+    let (first, kind, turn) = (mesh.points.len() as u16, mesh.paints.len() as u16, turn(i));
+    for k in 0..8 {
+        let side = |bit: u32| if k & bit == 0 { -1.0 } else { 1.0 };
+        mesh.points.push(middle + turn * (half * vec3(side(1), side(2), side(4))));
+    }
+    for k in 0..6 {
+        // Both directions across the axis, in the order that turns the side outwards.
+        let (axis, up) = (k / 2, k & 1);
+        let (u, v) = (1 << ((axis + 2 - up) % 3), 1 << ((axis + 1 + up) % 3));
+        let w = first + (up << axis);
+        for corners in [[w, w + u, w + u + v], [w, w + u + v, w + v]] {
+            mesh.faces.push(Face { corners, paint: kind });
+        }
+    }
     mesh.paints.push(paint(0.42 + 0.2 * random(i, 6), 0.30, 0.22));
 }
 
@@ -108,12 +122,9 @@ const PINE: [(f32, Body); 4] = [
 ];
 
 fn add_pine(mesh: &mut Mesh, i: u32) {
-    let first = mesh.faces.len();
+    let first = mesh.paints.len() as u16;
     for (scale, body) in &PINE {
-        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i));
-    }
-    for face in &mut mesh.faces[first..] {
-        face.paint += mesh.paints.len() as u16;
+        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i), first);
     }
     mesh.paints.push(paint(0.25, 0.16, 0.10));
     mesh.paints.push(paint(0.10, 0.26 + 0.12 * random(i, 6), 0.13));

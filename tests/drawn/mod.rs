@@ -83,17 +83,19 @@ pub fn dark(bodies: Vec<Body>) -> World {
         lights: Vec::new(),
         ambient: [Vec3::ZERO; 2],
         haze: Haze { color: Vec3::ZERO, density: 0.0, glow: (Vec3::Y, Vec3::ZERO) },
+        zenith: Vec3::ZERO,
+        film: false,
         background: None,
     }
 }
 
-pub fn body(mesh: Mesh, casts_shadow: bool) -> Body {
-    Body { mesh: Arc::new(mesh), place: Affine3A::IDENTITY, casts_shadow }
+pub fn body(mesh: Mesh) -> Body {
+    Body::new(Arc::new(mesh), Affine3A::IDENTITY)
 }
 
 /// White.
 pub fn blank() -> Mesh {
-    Mesh::painted(&[Paint { albedo: Vec3::ONE, texture: None }])
+    Mesh::painted(&[Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }])
 }
 
 /// Flat triangles.
@@ -123,7 +125,7 @@ pub fn ground(half: f32, height: f32, cells: usize) -> Mesh {
             mesh.points.push(Vec3::new(at(i), height, -at(j)));
         }
     }
-    mesh.loft(0, cells + 1, &|_, _| 0);
+    mesh.loft(0, cells + 1, 0, &[]);
     mesh
 }
 

@@ -1,9 +1,9 @@
 //! The land: a hill with a chapel in a valley with a lake, woods, and mountains all around.
 
 use super::{PAINTS, paint};
-use crate::noise::{fbm, noise, turbulence};
+use crate::noise::{self, noise, turbulence};
 use crate::raster::mesh::Mesh;
-use glam::{Vec3, vec3};
+use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
 
 /// Height of the lake, metres.
@@ -12,7 +12,13 @@ pub const WATER: f32 = -9.5;
 /// How far the land reaches, metres.
 pub const EDGE: f32 = 6078.0;
 
+#[inline(never)]
+fn fbm(p: Vec3, octaves: u32) -> f32 {
+    noise::fbm(p, octaves)
+}
+
 /// Height of the ground at a place, metres.
+#[inline(never)]
 pub fn height(x: f32, z: f32) -> f32 {
     let p = vec3(x, 0.3, z);
     let r2 = x * x + z * z;
@@ -31,6 +37,7 @@ pub fn height(x: f32, z: f32) -> f32 {
 }
 
 /// Which way is up from the ground at a place, over `reach` metres.
+#[inline(never)]
 pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
     let slope = |dx: f32, dz: f32| height(x - dx, z - dz) - height(x + dx, z + dz);
     vec3(slope(reach, 0.0), 2.0 * reach, slope(0.0, reach)).normalize()
@@ -40,7 +47,7 @@ pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
 pub fn wooded(x: f32, z: f32) -> f32 {
     let p = vec3(x, 9.1, z);
     // None around the chapel, more the farther away.
-    fbm(p * 0.0045, 3) - 0.03 - 30.0 / (30.0 + p.length())
+    fbm(p * 0.006, 3) - 0.03 - 12.0 / (12.0 + p.length())
 }
 
 /// Rings of points around the middle.
@@ -77,7 +84,8 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
             20..DETAILED => 2,
             _ => 1,
         };
-        let r = (ring as u32 as f32 * 0.25).powi(3);
+        let root = ring as u32 as f32 * 0.25;
+        let r = root * root * root;
         // Rows go outwards, so columns go clockwise seen from above, from east by south.
         for k in start..start + COLUMNS {
             let k = k % ROUND / step * step;
@@ -88,18 +96,13 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
         }
     }
     let kind = if from < DETAILED { paint::GRASS } else { paint::HEIGHTS };
-    mesh.loft(0, COLUMNS, &|_, _| kind);
+    mesh.loft(0, COLUMNS, kind, &[]);
     mesh
 }
 
-/// The lake: the plane of its level, as far as the land reaches.
+/// The lake, and all others: the upper side of a box as wide as the land, flat.
 pub fn lake() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    for i in 0..81u32 {
-        let (x, z) = ((i % 9) as f32 - 4.0, 4.0 - (i / 9) as f32);
-        mesh.points.push(vec3(x, 0.0, z) * (EDGE / 4.0) + WATER * Vec3::Y);
-        mesh.normals.push(Vec3::Y);
-    }
-    mesh.loft(0, 9, &|_, _| paint::WATER);
+    mesh.block(&(Mat3::IDENTITY * EDGE), Vec3::Y * (WATER - EDGE), paint::WATER);
     mesh
 }

@@ -15,41 +15,40 @@ pub mod paint {
     pub const GRASS: u16 = 0;
     /// The land farther away: meadows, woods, rock and snow by height.
     pub const HEIGHTS: u16 = 1;
-    /// Trunks and rafters.
+    /// Trunks and rafters; then two others, each with its fir and its broadleaf.
     pub const BARK: u16 = 2;
-    /// Firs; the next two are others.
-    pub const FIR: u16 = 3;
-    /// Broadleaves; the next two are others.
-    pub const LEAF: u16 = 6;
     /// Masonry.
-    pub const STONE: u16 = 9;
+    pub const STONE: u16 = 11;
     /// Tiles.
-    pub const ROOF: u16 = 10;
+    pub const ROOF: u16 = 12;
     /// The lake.
-    pub const WATER: u16 = 11;
+    pub const WATER: u16 = 13;
 }
 
 /// The paints of everything but the aeroplane.
-pub const PAINTS: [Paint; 12] = [
+pub static PAINTS: [Paint; 14] = [
     solid(MEADOW, 0),
     solid(Vec3::ONE, 1),
     solid(vec3(0.11, 0.075, 0.05), 2),
     solid(vec3(0.03, 0.065, 0.028), 3),
-    solid(vec3(0.04, 0.075, 0.025), 3),
-    solid(vec3(0.026, 0.055, 0.034), 3),
     solid(vec3(0.1, 0.135, 0.025), 3),
+    solid(vec3(0.11, 0.075, 0.05), 2),
+    solid(vec3(0.04, 0.075, 0.025), 3),
     solid(vec3(0.14, 0.125, 0.022), 3),
+    solid(vec3(0.11, 0.075, 0.05), 2),
+    solid(vec3(0.026, 0.055, 0.034), 3),
     solid(vec3(0.07, 0.12, 0.03), 3),
     solid(vec3(0.36, 0.32, 0.26), 4),
     solid(vec3(0.26, 0.1, 0.06), 5),
-    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None },
+    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None, gloss: 1.0 },
 ];
 
-const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
+/// Grass in summer.
+pub const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
 
-/// The textures that they name: grass, heights, bark, leaves, masonry, tiles. All but the second vary about 1.
-pub const TEXTURES: [Texture; 6] = [
-    clouds(vec3(0.1, 0.35, 0.5), vec3(1.9, 1.65, 1.5), 0.04, 6),
+/// The textures that they name: grass, heights, bark, needles, masonry, tiles, leaves. All but the second vary about 1.
+pub static TEXTURES: [Texture; 7] = [
+    clouds(vec3(-0.5, 0.0, 0.2), vec3(2.5, 2.0, 1.8), 0.09, 6),
     // The sine rises from -50 m to 1250 m.
     layers(
         Palette::Ramp([MEADOW, vec3(0.045, 0.075, 0.025), vec3(0.2, 0.185, 0.17), vec3(0.8, 0.83, 0.88)]),
@@ -62,10 +61,11 @@ pub const TEXTURES: [Texture; 6] = [
     clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
     clouds(vec3(0.2, 0.2, 0.25), vec3(1.8, 1.8, 1.75), 0.9, 4),
     layers(Palette::Mix(vec3(0.6, 0.6, 0.6), vec3(1.4, 1.4, 1.4)), 14.0, 5.0, 6.0, 0.0),
+    clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
 ];
 
 const fn solid(albedo: Vec3, texture: u8) -> Paint {
-    Paint { albedo, texture: Some(texture) }
+    Paint { albedo, texture: Some(texture), gloss: 0.0 }
 }
 
 const fn clouds(dark: Vec3, light: Vec3, scale: f32, octaves: u32) -> Texture {

@@ -1,11 +1,11 @@
 //! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
 
-use crate::raster::form::Body;
+use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::{Mesh, Paint};
 use glam::{Mat3, Vec3, vec3};
 
 /// Bare metal, olive drab, the canopy, yellow, white, black.
-pub const PAINTS: [Paint; 6] = [
+pub static PAINTS: [Paint; 6] = [
     plain(0.4, 0.41, 0.43),
     plain(0.07, 0.075, 0.04),
     plain(0.025, 0.035, 0.045),
@@ -15,7 +15,7 @@ pub const PAINTS: [Paint; 6] = [
 ];
 
 const fn plain(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None }
+    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// From the tail to the nose: 5 cm along, 1 cm across.
@@ -79,8 +79,7 @@ const SCOOP: Body = Body {
     rows: &[
         [-92, -18, 0, 0, 0],
         [-76, -36, 20, 14, 0],
-        [-62, -52, 24, 22, 0],
-        [-62, -54, 27, 24, 0],
+        [-62, -53, 26, 23, 0],
         [-48, -66, 32, 29, 0],
         [-32, -77, 34, 33, 0],
         [-20, -82, 33, 33, 0],
@@ -119,7 +118,14 @@ const WING: Body = Body {
 
 /// As the wing.
 const STABILISER: Body = Body {
-    rows: &[[2, -4, 0, 0, 0], [2, -4, 48, 14, 0], [36, 5, 31, 9, 0], [39, 6, 26, 5, 0], [40, 7, 0, 0, 0]],
+    rows: &[
+        [2, -4, 0, 0, 0],
+        [2, -4, 48, 14, 0],
+        [38, 5, 30, 10, 0],
+        [40, 6, 27, 7, 0],
+        [40, 6, 27, 7, 0],
+        [40, 6, 0, 0, 0],
+    ],
     sides: 10,
     half: false,
     swell: 0.0,
@@ -131,6 +137,7 @@ const FIN: Body = Body {
     rows: &[
         [5, 33, 0, 0, 0],
         [5, 33, 57, 12, 0],
+        [20, -19, 117, 9, 0],
         [20, -19, 117, 9, 0],
         [31, 15, 83, 12, 0],
         [40, 31, 67, 11, 0],
@@ -161,6 +168,15 @@ const BLADE: Body = Body {
     taper: 0.0,
 };
 
+/// A black box.
+const STICK: Body = Body {
+    rows: &[[-1, 1, 0, 1, 0x55], [-1, 0, 1, 1, 0x55], [1, 0, 1, 1, 0x55], [1, 1, 0, 1, 0]],
+    sides: 4,
+    half: false,
+    swell: SQUARE,
+    taper: 0.0,
+};
+
 /// Columns: where a body's x, y and z point to.
 const fn axes(x: Vec3, y: Vec3, z: Vec3) -> Mat3 {
     Mat3::from_cols(x, y, z)
@@ -173,43 +189,40 @@ pub fn airframe() -> Mesh {
     const WINGS: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.004_374, 0.0), vec3(0.0, 0.0, 0.0125));
     const TAIL: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.0, 0.0), vec3(0.0, 0.0, 0.0125));
     const UP: Mat3 = axes(vec3(0.004, 0.0, 0.0), vec3(0.0, 0.02, 0.0), vec3(0.0, 0.0, 0.0125));
-    const PARTS: [(&Body, Mat3, Vec3); 6] = [
+    const GUN: Mat3 = axes(vec3(0.025, 0.0, 0.0), vec3(0.0, 0.025, 0.0), vec3(0.0, 0.0, 0.2));
+    static PARTS: [(&Body, Mat3, Vec3); 10] = [
         (&FUSELAGE, ALONG, Vec3::ZERO),
         (&CANOPY, ALONG, Vec3::ZERO),
         (&SCOOP, ALONG, Vec3::ZERO),
         (&WING, WINGS, vec3(0.0, -0.52, 0.0)),
         (&STABILISER, TAIL, vec3(0.0, 0.42, 5.0)),
         (&FIN, UP, vec3(0.0, 0.0, 5.0)),
+        // The exhausts, and three guns.
+        (&STICK, axes(vec3(0.05, 0.0, 0.0), vec3(0.0, 0.04, 0.0), vec3(0.0, 0.0, 0.5)), vec3(0.42, 0.14, -1.85)),
+        (&STICK, GUN, vec3(2.0, -0.35, -1.0)),
+        (&STICK, GUN, vec3(2.2, -0.35, -1.0)),
+        (&STICK, GUN, vec3(2.4, -0.35, -1.0)),
     ];
-    let mut half = Mesh::painted(&PAINTS);
-    for (body, turn, at) in PARTS {
-        half.body(body, &turn, at);
+    let mut mesh = Mesh::painted(&PAINTS);
+    for (body, turn, at) in &PARTS {
+        mesh.body(body, turn, *at, 0);
     }
-    // The exhausts, and three guns.
-    half.block(&Mat3::from_diagonal(vec3(0.05, 0.04, 0.5)), vec3(0.42, 0.14, -1.85), 5);
-    for i in 0..3 {
-        let x = 2.0 + 0.2 * i as f32;
-        half.block(&Mat3::from_diagonal(vec3(0.025, 0.025, 0.2)), vec3(x, -0.35, -1.0), 5);
-    }
-    half.smooth();
-    let mut whole = Mesh::painted(&PAINTS);
-    whole.append(&half, &Mat3::IDENTITY, Vec3::ZERO);
-    whole.append(&half, &Mat3::from_diagonal(vec3(-1.0, 1.0, 1.0)), Vec3::ZERO);
-    whole
+    mesh.mirror();
+    mesh.smooth();
+    mesh
 }
 
 /// Where the propeller turns, around z.
 pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
 
-/// Four blades around the origin: smooth.
+/// Four blades around the origin, flat.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
         let out = vec3(x, y, 0.0);
         // A pitch of 35 degrees.
         let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
-        mesh.body(&BLADE, &axes(out.cross(wide).normalize() * 0.01, out, wide), Vec3::ZERO);
+        mesh.body(&BLADE, &axes(out.cross(wide) * 50.0, out, wide), Vec3::ZERO, 0);
     }
-    mesh.smooth();
     mesh
 }

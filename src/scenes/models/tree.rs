@@ -24,33 +24,47 @@ pub struct Tree {
 /// Stream of random numbers.
 const STREAM: u32 = 5;
 
-const BARK: i8 = (paint::BARK | paint::BARK << 4) as i8;
-const FIR: i8 = (paint::FIR | paint::FIR << 4) as i8;
-const LEAF: i8 = (paint::LEAF | paint::LEAF << 4) as i8;
+// From the bark of its kind.
+const BARK: i8 = 0;
+const FIR: i8 = 0x11;
+const LEAF: i8 = 0x22;
 
 /// Around, hundredths of the height.
 const fn round(rows: &'static [[i8; 5]], sides: u8) -> Body {
     Body { rows, sides, half: false, swell: 0.0, taper: 0.0 }
 }
 
-const FIRS: [Body; 2] = [
-    round(
-        &[
-            [-5, 0, 3, 3, BARK],
-            [14, 0, 2, 2, FIR],
-            [7, 0, 23, 23, FIR],
-            [33, 0, 10, 10, FIR],
-            [28, 0, 19, 19, FIR],
-            [52, 0, 8, 8, FIR],
-            [47, 0, 15, 15, FIR],
-            [74, 0, 4, 4, FIR],
-            [68, 0, 9, 9, FIR],
-            [104, 0, 0, 0, FIR],
-        ],
-        7,
-    ),
-    round(&[[14, 0, 0, 0, FIR], [8, 0, 22, 22, FIR], [50, 0, 8, 8, FIR], [45, 0, 14, 14, FIR], [100, 0, 0, 0, FIR]], 4),
-];
+const FIR_TREE: Body = round(
+    &[
+        [-5, 0, 3, 3, BARK],
+        [14, 0, 2, 2, FIR],
+        [7, 0, 23, 23, FIR],
+        [7, 0, 23, 23, FIR],
+        [33, 0, 10, 10, FIR],
+        [28, 0, 19, 19, FIR],
+        [28, 0, 19, 19, FIR],
+        [52, 0, 8, 8, FIR],
+        [47, 0, 15, 15, FIR],
+        [47, 0, 15, 15, FIR],
+        [74, 0, 4, 4, FIR],
+        [68, 0, 9, 9, FIR],
+        [68, 0, 9, 9, FIR],
+        [104, 0, 0, 0, FIR],
+    ],
+    7,
+);
+const FAR_FIR: Body = round(
+    &[
+        [14, 0, 0, 0, FIR],
+        [8, 0, 22, 22, FIR],
+        [8, 0, 22, 22, FIR],
+        [50, 0, 8, 8, FIR],
+        [45, 0, 14, 14, FIR],
+        [45, 0, 14, 14, FIR],
+        [100, 0, 0, 0, FIR],
+    ],
+    4,
+);
 const TRUNK: Body = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2, 2, BARK]], 5);
 /// Hundredths of its radius.
 const CROWN: Body = round(
@@ -66,44 +80,55 @@ const CROWN: Body = round(
 const FAR_CROWN: Body =
     round(&[[-127, 0, 8, 8, BARK], [-60, 0, 60, 60, LEAF], [40, 0, 80, 80, LEAF], [100, 0, 0, 0, LEAF]], 5);
 
+/// The parts of trees: hundredths of their units in the tree's height; how far up and out the middle is, in units.
+#[rustfmt::skip]
+static PARTS: [(&Body, [f32; 3]); 8] = [
+    (&FIR_TREE, [1.0, 0.0, 0.0]),
+    (&FAR_FIR, [1.0, 0.0, 0.0]),
+    (&FAR_CROWN, [0.45, 122.0, 0.0]),
+    (&TRUNK, [1.0, 0.0, 0.0]),
+    (&CROWN, [0.26, 176.0, 77.0]),
+    (&CROWN, [0.26, 210.0, 77.0]),
+    (&CROWN, [0.26, 244.0, 77.0]),
+    (&CROWN, [0.26, 280.0, 15.0]),
+];
+
 /// Adds a tree; `far` is one of 20 triangles or so.
 pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
     let first = mesh.points.len();
-    let new = mesh.faces.len();
-    let turn = |size: f32| Mat3::from_rotation_y(rnd(STREAM, tree.seed, 6) * TAU) * (0.01 * size);
-    if tree.fir {
-        mesh.body(&FIRS[far as usize], &turn(tree.height), tree.foot);
-    } else if far {
-        mesh.body(&FAR_CROWN, &turn(tree.height * 0.45), tree.foot + Vec3::Y * (0.55 * tree.height));
-    } else {
-        mesh.body(&TRUNK, &turn(tree.height), tree.foot);
-        for i in 0..3 {
-            let (sin, cos) = (TAU * (i as f32 / 3.0 + rnd(STREAM, tree.seed, i))).sin_cos();
-            let middle = vec3(0.17 * sin, [0.5, 0.58, 0.7][i as usize], 0.17 * cos) * tree.height;
-            mesh.body(&CROWN, &turn(tree.height * 0.3), tree.foot + middle);
-        }
+    let parts = match (tree.fir, far) {
+        (true, false) => 0..1,
+        (true, true) => 1..2,
+        (false, true) => 2..3,
+        (false, false) => 3..8,
+    };
+    for i in parts {
+        let (body, [size, up, out]) = PARTS[i];
+        let angle = rnd(STREAM, tree.seed, i as u32) + TAU / 3.0 * i as u32 as f32;
+        let turn = Mat3::from_rotation_y(angle) * (0.01 * size * tree.height);
+        mesh.body(body, &turn, tree.foot + turn * vec3(0.0, up, out), paint::BARK + tree.seed as u16 % 3 * 3);
     }
-    mesh.weather(first, 0.07 * tree.height, 4.0 / tree.height);
-    for face in &mut mesh.faces[new..] {
-        if face.paint != paint::BARK {
-            face.paint += (tree.seed % 3) as u16;
-        }
-    }
+    mesh.weather(first, 0.08 * tree.height, 4.0 / tree.height);
+}
+
+/// In which direction tree `seed` stands, turns from east by south.
+fn around(seed: u32) -> f32 {
+    rnd(STREAM, seed, 0)
 }
 
 /// The trees around the middle: in groves, and a few alone.
 pub fn trees() -> Vec<Tree> {
-    const TRIED: u32 = 6000;
+    const TRIED: u32 = 4500;
     let mut trees = Vec::new();
     for seed in 0..TRIED {
-        let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|k| rnd(STREAM, seed, k));
+        let [b, c, d, e] = [1, 2, 3, 4].map(|k| rnd(STREAM, seed, k));
         // Denser near the middle, where they count.
-        let (sin, cos) = (TAU * a).sin_cos();
-        let r = 24.0 + 800.0 * b * b.sqrt();
+        let (sin, cos) = (TAU * around(seed)).sin_cos();
+        let r = 24.0 + 700.0 * b * b.sqrt();
         let (x, z) = (r * cos, r * sin);
         let y = height(x, z);
         let wanted = wooded(x, z) > 0.1 * c || d < 0.008;
-        if wanted && y > land::WATER + 1.0 && land::normal(x, z, 2.0).y > 0.85 {
+        if wanted && y > land::WATER + 1.0 {
             // Firs on the heights.
             let fir = e < 0.45 + 0.02 * y;
             trees.push(Tree {
@@ -124,8 +149,8 @@ pub fn woods(trees: &[Tree]) -> Vec<Mesh> {
     for i in 0..2 * SECTORS {
         let mut mesh = Mesh::painted(&PAINTS);
         for tree in trees {
-            let far = tree.foot.length_squared() > 200.0 * 200.0;
-            let sector = (tree.foot.z.atan2(tree.foot.x) / TAU * SECTORS as f32 + SECTORS as f32) as u32 % SECTORS;
+            let far = tree.foot.length_squared() > 140.0 * 140.0;
+            let sector = (SECTORS as f32 * around(tree.seed)) as u32;
             if sector + SECTORS * far as u32 == i {
                 grow(&mut mesh, tree, far);
             }

@@ -1,0 +1,67 @@
+//! The sky as a layer of a picture.
+
+use super::disc::{self, Disc};
+use super::dome::Dome;
+use super::grid::{self, Cells};
+use super::stars::{self, Star};
+use crate::camera::Camera;
+use crate::tile::{Layer, Stats, Tile};
+use crate::view::View;
+use fearless_simd::{Level, dispatch};
+
+/// The sky seen by a camera.
+pub struct Backdrop {
+    dome: Dome,
+    view: View,
+    cells: Cells,
+    discs: [Disc; 2],
+    stars: Vec<Star>,
+}
+
+/// How a backdrop is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// It only fills what solids have left of each pixel. Else it fills every pixel.
+    pub behind: bool,
+    /// The sun's size over its true one.
+    pub sun: f32,
+    /// The moon's size over its true one.
+    pub moon: f32,
+    /// The time that stars twinkle by, seconds: the show's, not the sky's, which may run faster.
+    pub shimmer: f64,
+}
+
+impl Default for Look {
+    /// The whole sky, sun and moon as large as they seem: twice their size.
+    fn default() -> Look {
+        Look { behind: false, sun: 2.0, moon: 2.0, shimmer: 0.0 }
+    }
+}
+
+impl Backdrop {
+    /// The sky for a picture of `width` x `height` pixels.
+    pub fn new(dome: Dome, camera: Camera, width: usize, height: usize, look: Look) -> Backdrop {
+        let view = View::new(camera, width, height);
+        let mut size = 64;
+        while size > 1 && size as u32 as f32 * view.pixel() > dome.quality.cell {
+            size /= 2;
+        }
+        let cells = Cells { size: if size < 8 { 1 } else { size }, grid: dome.quality.grid, behind: look.behind };
+        let discs = [dome.sun_disc(camera.forward, look.sun), dome.moon_disc(look.moon)];
+        let stars = dome.stars(&view, width, height, look.shimmer, look.moon);
+        Backdrop { dome, view, cells, discs, stars }
+    }
+}
+
+impl Layer for Backdrop {
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        dispatch!(level, simd => grid::fill(simd, &self.dome, &self.view, self.cells, tile));
+        stars::draw(&self.stars, self.cells.behind, tile);
+        for disc in &self.discs {
+            if disc.meets(&self.view, tile) {
+                dispatch!(level, simd => disc::draw(simd, disc, &self.view, self.cells.behind, tile));
+            }
+        }
+        Stats::default()
+    }
+}

@@ -1,0 +1,179 @@
+//! The sky at a time and place, as an eye sees it that has got used to the light.
+
+use super::air::{Air, Lamp, exp3, scattered};
+use super::grid::Field;
+use super::moon::Moon;
+use super::place::{Place, refracted};
+use super::sun;
+use super::time::sane;
+use crate::lanes::{F, Lane, V3};
+use crate::math;
+use crate::quality::Quality;
+use fearless_simd::{Level, dispatch, prelude::*};
+use glam::{Mat3, Vec3, vec3};
+
+/// The moon's full light over the sun's: sixteen times the truth, and
+pub(super) const MOONLIGHT: f32 = 4e-5;
+/// light of the night itself, a hundred times its airglow, as one remembers nights; the dusk fades into it.
+const NIGHT: Vec3 = vec3(1.5e-7, 2.2e-7, 4.5e-7);
+/// Light shown of a scene of light 1, and how little the eye lets it fall as that falls: `l^(1 - ADAPTION)`.
+const KEY: f32 = 0.95;
+const ADAPTION: f32 = 0.74;
+/// What stands in the sky at a time and place.
+#[derive(Clone, Copy, Debug)]
+pub struct Sky {
+    /// Unit vector towards the sun, as air shows it.
+    pub sun: Vec3,
+    /// Unit vector towards the moon, as air shows it.
+    pub moon: Vec3,
+    /// Unit vector from the moon to the sun.
+    pub moon_to_sun: Vec3,
+    /// Share of the moon's disc that is lit, 0 to 1.
+    pub lit: f32,
+    /// Radius of the moon's disc, radians.
+    pub moon_radius: f32,
+    /// From equatorial axes to the world's: its z axis is the celestial pole.
+    pub turn: Mat3,
+    /// The air.
+    pub air: Air,
+}
+
+impl Sky {
+    /// The sky at a time, days since J2000, and a place, with the season's air.
+    pub fn new(days: f64, place: &Place) -> Sky {
+        let moon = Moon::new(days, place);
+        let turn = place.turn(days);
+        Sky {
+            sun: refracted(sun::direction(days, place)).as_vec3(),
+            moon: refracted(moon.direction).as_vec3(),
+            moon_to_sun: moon.to_sun.as_vec3(),
+            lit: moon.lit as f32,
+            moon_radius: moon.radius as f32,
+            turn: turn.as_mat3(),
+            air: Air::of_season(days, place),
+        }
+    }
+
+    /// The lamps that count: the moon is left out by day, where it gives 1e-5 of the light, and each when far down.
+    fn lamps(&self) -> ([Lamp; 2], usize, usize) {
+        let sun = Lamp { direction: self.sun, strength: 1.0 };
+        let moon = Lamp { direction: self.moon, strength: MOONLIGHT * self.lit * self.lit * self.lit };
+        let first = (self.sun.y < -0.36) as usize;
+        let end = if self.sun.y < 0.05 && self.moon.y > -0.2 { 2 } else { 1 };
+        ([sun, moon], first, end.max(first))
+    }
+}
+
+impl Air {
+    /// The air of a time of year: hazy and thin in ozone in late summer, clear in late winter.
+    pub fn of_season(days: f64, place: &Place) -> Air {
+        // Day 205 of a year is 24 July, when it is warmest north of the equator.
+        let summer = ((days - 205.0) / 365.25).fract() as f32;
+        let warmth = (sane(summer as f64) * std::f64::consts::TAU).cos() as f32 * sane(place.latitude).sin() as f32;
+        Air { haze: 1.3 + 0.7 * warmth, ozone: 1.15 - 0.15 * warmth, again: 0.7 }
+    }
+}
+
+/// Speed against error of the dome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DomeQuality {
+    /// Points along a direction where light is gathered, by day; three times as many in the dusk. The error falls with
+    /// their square.
+    pub steps: u32,
+    /// Largest angle between directions that are evaluated, radians; light is interpolated between. 0 is every pixel.
+    pub cell: f32,
+    /// Samples of a pixel along each axis, where every pixel is evaluated.
+    pub grid: usize,
+}
+
+impl DomeQuality {
+    /// What that quality takes: 10 points, and 100 at every pixel where it is exact.
+    pub fn new(quality: &Quality) -> DomeQuality {
+        let exact = quality.cell == 1;
+        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.022 }, grid: quality.grid }
+    }
+}
+
+/// The light of the sky at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Dome {
+    /// What stands in it.
+    pub sky: Sky,
+    /// Speed against error.
+    pub quality: DomeQuality,
+    /// Light shown of light 1, before the shoulder.
+    pub exposure: f32,
+    /// Light of the sky as a whole, over the sun's outside of the air: 0.1 by day, 1e-8 at night.
+    pub level: f32,
+    /// Light from all around that is scattered again.
+    again: Vec3,
+}
+
+impl Dome {
+    /// The dome of a sky; its exposure follows from the light in a few directions.
+    pub fn new(sky: Sky, quality: DomeQuality) -> Dome {
+        let mut dome = Dome { sky, quality, exposure: 0.0, level: 0.0, again: Vec3::ZERO };
+        let level = vec3(sky.sun.x, 0.0, sky.sun.z).normalize_or(Vec3::X);
+        let mut mean = Vec3::ZERO;
+        for (side, up) in [(0.0, 1.0), (0.9, 0.44), (-0.9, 0.44), (0.995, 0.1)] {
+            mean += dome.light(level * side + Vec3::Y * up) * 0.25;
+        }
+        // More for blue, which is scattered most often.
+        dome.again = mean * vec3(0.5, 1.0, 2.5) * sky.air.again;
+        dome.level = mean.dot(vec3(0.21, 0.72, 0.07));
+        dome.exposure = dispatch!(best(), simd => power(simd, dome.level.max(1e-9)));
+        // The eye gets used to moonlight less, or no night would be lighter than another.
+        let moon = sky.lamps().0[1];
+        dome.exposure *= 1.0 + (moon.strength * moon.direction.y.max(0.0) * 0.02 / dome.level.max(1e-9)).min(1.0);
+        dome
+    }
+
+    /// The light of the sky itself from a unit direction, over the sun's outside of the air.
+    pub fn light(&self, d: Vec3) -> Vec3 {
+        dispatch!(best(), simd => first(self.gathered(simd, V3::splat(simd, d))))
+    }
+
+    /// The linear display light of the sky from a unit direction, 0 to 1: for fog, and for what mirrors the sky.
+    pub fn radiance(&self, d: Vec3) -> Vec3 {
+        dispatch!(best(), simd => first(Field::light(self, simd, V3::splat(simd, d))))
+    }
+
+    /// The share of the light from a unit direction outside that air lets through.
+    pub fn through(&self, d: Vec3) -> Vec3 {
+        dispatch!(best(), simd => first(self.sky.air.through(simd, V3::splat(simd, d))))
+    }
+
+    #[inline(always)]
+    fn gathered<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        let (lamps, first, end) = self.sky.lamps();
+        let light = scattered(simd, &self.sky.air, &lamps[first..end], self.again, self.quality.steps, d);
+        // Airglow is a thin shell: more of it towards the horizon.
+        let low = F::<S>::splat(simd, 1.0) - d.y.abs();
+        light + V3::splat(simd, NIGHT) * Lane(low * low + 1.0)
+    }
+}
+
+impl Field for Dome {
+    #[inline(always)]
+    fn light<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        // A shoulder instead of a clamp: what is brighter than the screen turns white, not yellow and cyan.
+        V3::splat(simd, Vec3::ONE) - exp3(simd, self.gathered(simd, d), -self.exposure)
+    }
+}
+
+/// The exposure for a level of light.
+#[inline(always)]
+fn power<S: Simd>(simd: S, level: f32) -> f32 {
+    math::powf(simd, F::<S>::splat(simd, level), -ADAPTION).as_slice()[0] * KEY
+}
+
+/// The first lane.
+#[inline(always)]
+fn first<S: Simd>(v: V3<S>) -> Vec3 {
+    vec3(v.x.as_slice()[0], v.y.as_slice()[0], v.z.as_slice()[0])
+}
+
+/// The best SIMD level: any gives the same bits.
+fn best() -> Level {
+    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
+}

@@ -1,0 +1,128 @@
+//! Where the sun is, and when it rises and sets.
+
+use super::place::{Place, angles};
+use super::time::centuries;
+use glam::{DVec3, dvec3};
+
+/// Altitude of the sun's centre when its upper edge is seen on the horizon, radians: -0.833 degrees, 34' of refraction
+/// and 16' of radius.
+pub const RISE: f64 = -0.833 / 57.295_779_513_082_32;
+
+/// Radius of the sun's disc, radians, at its mean distance; it varies by 1.7 %.
+pub const RADIUS: f64 = 0.266_6 / 57.295_779_513_082_32;
+
+/// From ecliptic longitude and latitude of date, radians, to a unit vector on equatorial axes.
+pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
+    let (sin, cos) = (23.4393 - 0.013 * centuries(days)).to_radians().sin_cos();
+    let ((s, c), (z, level)) = (longitude.sin_cos(), latitude.sin_cos());
+    let y = s * level;
+    dvec3(c * level, y * cos - z * sin, y * sin + z * cos)
+}
+
+/// The sun's apparent unit direction on equatorial axes, mean equinox of date.
+///
+/// Meeus, "Astronomical Algorithms", 1998, chapter 25, low accuracy: 0.01 degrees, for the planets' pull is left out.
+/// The Astronomical Almanac's shorter series drifts away by 0.02 to 1900 and 2100.
+pub fn equator(days: f64) -> DVec3 {
+    let t = centuries(days);
+    let anomaly = (357.529_11 + 35_999.050_29 * t).to_radians();
+    let (s1, c1) = anomaly.sin_cos();
+    let center = (1.914_602 - 0.004_817 * t) * s1 + 0.039_986 * s1 * c1 + 2.9e-4 * (anomaly * 3.0).sin();
+    // 0.00569 is the aberration.
+    let longitude = 280.466_46 - 0.005_69 + t * (36_000.769_83 + t * 3.03e-4) + center;
+    equatorial(longitude.to_radians(), 0.0, days)
+}
+
+/// The sun's true unit direction on world axes, without refraction; see [`super::place::refracted`].
+///
+/// Within 0.01 degrees in 1900 to 2100.
+pub fn direction(days: f64, place: &Place) -> DVec3 {
+    // From the place rather than from the earth's centre, 1/23,455 of the way: 0.0024 degrees, ten minutes of a pole's
+    // sunrise.
+    (place.turn(days) * equator(days) - DVec3::Y / 23_455.0).normalize()
+}
+
+/// One passage of the sun through an altitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Days since J2000.
+    pub time: f64,
+    /// Does it rise?
+    pub rising: bool,
+}
+
+/// What the sun does in 24 hours.
+///
+/// No crossing is polar day or night. Near the switch between them there can be three or four, and two of them risings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Day {
+    /// The day's begin, days since J2000.
+    pub start: f64,
+    /// Is the sun up at the begin?
+    pub starts_up: bool,
+    /// In order of time.
+    pub crossings: Vec<Crossing>,
+}
+
+impl Day {
+    /// The 24 hours from `start`, days since J2000, at a place: passages of the sun's centre through a true altitude,
+    /// radians, such as [`RISE`] or -6 degrees of civil twilight. Within a minute; near a polar switch two and a half.
+    pub fn new(start: f64, place: &Place, altitude: f64) -> Day {
+        let start = super::time::sane(start);
+        let height = |time: f64| angles(direction(start + time, place)).0 - altitude;
+        let mut day = Day { start, starts_up: height(0.0) > 0.0, crossings: Vec::new() };
+        const STEP: f64 = 1.0 / 24.0;
+        let (mut low, mut last) = (0.0, height(0.0));
+        // Where the height turns within a step it may pass the altitude twice, so steps end at its extremes too.
+        let mut pass = |from: &mut f64, was: &mut f64, to: f64, is: f64| {
+            if (*was > 0.0) != (is > 0.0) {
+                let rising = is > 0.0;
+                let (mut a, mut b) = (*from, to);
+                for _ in 0..40 {
+                    let middle = 0.5 * (a + b);
+                    if (height(middle) > 0.0) == rising { b = middle } else { a = middle }
+                }
+                day.crossings.push(Crossing { time: start + b, rising });
+            }
+            (*from, *was) = (to, is);
+        };
+        for hour in 1..=24u32 {
+            let end = hour as f64 * STEP;
+            let (mut a, mut b) = (end - STEP, end);
+            // The sign of the slope, by differences over a second.
+            let climbs = |time: f64| height(time + 1e-5) > height(time - 1e-5);
+            let first = climbs(a);
+            if first != climbs(b) {
+                for _ in 0..30 {
+                    let middle = 0.5 * (a + b);
+                    if climbs(middle) == first { a = middle } else { b = middle }
+                }
+                pass(&mut low, &mut last, a, height(a));
+            }
+            pass(&mut low, &mut last, end, height(end));
+        }
+        day
+    }
+
+    /// Days that the sun is up, 0 to 1; the rest is night.
+    pub fn light(&self) -> f64 {
+        let (mut up, mut since, mut sum) = (self.starts_up, self.start, 0.0);
+        for crossing in &self.crossings {
+            if up {
+                sum += crossing.time - since;
+            }
+            (up, since) = (crossing.rising, crossing.time);
+        }
+        sum + if up { self.start + 1.0 - since } else { 0.0 }
+    }
+
+    /// Is the sun up all day?
+    pub fn is_polar_day(&self) -> bool {
+        self.crossings.is_empty() && self.starts_up
+    }
+
+    /// Is it never?
+    pub fn is_polar_night(&self) -> bool {
+        self.crossings.is_empty() && !self.starts_up
+    }
+}
