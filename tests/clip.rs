@@ -248,10 +248,12 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
                     for axis in (0..3).filter(|k| spoilt >> k & 1 != 0) {
                         face[corner][axis] = bad;
                     }
-                    let faces = [order.map(|i| face[i]), good[0]];
-                    let mesh = body(triangles(&faces));
-                    let planes = draw(&dark(vec![mesh]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
-                    assert_eq!(planes.differs(&truth), None, "{bad} in {face:?}");
+                    let bad_face = order.map(|i| face[i]);
+                    for faces in [[bad_face, good[0]], [good[0], bad_face]] {
+                        let mesh = body(triangles(&faces));
+                        let planes = draw(&dark(vec![mesh]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+                        assert_eq!(planes.differs(&truth), None, "{bad} in {face:?}");
+                    }
                 }
             }
         }
@@ -271,6 +273,21 @@ fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
     let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
     let low = SIZE[0] * (SIZE[1] - 1) + SIZE[0] / 2;
     assert!(few.closeness[low] > 0.0 && planes.closeness[low] == few.closeness[low]);
+}
+
+#[test]
+fn bodies_beyond_the_last_number_are_left_out() {
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let wall = |x: f32| triangles(&[[vec3(x - 1.0, -1.0, -5.0), vec3(x + 1.0, -1.0, -5.0), vec3(x, 1.0, -5.0)]]);
+    // 16,384 have numbers: the last that has one is seen, the next is not.
+    let nothing = body(triangles(&[]));
+    let mut bodies = vec![nothing; 16383];
+    bodies.push(body(wall(-1.0)));
+    let truth = draw(&dark(bodies.clone()), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    assert!(truth.coverage.contains(&1.0));
+    bodies.push(body(wall(1.0)));
+    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    assert_eq!(planes.differs(&truth), None);
 }
 
 /// A coordinate of any size, some of them special.

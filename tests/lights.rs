@@ -39,30 +39,31 @@ const LIGHT: f64 = 3e-4;
 fn lamps_fade_by_their_formula_and_end_at_their_reach() {
     let camera = camera();
     let place = vec3(1.0, 2.0, -0.5);
-    for falloff in [Vec2::ZERO, vec2(0.0, 0.06), vec2(0.7, 0.0), vec2(0.3, 1.8), vec2(0.0, 1e-4)] {
+    for falloff in [Vec2::ZERO, vec2(0.0, 0.06), vec2(0.7, 0.0), vec2(0.3, 1.8), vec2(0.0, 1e-4), vec2(1e-9, 0.0)] {
         for reach in [f32::INFINITY, 30.0, 5.0, 2.5, 1.9] {
-            if falloff == Vec2::ZERO && reach.is_finite() {
-                // What does not fade cannot end.
-                continue;
-            }
             let lights = vec![lamp(place, falloff, reach, Vec3::ONE)];
             let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
             let planes = draw(&world, camera, SIZE, ONE, common::levels()[0].1);
             let (a, b, r) = (falloff.x as f64, falloff.y as f64, reach as f64);
             let left = |d: f64| 1.0 / (1.0 + a * d + b * d * d);
-            let cut = if reach.is_finite() { left(r) } else { 0.0 };
+            // What does not fade ends at once.
+            let cut = if reach.is_finite() && falloff != Vec2::ZERO { left(r) } else { 0.0 };
             let mut met = 0;
             for pixel in (0..planes.color.len()).filter(|&i| planes.coverage[i] == 1.0) {
                 let p = point(&camera, pixel);
                 let d = p.distance(place.as_dvec3());
+                // On its rim either is right.
+                if falloff == Vec2::ZERO && (d / r - 1.0).abs() < 1e-4 {
+                    continue;
+                }
                 let found = planes.color[pixel].x as f64;
                 if d > r * (1.0 + 1e-4) {
                     assert_eq!(found, 0.0, "{falloff}, {reach}: {d} metres");
                     continue;
                 }
                 let truth = place.y as f64 / d * ((left(d) - cut) / (1.0 - cut)).max(0.0);
-                // The difference of two near values keeps few digits of either.
-                let slack = LIGHT * (truth + cut) + 8.0 * ULP / (1.0 - cut);
+                // Where it ends little is left of much.
+                let slack = LIGHT * (truth + left(d)) + 8.0 * ULP;
                 assert!((found - truth).abs() <= slack, "{falloff}, {reach}, {d}: {found} instead of {truth}");
                 met += (found > 0.0) as u32;
             }

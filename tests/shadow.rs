@@ -201,6 +201,20 @@ fn traced_shadows_have_their_outline() {
 }
 
 #[test]
+fn a_plan_without_views_is_no_shadow() {
+    let world = |shadow| {
+        let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
+        World { lights, ..dark(vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))]) }
+    };
+    let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, common::levels()[0].1);
+    for traced in [false, true] {
+        let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
+        let plan = Plan { views: Vec::new(), bias, back_faces: false, traced, smooth: true };
+        assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
+    }
+}
+
+#[test]
 fn beyond_the_map_is_light() {
     // The box is larger than the map.
     let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };

@@ -64,7 +64,7 @@ impl Bins {
 
 /// Every tile that every triangle may touch, the last triangle first.
 fn each(pieces: &[Piece], columns: u32, mut put: impl FnMut(usize, Id)) {
-    for (p, piece) in pieces.iter().enumerate().rev() {
+    for (p, piece) in pieces.iter().take(1 << BITS).enumerate().rev() {
         for (t, triangle) in piece.triangles.iter().enumerate().rev() {
             let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
             for y in y0..=y1 {

@@ -32,8 +32,8 @@ impl Bias {
 /// What a light is to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Parallel projections from the finest to the coarsest, or the six faces of a cube; of one size,
-    /// square, a multiple of 64 pixels.
+    /// Parallel projections from the finest to the coarsest, or the six faces of a cube, or none for no shadow. Of one
+    /// size, square, a multiple of 64 pixels.
     pub views: Vec<Projection>,
     /// Against self-shadowing.
     pub bias: Bias,
