@@ -8,7 +8,7 @@ use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 
-const BENCH: [&str; 4] = ["spheres", "spheres-flat", "spheres-glass", "sky"];
+const BENCH: [&str; 6] = ["spheres", "spheres-flat", "spheres-glass", "shadow", "shadow-cube", "sky"];
 
 fn scene(name: &str) -> Scene {
     scenes::named(name).unwrap()
@@ -74,7 +74,7 @@ fn history_does_not_matter() {
         let mut old = Renderer::new(2).unwrap();
         let size = (150, 100);
         let mut kept = Frame::new(size.0, size.1);
-        for (k, name) in BENCH.into_iter().cycle().take(12).enumerate() {
+        for (k, name) in BENCH.into_iter().cycle().take(3 * BENCH.len()).enumerate() {
             let time = 2.0 + 0.05 * k as f64;
             frame(&mut old, BENCH[k / 3], 5.0, &Quality::DEFAULT, (33, 77 + k));
             old.render(&scene(name), time, &quality, &mut kept);

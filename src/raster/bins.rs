@@ -9,6 +9,8 @@ pub type Id = u32;
 pub const NOTHING: Id = u32::MAX;
 /// Bits of an [`Id`] that number the triangle, and as many that number the piece.
 const BITS: u32 = 14;
+/// Triangles that a piece may have; the last number is left to [`NOTHING`].
+pub const MOST: usize = (1 << BITS) - 1;
 /// The bit from which on an [`Id`] has the index of a texture, or [`PLAIN`].
 pub const TEXTURE: u32 = 2 * BITS;
 /// In the place of a texture, that there is none.
@@ -62,7 +64,7 @@ impl Bins {
 
 /// Every tile that every triangle may touch, the last triangle first.
 fn each(pieces: &[Piece], columns: u32, mut put: impl FnMut(usize, Id)) {
-    for (p, piece) in pieces.iter().enumerate().rev() {
+    for (p, piece) in pieces.iter().take(1 << BITS).enumerate().rev() {
         for (t, triangle) in piece.triangles.iter().enumerate().rev() {
             let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
             for y in y0..=y1 {

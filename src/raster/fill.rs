@@ -77,7 +77,7 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Samp
         while column <= x1 {
             let place = (at * size + column) as usize;
             let nearness = (steps + (dx + column as f32)) * zx + z;
-            let nearness = nearness.min(t.range[1]);
+            let nearness = nearness.max(t.range[0]).min(t.range[1]);
             let inside = (edge[0] | edge[1] | edge[2]).simd_ge(nothing);
             let (depths, ids) = (&mut out.nearness[place..place + lanes], &mut out.id[place..place + lanes]);
             let old = F::<S>::from_slice(simd, depths);

@@ -20,7 +20,8 @@ pub enum Source {
         position: Vec3,
         /// How fast its light fades.
         falloff: Vec2,
-        /// Metres beyond which there is nothing left of it; infinite for no end. It fades out evenly towards there.
+        /// Metres beyond which there is nothing left of it; infinite for no end. It fades out evenly towards there, if it
+        /// fades at all.
         reach: f32,
     },
 }
@@ -72,33 +73,33 @@ const TRACED_BIAS: f32 = 1.0 / 32.0;
 
 /// A light, ready to be looked up.
 pub struct Lit {
-    light: Light,
+    /// The light; a shadow without views is none.
+    pub light: Light,
     /// What it sees, where that is mapped.
     pub map: Option<Arc<DepthMap>>,
     /// The first of its rasters, where it has any.
     pub first: usize,
     /// Each view's matrix by rows, and metres a texel where it is a parallel projection.
     views: Vec<(Mat4, f32)>,
-    /// What would be left of it at the end of its reach, which is taken off everywhere, and what it is then scaled by.
-    cut: f32,
-    scale: f32,
+    /// 1 / (x D + y D^2) of a lamp at the end of its reach; 0 if it has none, or does not fade towards there.
+    end: f32,
 }
 
 impl Lit {
     /// A light whose rasters, if it gets any, begin with that one.
-    pub fn new(light: Light, first: usize) -> Lit {
-        let cut = match light.source {
-            Source::Lamp { falloff, reach, .. } if reach.is_finite() => {
-                1.0 / (1.0 + falloff.x * reach + falloff.y * reach * reach)
-            }
-            _ => 0.0,
+    pub fn new(mut light: Light, first: usize) -> Lit {
+        light.shadow.take_if(|plan| plan.views.is_empty());
+        let end = match light.source {
+            Source::Lamp { falloff, reach, .. } => 1.0 / (falloff.x * reach + falloff.y * reach * reach),
+            Source::Sun(_) => 0.0,
         };
+        let end = if end.is_finite() { end } else { 0.0 };
         let view = |view: &Projection| {
             let rows = view.matrix.transpose();
             (rows, 1.0 / rows.x_axis.truncate().length())
         };
         let views = light.shadow.iter().flat_map(|plan| &plan.views).map(view).collect();
-        Lit { light, map: None, first, views, cut, scale: 1.0 / (1.0 - cut) }
+        Lit { light, map: None, first, views, end }
     }
 
     /// May it reach into a ball?
@@ -115,11 +116,13 @@ impl Lit {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let (towards, left) = match self.light.source {
             Source::Sun(direction) => (V3::splat(simd, direction), one),
-            Source::Lamp { position, falloff, .. } => {
+            Source::Lamp { position, falloff, reach } => {
                 let way = V3::splat(simd, position) - point;
                 let distance = way.dot(way).sqrt();
-                let left = one / (distance * falloff.x + distance * distance * falloff.y + 1.0);
-                (way * Lane(one / distance), ((left - self.cut) * self.scale).max(zero))
+                let loss = distance * falloff.x + distance * distance * falloff.y;
+                // What is left at the end of the reach is taken off everywhere, and the rest made 1 at the lamp again.
+                let left = one / (loss + 1.0) * (one - loss * self.end).max(zero);
+                (way * Lane(one / distance), distance.simd_le(reach).select(left, zero))
             }
         };
         let cosine = normal.dot(towards).max(zero);

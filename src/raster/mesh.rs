@@ -40,7 +40,8 @@ impl Mesh {
     pub fn bound(&self) -> (Vec3, f32) {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for &p in &self.points {
-            (low, high) = (low.min(p), high.max(p));
+            // In this order what is not a number is left out.
+            (low, high) = (p.min(low), p.max(high));
         }
         (0.5 * (low + high), 0.5 * low.distance(high))
     }

@@ -64,7 +64,7 @@ impl PartialEq for Body {
 /// All that the rasterizer draws.
 #[derive(Clone)]
 pub struct World {
-    /// The surfaces.
+    /// The surfaces: those after the first 16,384 are left out.
     pub bodies: Vec<Body>,
     /// The textures that paints name: at most 15.
     pub textures: Vec<Texture>,
@@ -212,7 +212,7 @@ impl Layer for Drawn {
         let mut missing = Vec::new();
         for (slot, light) in world.lights.iter().enumerate() {
             let mut lit = Lit::new(light.clone(), rasters.len());
-            if let Some(plan) = &light.shadow {
+            if let Some(plan) = &lit.light.shadow {
                 let casters = world.bodies.iter().filter(|body| lit.reaches(body.bound.0, body.bound.1)).cloned();
                 let key = Key { slot, plan: plan.clone(), casters: casters.collect() };
                 match shadow::recall(&key) {

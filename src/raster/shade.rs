@@ -27,6 +27,9 @@ pub struct Context<'a> {
     pub view: &'a View,
 }
 
+/// Nearness of the farthest: beyond, squares of distances are infinite.
+const FARTHEST: f32 = 1e-18;
+
 /// Room for a block, and for the vector that fills it up.
 const ROOM: usize = 2 * BLOCK;
 
@@ -249,7 +252,7 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             gloss = here.select(F::<S>::splat(simd, surface.paint.gloss), gloss);
             glossy |= surface.paint.gloss > 0.0;
         }
-        let far = one / near;
+        let far = one / near.max(F::<S>::splat(simd, FARTHEST));
         let p = V3::splat(simd, view.camera().eye) + view.rays(simd, x, y) * Lane(far);
         low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
         high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };

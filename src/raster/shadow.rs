@@ -32,8 +32,8 @@ impl Bias {
 /// What a light is to see.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Parallel projections from the finest to the coarsest, or the six faces of a cube; of one size,
-    /// square, a multiple of 64 pixels.
+    /// Parallel projections from the finest to the coarsest, or the six faces of a cube, or none for no shadow. Of one
+    /// size, square, a multiple of 64 pixels.
     pub views: Vec<Projection>,
     /// Against self-shadowing.
     pub bias: Bias,
@@ -47,7 +47,7 @@ pub struct Plan {
 
 /// Nearness of nothing: any light passes.
 pub const NOTHING: f32 = f32::MIN;
-/// Texels after the last, which lookups of whole vectors read and leave out.
+/// Texels after the last row, and one row after the last view, which lookups of whole vectors read and leave out.
 const SLACK: usize = 4;
 
 /// The depths of a plan's views.
@@ -64,13 +64,13 @@ impl DepthMap {
     pub fn resize(&mut self, size: usize, views: usize) {
         assert!(size.is_multiple_of(Tile::SIZE));
         self.size = size;
-        self.texels.resize(views * size * size + SLACK, 0.0);
+        self.texels.resize((views * size + 1) * size + SLACK, 0.0);
     }
 
     /// All views cut into rows of tiles, one view after the other.
     pub fn bands(&mut self) -> impl Iterator<Item = &mut [f32]> {
-        let end = self.texels.len() - SLACK;
-        self.texels[..end].chunks_exact_mut((self.size * Tile::SIZE).max(1))
+        // The row after the last view is less than a chunk.
+        self.texels.chunks_exact_mut((self.size * Tile::SIZE).max(1))
     }
 
     /// Nearness at a texel of a view.
@@ -79,7 +79,7 @@ impl DepthMap {
     }
 
     /// Share of the light, 0 to 1, at texel coordinates (`x`, `y`) of each lane's `view`, for points of that nearness: of
-    /// the 3x3 texels around, those that hide nothing. Beyond the border, those along it.
+    /// the 3x3 texels around, those that hide nothing. Along the border and beyond, the nearest 3x3 within.
     ///
     /// Lanes that are not `wanted` get what they get.
     #[inline(always)]
@@ -97,7 +97,7 @@ impl DepthMap {
         let (size, lanes) = (self.size, F::<S>::LEN);
         // Smooth, the 3x3 texels are a window that meets 4x4.
         let shift = if smooth { 1.5 } else { 1.0 };
-        let end = (size - SLACK) as u32 as f32;
+        let end = (size - 3) as u32 as f32;
         let zero = F::<S>::splat(simd, 0.0);
         let (x, y) = ((x - shift).max(zero).min(end), (y - shift).max(zero).min(end));
         let (column, row) = (x.floor(), y.floor());

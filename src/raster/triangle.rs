@@ -1,6 +1,6 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
-use super::bins::PLAIN;
+use super::bins::{MOST, PLAIN};
 use super::mesh::{Mesh, Paint};
 use super::project::Projection;
 use glam::{Affine3A, Vec3, Vec4};
@@ -9,6 +9,8 @@ use glam::{Affine3A, Vec3, Vec4};
 pub const SUB: i32 = 256;
 /// Corners farther than this from the picture's middle, pixels, are clipped: then edges fit 32 bits within a tile.
 const GUARD: f32 = 16384.0;
+/// How far clipped corners may lie beyond that: edges still fit.
+const SLACK: f32 = GUARD / 128.0;
 
 /// A value that is affine over the raster.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,7 +34,7 @@ pub struct Triangle {
     pub nearness: Plane,
     /// Index of the world's texture, or [`PLAIN`].
     pub texture: u32,
-    /// Nearness of the farthest and of the nearest corner: on slivers the plane overshoots.
+    /// Nearness of the farthest and of the nearest corner: on slivers the plane leaves them.
     pub range: [f32; 2],
 }
 
@@ -171,16 +173,22 @@ impl Setup {
                     rest.push(this);
                 }
                 if (d0 >= 0.0) != (d1 >= 0.0) {
-                    // From the inner to the outer, so that both faces of an edge get the same point.
-                    let ((a, da), (b, db)) =
-                        if d0 >= 0.0 { ((this, d0), (next, d1)) } else { ((next, d1), (this, d0)) };
+                    // From the nearer to the farther, whose digits do not reach here; and so both faces of an edge get
+                    // the same point.
+                    let nearer = d0.abs() < d1.abs() || (d0.abs() == d1.abs() && d0 >= 0.0);
+                    let ((a, da), (b, db)) = if nearer { ((this, d0), (next, d1)) } else { ((next, d1), (this, d0)) };
                     let k = da / (da - db);
                     rest.push(Corner { h: a.h + (b.h - a.h) * k, normal: a.normal + (b.normal - a.normal) * k });
                 }
             }
             polygon = rest;
         }
-        polygon
+        // What is not a number, or has lost all its digits beside another, is where nothing can be.
+        let sound = |corner: &Corner| {
+            let slack = [0.5 * self.projection.near, SLACK * corner.h.w];
+            (4..9).all(|plane| self.distances(corner.h)[plane] >= -slack[(plane > 4) as usize])
+        };
+        if polygon.iter().all(sound) { polygon } else { Vec::new() }
     }
 
     /// Are the corners in the order of a face that is to be drawn?
@@ -213,7 +221,8 @@ impl Setup {
             range = [range[0].min(a.nearness), range[1].max(a.nearness)];
         }
         bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
-        if bound[0] > bound[1] || bound[2] > bound[3] {
+        // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
+        if bound[0] > bound[1] || bound[2] > bound[3] || piece.triangles.len() == MOST {
             return;
         }
         let mut planes = [Plane::default(); 4];

@@ -1,0 +1,163 @@
+//! What the rasterizer makes of a world, in linear light, and simple worlds.
+#![allow(dead_code)] // Every test takes its part.
+
+use fearless_simd::Level;
+use glam::{Affine3A, DVec3, Mat3, Vec3};
+use paprsek::camera::Camera;
+use paprsek::color::Transfer;
+use paprsek::quality::Quality;
+use paprsek::raster::light::Haze;
+use paprsek::raster::mesh::{Face, Mesh, Paint};
+use paprsek::raster::{Body, Drawn, World};
+use paprsek::tile::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::view::View;
+use std::sync::{Arc, Mutex};
+
+/// A picture before it becomes codes, row by row from the top left.
+#[derive(Clone)]
+pub struct Planes {
+    pub width: usize,
+    pub height: usize,
+    pub color: Vec<Vec3>,
+    /// 1 / distance along the axis; 0 for nothing.
+    pub closeness: Vec<f32>,
+    pub coverage: Vec<f32>,
+}
+
+impl Planes {
+    /// The first pixel that has other bits, if any.
+    pub fn differs(&self, other: &Planes) -> Option<usize> {
+        let bits = |p: &Planes, i: usize| {
+            let Vec3 { x, y, z } = p.color[i];
+            [x, y, z, p.closeness[i], p.coverage[i]].map(f32::to_bits)
+        };
+        (0..self.color.len().max(other.color.len())).find(|&i| bits(self, i) != bits(other, i))
+    }
+}
+
+/// A layer that draws nothing and remembers what is below it.
+struct Probe(Arc<Mutex<Planes>>);
+
+impl Layer for Probe {
+    fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
+        let mut planes = self.0.lock().unwrap();
+        for row in 0..tile.height {
+            for column in 0..tile.width {
+                let (from, to) = (row * Tile::SIZE + column, (tile.y + row) * planes.width + tile.x + column);
+                planes.color[to] = Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
+                planes.closeness[to] = tile.closeness[from];
+                planes.coverage[to] = tile.coverage[from];
+            }
+        }
+        Stats::default()
+    }
+}
+
+/// Draws a world on one thread.
+pub fn draw(world: &World, camera: Camera, size: [usize; 2], quality: Quality, level: Level) -> Planes {
+    let [width, height] = size;
+    let n = width * height;
+    let planes =
+        Planes { width, height, color: vec![Vec3::NAN; n], closeness: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
+    let planes = Arc::new(Mutex::new(planes));
+    let drawn = Drawn::new(world.clone(), View::new(camera, width, height), width, height, quality);
+    let layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn), Box::new(Probe(planes.clone()))];
+    let mut renderer = Renderer::new(1).unwrap().at_level(level);
+    renderer.draw(Picture { layers, transfer: Transfer::Gamma22 }, &mut Frame::new(width, height));
+    let planes = planes.lock().unwrap();
+    planes.clone()
+}
+
+/// The eye ray through a point of the picture, pixels from its top left: its axial part is 1.
+pub fn ray(camera: &Camera, size: [usize; 2], x: f64, y: f64) -> DVec3 {
+    let [w, h] = size.map(|n| n as f64);
+    let (px, py) = ((2.0 * x - w) / h, (h - 2.0 * y) / h);
+    camera.forward.as_dvec3() + camera.right.as_dvec3() * px + camera.up.as_dvec3() * py
+}
+
+/// No ambient light, no haze, nothing behind.
+pub fn dark(bodies: Vec<Body>) -> World {
+    World {
+        bodies,
+        textures: Vec::new(),
+        lights: Vec::new(),
+        ambient: [Vec3::ZERO; 2],
+        haze: Haze { color: Vec3::ZERO, density: 0.0, glow: (Vec3::Y, Vec3::ZERO) },
+        zenith: Vec3::ZERO,
+        film: false,
+        background: None,
+    }
+}
+
+pub fn body(mesh: Mesh) -> Body {
+    Body::new(Arc::new(mesh), Affine3A::IDENTITY)
+}
+
+/// White.
+pub fn blank() -> Mesh {
+    Mesh::painted(&[Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }])
+}
+
+/// Flat triangles.
+pub fn triangles(faces: &[[Vec3; 3]]) -> Mesh {
+    let mut mesh = blank();
+    for face in faces {
+        let first = mesh.points.len() as u16;
+        mesh.points.extend(face);
+        mesh.faces.push(Face { corners: [first, first + 1, first + 2], paint: 0 });
+    }
+    mesh
+}
+
+/// A box along the axes.
+pub fn block(low: Vec3, high: Vec3) -> Mesh {
+    let mut mesh = blank();
+    mesh.block(&Mat3::from_diagonal(0.5 * (high - low)), 0.5 * (low + high), 0);
+    mesh
+}
+
+/// Level ground of `cells` x `cells` squares, `half` metres to each side of the origin, that looks up.
+pub fn ground(half: f32, height: f32, cells: usize) -> Mesh {
+    let mut mesh = blank();
+    for j in 0..=cells {
+        for i in 0..=cells {
+            let at = |k: usize| (2.0 * k as f32 / cells as f32 - 1.0) * half;
+            mesh.points.push(Vec3::new(at(i), height, -at(j)));
+        }
+    }
+    mesh.loft(0, cells + 1, 0, &[]);
+    mesh
+}
+
+/// Where a ray enters a box, and through which axis.
+pub fn enters(o: DVec3, d: DVec3, (low, high): (Vec3, Vec3)) -> Option<(f64, usize)> {
+    let (a, b) = ((low.as_dvec3() - o) / d, (high.as_dvec3() - o) / d);
+    let first = a.min(b);
+    let (enter, leave) = (first.max_element(), a.max(b).min_element());
+    (enter < leave && leave > 0.0).then(|| (enter, (0..3).find(|&k| first[k] == enter).unwrap_or(0)))
+}
+
+/// Points of shadows: acne is dark instead of lit, leaks are lit instead of dark.
+#[derive(Default, Debug, Clone, Copy)]
+pub struct Count {
+    pub pixels: u32,
+    pub dark: u32,
+    pub acne: u32,
+    pub leaks: u32,
+    /// Misclassified, but farther from a true edge than a map may err.
+    pub far: u32,
+}
+
+impl Count {
+    pub fn add(&mut self, truth: bool, found: bool, far: bool) {
+        self.pixels += 1;
+        self.dark += !truth as u32;
+        self.acne += (truth && !found) as u32;
+        self.leaks += (!truth && found) as u32;
+        self.far += (truth != found && far) as u32;
+    }
+
+    pub fn share(&self) -> f64 {
+        (self.acne + self.leaks) as f64 / self.pixels as f64
+    }
+}
