@@ -71,7 +71,8 @@ impl Tracer {
 pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>, Tracer) {
     let axes = |sign: f32| Vec3::AXES.map(|axis| (axis * sign, axis, None));
     let (plus, minus) = (set.draw(renderer, &axes(1.0)), set.draw(renderer, &axes(-1.0)));
-    let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
+    // Of which a 32nd is left, a centimetre: some kilometres away f32 rounds to less than that, to more than a millimetre.
+    let bias = Bias { constant: 0.32, slope: 1.0, normal: 1.0 };
     let plan = Plan { bias, traced: true, ..set.plan(set.views(towards, None, SIZE)) };
     let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan.clone()))]);
     let view = set.view();
