@@ -247,6 +247,7 @@ fn plot(path: &Path, all: &[Series]) -> Result<(), Box<dyn Error>> {
             .y_label_area_size(48)
             .build_cartesian_2d((1.0..1.1 * last).log_scale(), 0.0..1.1)?;
         let mut mesh = chart.configure_mesh();
+        mesh.x_label_formatter(&|count| format!("{count:.0}"));
         mesh.x_desc(series.what).y_desc("frames a second over those with one").max_light_lines(0);
         mesh.bold_line_style(BLACK.mix(0.12)).draw()?;
         for ((name, line), colour) in NAMES.iter().zip(series.lines()).zip(colours) {

@@ -225,8 +225,11 @@ fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut Stri
     panels
 }
 
-/// Kinds of bias and their strengths: constants in metres, the others in texels.
-fn families() -> Vec<(&'static str, Vec<(String, Bias, bool)>)> {
+/// A kind of bias; its strengths by name, and whether back faces are drawn.
+type Family = (&'static str, Vec<(String, Bias, bool)>);
+
+/// Kinds of bias: constants in metres, the others in texels.
+fn families() -> Vec<Family> {
     let bias = |constant, slope, normal| Bias { constant, slope, normal };
     let row = |of: fn(f32) -> Bias, back: bool, values: &[f32]| {
         values.iter().map(|&value| (value.to_string(), of(value), back)).collect::<Vec<_>>()

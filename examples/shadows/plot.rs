@@ -47,6 +47,9 @@ pub fn draw(path: &Path, names: &[&str], panels: &[Vec<Curve>], [x, y]: [Axis; 2
             .y_label_area_size(56)
             .build_cartesian_2d(range(|point| point.0), range(|point| point.1))?;
         let mut mesh = chart.configure_mesh();
+        // Sums of tenths are not tenths.
+        let short = |value: &f64| ((value * 1e4).round() / 1e4).to_string();
+        mesh.x_label_formatter(&short).y_label_formatter(&short);
         mesh.x_desc(x.name).y_desc(y.name).max_light_lines(0).bold_line_style(BLACK.mix(0.12)).draw()?;
         for (index, curve) in curves.iter().enumerate() {
             let colour = COLOURS[index % COLOURS.len()];
