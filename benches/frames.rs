@@ -10,6 +10,9 @@ use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 use std::hint::black_box;
 
+#[path = "../examples/common/maps.rs"]
+mod maps;
+
 const SIZE: (usize, usize) = (640, 360);
 /// The least likeness of a fast picture to the exact one, decibels.
 const PSNR: f64 = 40.0;
@@ -30,6 +33,7 @@ fn frames(criterion: &mut Criterion) {
     let mut renderer = Renderer::new(2).expect("two threads");
     let mut draw = |scene: &Scene, quality: &Quality| {
         let mut frame = Frame::new(SIZE.0, SIZE.1);
+        maps::forget();
         renderer.render(scene, 2.0, quality, &mut frame);
         frame
     };

@@ -1,14 +1,18 @@
 //! Speed against error: moves every knob of the quality, and writes tables and curves to `docs/report/`.
 //!
-//! `cargo run --release --example report -- [--quick] [--out DIR] [--threads N] [SCENE ...]`
+//! `cargo run --release --example report -- [--quick] [--out DIR] [--threads N] [SCENE ...]`; `dome` is the sky alone.
 //!
-//! Figures of a renderer join by their knobs in `sweep.rs` and their scenes in the list below.
+//! Figures of a renderer join by their knobs in `sweep.rs` and their scenes in `subject.rs`.
 
 mod markdown;
 mod measure;
 mod metrics;
 mod plot;
+mod subject;
 mod sweep;
+
+#[path = "../common/maps.rs"]
+mod maps;
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
@@ -16,17 +20,16 @@ mod common;
 use lexopt::{Arg, Parser, ValueExt};
 use markdown::Setting;
 use measure::{Bench, Effort, Renderers};
-use paprsek::scenes::{self, Scene};
 use std::error::Error;
 use std::path::PathBuf;
 use std::time::Instant;
+use subject::Subject;
+use sweep::Group;
 
-/// The scenes that show what the knobs do.
-const SCENES: [&str; 3] = ["spheres", "spheres-glass", "lumen"];
 /// Minutes.
-const FULL: Effort = Effort { size: (1280, 720), instants: &[0.1, 0.4, 0.7], rounds: 9, threads: 2 };
+const FULL: Effort = Effort { size: (1280, 720), instants: 3, rounds: 9, threads: 2 };
 /// Seconds: shows that the report works; its figures are rough.
-const QUICK: Effort = Effort { size: (480, 270), instants: &[0.1], rounds: 3, threads: 2 };
+const QUICK: Effort = Effort { size: (480, 270), instants: 1, rounds: 3, threads: 2 };
 
 fn main() -> Result<(), Box<dyn Error>> {
     let began = Instant::now();
@@ -52,16 +55,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut renderers = Renderers::default();
     let simd = renderers.with(effort.threads, None).simd();
     let mut sweeps = sweep::knobs();
-    sweeps.push(sweep::levels(common::levels()));
-    sweeps.push(sweep::threads(effort.threads));
+    for group in [Group::Tracer, Group::Raster] {
+        sweeps.push(sweep::levels(&common::levels(), group));
+        sweeps.push(sweep::threads(effort.threads, group));
+    }
     let mut results: Vec<_> = sweeps.into_iter().map(|sweep| (sweep, Vec::new())).collect();
-    for scene in choose(&names)? {
-        let mut bench = Bench::new(&effort, scene, &mut renderers);
-        for (sweep, tables) in &mut results {
-            tables.push((scene, bench.measure(sweep)));
-            eprintln!("{:5.1} s  {}: {} from {}", began.elapsed().as_secs_f64(), scene.name, sweep.knob, sweep.base);
+    let mut subjects = choose(&names)?;
+    if effort.instants == QUICK.instants && names.is_empty() {
+        // One of each kind of sweep.
+        subjects.retain(|subject| !["day, high sun", "sky at sunset", "sky at dusk"].contains(&subject.name));
+    }
+    for subject in subjects {
+        let mut bench = Bench::new(&effort, &subject, &mut renderers);
+        for (sweep, tables) in results.iter_mut().filter(|(sweep, _)| subject.groups.contains(&sweep.group)) {
+            tables.push((subject.name, bench.measure(sweep)));
+            eprintln!("{:5.1} s  {}: {} from {}", began.elapsed().as_secs_f64(), subject.name, sweep.knob, sweep.base);
         }
     }
+    results.retain(|(_, tables)| !tables.is_empty());
     for (sweep, tables) in &results {
         plot::draw(&out.join(format!("{}.svg", sweep.file)), sweep, tables)?;
     }
@@ -72,12 +83,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The scenes of these names; without any the usual ones.
-fn choose(names: &[String]) -> Result<Vec<Scene>, String> {
-    if names.is_empty() {
-        return Ok(SCENES.iter().filter_map(|name| scenes::named(name)).collect());
+/// The subjects of these names; without any all of them.
+fn choose(names: &[String]) -> Result<Vec<Subject>, String> {
+    let all = subject::all();
+    if let Some(name) = names.iter().find(|name| !all.iter().any(|subject| subject.answers_to(name))) {
+        return Err(format!("there is nothing to draw by the name '{name}'"));
     }
-    names.iter().map(|name| scenes::named(name).ok_or(format!("there is no scene '{name}'"))).collect()
+    let wanted = |subject: &Subject| names.is_empty() || names.iter().any(|name| subject.answers_to(name));
+    Ok(all.into_iter().filter(wanted).collect())
 }
 
 /// The processor's name and number of threads.

@@ -1,10 +1,10 @@
 //! What each point of a sweep takes, and how far its picture is from the true one.
 
+use crate::maps;
 use crate::metrics::Error;
+use crate::subject::Subject;
 use crate::sweep::{Point, Sweep, Truth};
 use fearless_simd::Level;
-use paprsek::quality::Quality;
-use paprsek::scenes::Scene;
 use paprsek::tile::{Frame, Renderer};
 use std::collections::HashMap;
 use std::time::Instant;
@@ -13,8 +13,8 @@ use std::time::Instant;
 pub struct Effort {
     /// Pixels in a row, and rows.
     pub size: (usize, usize),
-    /// Instants of a scene, as shares of its length.
-    pub instants: &'static [f64],
+    /// Instants of each scene.
+    pub instants: usize,
     /// Frames of a point that are timed; a multiple of the instants gives each as many.
     pub rounds: usize,
     /// Threads of all but the sweep of threads.
@@ -27,15 +27,15 @@ pub struct Row {
     pub point: Point,
     /// Median milliseconds of a frame.
     pub ms: f64,
-    /// How many times faster than `exact` on all threads: the median of the ratios within each round.
+    /// How many times faster than the truth's cheapest form, `exact` or the dome at every pixel, on all threads: the median of the ratios within each round.
     pub ratio: f64,
-    /// Eye rays a pixel.
+    /// Eye rays a pixel, or fragments.
     pub samples: f64,
     /// Mean over the instants.
     pub error: Error,
 }
 
-/// Median milliseconds of `exact`, and every point.
+/// Median milliseconds of `exact`, of the dome at every pixel in its own sweeps, and every point.
 pub struct Table {
     /// Of the same rounds as the rows.
     pub exact_ms: f64,
@@ -55,7 +55,7 @@ impl Table {
 /// Measures in one scene.
 pub struct Bench<'a> {
     effort: &'a Effort,
-    scene: Scene,
+    subject: &'a Subject,
     /// By number of threads.
     renderers: &'a mut Renderers,
     truths: HashMap<(Truth, usize), Frame>,
@@ -65,8 +65,8 @@ pub struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// Nothing is known of the scene yet.
-    pub fn new(effort: &'a Effort, scene: Scene, renderers: &'a mut Renderers) -> Bench<'a> {
-        Bench { effort, scene, renderers, truths: HashMap::new(), errors: HashMap::new() }
+    pub fn new(effort: &'a Effort, subject: &'a Subject, renderers: &'a mut Renderers) -> Bench<'a> {
+        Bench { effort, subject, renderers, truths: HashMap::new(), errors: HashMap::new() }
     }
 
     /// All points of a sweep.
@@ -85,11 +85,12 @@ impl<'a> Bench<'a> {
     fn time(&mut self, sweep: &Sweep) -> (f64, Vec<(f64, f64)>) {
         let mut exact = Vec::new();
         let mut times = vec![Vec::new(); sweep.points.len()];
-        let truth = Point { label: String::new(), quality: Quality::EXACT, level: None, threads: None, default: false };
+        let truth = if sweep.truth == Truth::Dome { Truth::Dome } else { Truth::Exact }.of(&sweep.points[0]);
         let mut frame = Frame::new(self.effort.size.0, self.effort.size.1);
-        let instants = self.effort.instants.len();
+        let instants = self.effort.instants;
         for round in 0..self.effort.rounds {
             let mut timed = |point| {
+                maps::forget();
                 let began = Instant::now();
                 self.render(point, round % instants, &mut frame);
                 began.elapsed().as_secs_f64() * 1000.0
@@ -113,11 +114,11 @@ impl<'a> Bench<'a> {
     /// How far the point's pictures are off, and the samples a pixel that they take.
     fn error(&mut self, point: &Point, truth: Truth) -> (Error, f64) {
         // The number of threads changes no byte; tests see to that.
-        let key = format!("{truth:?} {:?} {:?}", point.quality, point.level);
+        let key = format!("{truth:?} {:?} {:?} {:?}", point.quality, point.dome, point.level);
         if let Some(known) = self.errors.get(&key) {
             return *known;
         }
-        let instants = self.effort.instants.len();
+        let instants = self.effort.instants;
         let (width, height) = self.effort.size;
         let mut samples = 0;
         let mut pictures = vec![Frame::new(width, height); instants];
@@ -125,8 +126,7 @@ impl<'a> Bench<'a> {
             samples += self.render(point, index, picture);
             if !self.truths.contains_key(&(truth, index)) {
                 let mut frame = Frame::new(width, height);
-                let point = Point { quality: truth.quality(), level: None, threads: None, ..point.clone() };
-                self.render(&point, index, &mut frame);
+                self.render(&truth.of(point), index, &mut frame);
                 self.truths.insert((truth, index), frame);
             }
         }
@@ -143,9 +143,9 @@ impl<'a> Bench<'a> {
 
     /// Draws a point at an instant; returns its samples.
     fn render(&mut self, point: &Point, instant: usize, frame: &mut Frame) -> u64 {
-        let time = self.effort.instants[instant] * self.scene.duration;
+        let picture = self.subject.picture(instant, point, self.effort.size);
         let renderer = self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level);
-        renderer.render(&self.scene, time, &point.quality, frame).samples
+        renderer.draw(picture, frame).samples
     }
 }
 

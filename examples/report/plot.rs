@@ -2,8 +2,7 @@
 
 use crate::measure::{Row, Table};
 use crate::metrics::Error;
-use crate::sweep::Sweep;
-use paprsek::scenes::Scene;
+use crate::sweep::{Sweep, Truth};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
@@ -26,7 +25,7 @@ const COLOURS: [RGBColor; 6] = [
 ];
 
 /// Writes the curve of a sweep as SVG. Text is the viewer's: no fonts are needed here.
-pub fn draw(path: &Path, sweep: &Sweep, tables: &[(Scene, Table)]) -> Result<(), Box<dyn std::error::Error>> {
+pub fn draw(path: &Path, sweep: &Sweep, tables: &[(&'static str, Table)]) -> Result<(), Box<dyn std::error::Error>> {
     let area = SVGBackend::new(path, (1080, 420)).into_drawing_area();
     area.fill(&WHITE)?;
     for (panel, area) in PANELS.into_iter().zip(area.split_evenly((1, 2))) {
@@ -39,7 +38,7 @@ fn draw_panel(
     area: &DrawingArea<SVGBackend, Shift>,
     (name, of, target, limit, corner): Panel,
     sweep: &Sweep,
-    tables: &[(Scene, Table)],
+    tables: &[(&'static str, Table)],
 ) -> Result<(), Box<dyn std::error::Error>> {
     let rows = || tables.iter().flat_map(|(_, table)| &table.rows);
     let fastest = rows().map(|row| row.ratio).fold(1.0, f64::max);
@@ -54,15 +53,16 @@ fn draw_panel(
         .y_label_area_size(52)
         .build_cartesian_2d(0.0..1.25 * fastest, (low - margin).max(0.0)..(high + margin).min(1.1 * limit))?;
     let mut mesh = chart.configure_mesh();
-    mesh.x_desc("times as fast as exact").y_desc(name).max_light_lines(0).bold_line_style(BLACK.mix(0.12));
+    let truth = if sweep.truth == Truth::Dome { "every pixel" } else { "exact" };
+    mesh.x_desc(format!("times as fast as {truth}")).y_desc(name).max_light_lines(0).bold_line_style(BLACK.mix(0.12));
     mesh.draw()?;
     chart.draw_series(LineSeries::new([(0.0, target), (1.25 * fastest, target)], BLACK.mix(0.45)))?;
-    for (index, (scene, table)) in tables.iter().enumerate() {
+    for (index, (name, table)) in tables.iter().enumerate() {
         let colour = COLOURS[index % COLOURS.len()];
         let at = |row: &Row| (row.ratio, of(&row.error));
         chart
             .draw_series(LineSeries::new(table.rows.iter().map(at), colour.stroke_width(2)))?
-            .label(scene.name)
+            .label(*name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
         chart.draw_series(table.rows.iter().map(|row| Circle::new(at(row), 3, colour.filled())))?;
         let defaults = table.rows.iter().filter(|row| row.point.default);

@@ -2,6 +2,7 @@
 
 use fearless_simd::Level;
 use paprsek::quality::Quality;
+use paprsek::sky::dome::DomeQuality;
 
 /// What is right, where a sweep is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -10,24 +11,46 @@ pub enum Truth {
     Exact,
     /// 64 samples a pixel.
     Reference,
+    /// 64 samples a pixel, and all else as the point has it: the limit of coverage alone.
+    Samples,
+    /// The dome at every pixel, from 100 points a direction.
+    Dome,
 }
 
 impl Truth {
-    /// The quality that renders it.
-    pub fn quality(self) -> Quality {
-        match self {
-            Truth::Exact => Quality::EXACT,
-            Truth::Reference => Quality::REFERENCE,
-        }
+    /// The setting that renders it for a point.
+    pub fn of(self, point: &Point) -> Point {
+        let (quality, dome) = match self {
+            Truth::Exact => (Quality::EXACT, None),
+            Truth::Reference => (Quality::REFERENCE, None),
+            Truth::Samples => (Quality { grid: Quality::REFERENCE.grid, ..point.quality }, None),
+            Truth::Dome => (Quality::EXACT, Some(DomeQuality::new(&Quality::EXACT))),
+        };
+        Point { quality, dome, level: None, threads: None, ..point.clone() }
     }
 
-    /// Its name on the command line.
+    /// Its name; that of the command line if it has one.
     pub fn name(self) -> &'static str {
         match self {
             Truth::Exact => "exact",
             Truth::Reference => "reference",
+            Truth::Samples => "64 samples a pixel",
+            Truth::Dome => "every pixel from 100 points",
         }
     }
+}
+
+/// Which scenes a sweep is drawn in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// What rays are traced in.
+    Tracer,
+    /// What triangles are drawn in.
+    Raster,
+    /// `day` where shadows are long, and where they are short.
+    Shadows,
+    /// The computed sky alone.
+    Sky,
 }
 
 /// One setting.
@@ -37,6 +60,8 @@ pub struct Point {
     pub label: String,
     /// Everything else as the sweep's base has it.
     pub quality: Quality,
+    /// How the sky alone is computed; in scenes the quality says that.
+    pub dome: Option<DomeQuality>,
     /// SIMD level; the machine's best where none is named.
     pub level: Option<Level>,
     /// Threads; as many as the report runs on where none is named.
@@ -56,18 +81,22 @@ pub struct Sweep {
     pub base: &'static str,
     /// What the pictures are compared with.
     pub truth: Truth,
+    /// Where it matters.
+    pub group: Group,
     /// From slow to fast, or in the knob's order.
     pub points: Vec<Point>,
 }
 
-/// Every sweep of the knobs of [`Quality`].
+/// Every sweep of the knobs of [`Quality`], and of [`DomeQuality`].
 pub fn knobs() -> Vec<Sweep> {
     let threshold = [0.0, 0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
     let weight = [0.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0];
     let detail = [0.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0];
     let (fast, default) = (("fast", Truth::Exact), ("default", Truth::Reference));
     let min_weight: Knob = ("min_weight", |q| q.min_weight, |q, value| q.min_weight = value);
-    vec![
+    let map: Knob = ("shadow_map", |q| q.shadow_map as f32, |q, value| q.shadow_map = value as u32);
+    let maps = [0.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0];
+    let mut sweeps = vec![
         sweep("threshold", fast, ("threshold", |q| q.threshold, |q, value| q.threshold = value), &threshold),
         sweep(
             "cell",
@@ -84,37 +113,67 @@ pub fn knobs() -> Vec<Sweep> {
             ("subpixel", |q| q.subpixel as f32, |q, value| q.subpixel = value as u32),
             &[0.0, 1.0, 2.0],
         ),
-    ]
+    ];
+    let coverage: Knob = ("coverage", |q| q.coverage as f32, |q, value| q.coverage = value as usize);
+    let coverage = sweep("coverage", ("default", Truth::Samples), coverage, &[1.0, 2.0, 4.0, 8.0, 16.0]);
+    sweeps.push(Sweep { group: Group::Raster, ..coverage });
+    for (file, base) in [("shadow-map", fast), ("shadow-map-default", default)] {
+        sweeps.push(Sweep { group: Group::Shadows, ..sweep(file, base, map, &maps) });
+    }
+    sweeps.push(dome("dome-cell", "cell", [0.0, 0.0055, 0.011, 0.022, 0.044, 0.088].map(|cell| (cell, None))));
+    sweeps.push(dome("dome-steps", "steps", [24, 16, 10, 8, 6, 4].map(|steps| (0.0, Some(steps)))));
+    sweeps
+}
+
+/// The dome with another cell, or another number of points at every pixel; else as `fast` has it.
+fn dome<const N: usize>(file: &'static str, knob: &'static str, values: [(f32, Option<u32>); N]) -> Sweep {
+    let from = DomeQuality::new(&Quality::FAST);
+    let point = |(cell, steps): (f32, Option<u32>)| {
+        let dome = match steps {
+            None => DomeQuality { cell, ..from },
+            // Beside interpolation its error would not be seen.
+            Some(steps) => DomeQuality { steps, cell, ..from },
+        };
+        let default = steps.map_or(dome == from, |steps| steps == from.steps);
+        let label = steps.map_or(cell.to_string(), |steps| steps.to_string());
+        Point { label, quality: Quality::FAST, dome: Some(dome), level: None, threads: None, default }
+    };
+    let points = values.into_iter().map(point).collect();
+    Sweep { file, knob, base: "fast", truth: Truth::Dome, group: Group::Sky, points }
 }
 
 /// The same picture on every SIMD level, slowest first.
-pub fn levels(levels: Vec<(&'static str, Level)>) -> Sweep {
-    let points = levels.into_iter().enumerate().rev().map(|(index, (name, level))| Point {
+pub fn levels(levels: &[(&'static str, Level)], group: Group) -> Sweep {
+    let points = levels.iter().enumerate().rev().map(|(index, &(name, level))| Point {
         label: name.into(),
         quality: Quality::FAST,
+        dome: None,
         level: Some(level),
         threads: None,
         default: index == 0,
     });
-    let points = points.collect();
-    Sweep { file: "simd", knob: "SIMD level", base: "fast", truth: Truth::Exact, points }
+    let file = if group == Group::Tracer { "simd" } else { "simd-raster" };
+    Sweep { file, knob: "SIMD level", base: "fast", truth: Truth::Exact, group, points: points.collect() }
 }
 
 /// The same picture on one thread and on all.
-pub fn threads(all: usize) -> Sweep {
+pub fn threads(all: usize, group: Group) -> Sweep {
     let points = (1..=all).map(|threads| Point {
         label: threads.to_string(),
         quality: Quality::FAST,
+        dome: None,
         level: None,
         threads: Some(threads),
         default: threads == all,
     });
-    Sweep { file: "threads", knob: "threads", base: "fast", truth: Truth::Exact, points: points.collect() }
+    let file = if group == Group::Tracer { "threads" } else { "threads-raster" };
+    Sweep { file, knob: "threads", base: "fast", truth: Truth::Exact, group, points: points.collect() }
 }
 
 /// A field of [`Quality`]: its name, how it is read, how it is set.
 type Knob = (&'static str, fn(&Quality) -> f32, fn(&mut Quality, f32));
 
+/// In the tracer's scenes.
 fn sweep(file: &'static str, (base, truth): (&'static str, Truth), (knob, get, set): Knob, values: &[f32]) -> Sweep {
     let from = Quality::named(base).expect("a quality of the command line");
     let mut values = values.to_vec();
@@ -125,9 +184,10 @@ fn sweep(file: &'static str, (base, truth): (&'static str, Truth), (knob, get, s
     let point = |value| {
         let mut quality = from;
         set(&mut quality, value);
-        Point { label: label(value), quality, level: None, threads: None, default: quality == from }
+        Point { label: label(value), quality, dome: None, level: None, threads: None, default: quality == from }
     };
-    Sweep { file, knob, base, truth, points: values.into_iter().map(point).collect() }
+    let points = values.into_iter().map(point).collect();
+    Sweep { file, knob, base, truth, group: Group::Tracer, points }
 }
 
 /// Small powers of two as fractions: that is how the code writes them.

@@ -154,7 +154,8 @@ pub struct Key {
 /// The latest map of each light. A map that is the same again is not drawn again: the frame is, either way.
 static MAPS: Mutex<Vec<(Key, Arc<DepthMap>)>> = Mutex::new(Vec::new());
 
-fn maps() -> MutexGuard<'static, Vec<(Key, Arc<DepthMap>)>> {
+/// The maps that are kept. Who alters a key has its map drawn again.
+pub fn maps() -> MutexGuard<'static, Vec<(Key, Arc<DepthMap>)>> {
     MAPS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

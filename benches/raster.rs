@@ -1,0 +1,201 @@
+//! The rasterizer: depth maps alone, and whole frames of its bench scenes. `cargo bench --bench raster`.
+//!
+//! `cargo bench --bench raster -- --test` prints million triangles a second, as other renderers count them: all 9984 of
+//! the set times the passes, whether they are seen or not. Light and torch move from frame to frame.
+
+#![allow(missing_docs)] // criterion_group! makes an undocumented function.
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use fearless_simd::Level;
+use glam::{Affine3A, Vec2, Vec3};
+use paprsek::camera::Camera;
+use paprsek::color::Transfer;
+use paprsek::quality::Quality;
+use paprsek::raster::light::{Haze, Light, Source};
+use paprsek::raster::project::Projection;
+use paprsek::raster::shadow::{self, Bias, Plan};
+use paprsek::raster::{Body, Drawn, World, fit};
+use paprsek::scenes::{self, shadow_set};
+use paprsek::tile::{Crew, Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::view::View;
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+#[path = "../examples/common/maps.rs"]
+mod maps;
+
+/// Triangles of the set.
+const TRIANGLES: usize = 9984;
+/// Frames of a figure that is printed, and the seconds between them: those of the other renderers.
+const FRAMES: usize = 40;
+const STEP: f64 = 0.05;
+const START: f64 = 2.0;
+const SIZE: (usize, usize) = (1280, 720);
+
+/// Only what a frame does before its tiles.
+struct DepthOnly(Drawn);
+
+impl Layer for DepthOnly {
+    fn prepare(&mut self, crew: &Crew) {
+        self.0.prepare(crew);
+    }
+
+    fn draw(&self, _level: Level, _tile: &mut Tile) -> Stats {
+        Stats::default()
+    }
+}
+
+/// What a light sees.
+#[derive(Clone, Copy)]
+enum Case {
+    Sun,
+    Cube,
+}
+
+impl Case {
+    /// Its name, the edge of a map in texels, the number of maps.
+    fn numbers(self) -> (&'static str, usize, usize) {
+        match self {
+            Case::Sun => ("sun 1024^2", 1024, 1),
+            Case::Cube => ("cube 6 x 512^2", 512, 6),
+        }
+    }
+
+    fn light(self, time: f64) -> Light {
+        let (_, size, _) = self.numbers();
+        let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
+        let (source, views) = match self {
+            Case::Sun => {
+                let towards = shadow_set::sun(time).as_vec3();
+                (Source::Sun(towards), vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)])
+            }
+            Case::Cube => {
+                let position = shadow_set::torch(time).as_vec3();
+                let falloff = Vec2::new(0.0, 0.06);
+                (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
+            }
+        };
+        let shadow = Some(Plan { views, bias, back_faces: false, traced: false, smooth: false });
+        Light { source, color: Vec3::ONE, shadow }
+    }
+}
+
+/// The set under a light, whose maps are all that is drawn: the camera is far off and looks away.
+fn depth_only(bodies: &[Body], light: Light) -> Picture {
+    let camera = Camera::look_at(Vec3::splat(1e4), Vec3::splat(2e4), 0.1, 0.0);
+    let world = World {
+        bodies: bodies.to_vec(),
+        textures: Vec::new(),
+        lights: vec![light],
+        ambient: [Vec3::ZERO; 2],
+        haze: Haze { color: Vec3::ZERO, density: 0.0, glow: (Vec3::Y, Vec3::ZERO) },
+        zenith: Vec3::ZERO,
+        film: false,
+        background: None,
+    };
+    let drawn = Drawn::new(world, View::new(camera, Tile::SIZE, Tile::SIZE), Tile::SIZE, Tile::SIZE, Quality::FAST);
+    Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }
+}
+
+/// The bits of every texel, mixed.
+fn sum() -> u64 {
+    let maps = shadow::maps();
+    let (key, map) = maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
+    let mut sum = 0u64;
+    for view in 0..key.plan.views.len() {
+        for (x, y) in (0..map.size).flat_map(|y| (0..map.size).map(move |x| (x, y))) {
+            sum = sum.wrapping_mul(31).wrapping_add(map.at(view, x, y).to_bits().into());
+        }
+    }
+    sum
+}
+
+/// Milliseconds of a frame: the median.
+fn median(mut frame: impl FnMut(f64)) -> f64 {
+    frame(START);
+    let timed = |k: usize| {
+        let began = Instant::now();
+        frame(START + k as f64 * STEP);
+        began.elapsed().as_secs_f64() * 1000.0
+    };
+    let mut times: Vec<f64> = (0..FRAMES).map(timed).collect();
+    times.sort_by(f64::total_cmp);
+    times[FRAMES / 2]
+}
+
+fn depth(criterion: &mut Criterion) {
+    let meshes = shadow_set::meshes();
+    assert_eq!(meshes.iter().map(|mesh| mesh.faces.len()).sum::<usize>(), TRIANGLES);
+    let bodies: Vec<_> = meshes.into_iter().map(|mesh| Body::new(Arc::new(mesh), Affine3A::IDENTITY)).collect();
+    let mut frame = Frame::new(Tile::SIZE, Tile::SIZE);
+    for case in [Case::Sun, Case::Cube] {
+        let (name, size, count) = case.numbers();
+        let mut group = criterion.benchmark_group(format!("depth {name}"));
+        group.throughput(Throughput::Elements((TRIANGLES * count) as u64)).sample_size(20);
+        let mut expected = None;
+        let settings = common::levels().into_iter().map(|level| (level, 1)).chain([(common::levels()[0], 2)]);
+        for ((level_name, level), threads) in settings {
+            let mut renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
+            let mut draw = |time: f64| {
+                maps::forget();
+                black_box(renderer.draw(depth_only(&bodies, case.light(time)), &mut frame));
+            };
+            draw(START);
+            assert_eq!(*expected.get_or_insert_with(sum), sum(), "{name} {level_name} on {threads} threads");
+            let ms = median(&mut draw);
+            println!(
+                "{name:15} {level_name:7} {threads} threads {ms:7.3} ms {:7.2} Mtri/s {:8.1} Mpixel/s",
+                (TRIANGLES * count) as f64 / ms * 1e-3,
+                (size * size * count) as f64 / ms * 1e-3
+            );
+            let mut step = 0;
+            group.bench_function(format!("{level_name} {threads} threads"), |bencher| {
+                bencher.iter(|| {
+                    step += 1;
+                    draw(START + step as f64 * STEP);
+                });
+            });
+        }
+    }
+}
+
+fn frames(criterion: &mut Criterion) {
+    let mut renderer = Renderer::new(2).expect("two threads");
+    for (name, passes) in [("shadow", 2), ("shadow-cube", 7)] {
+        let scene = scenes::named(name).expect("a bench scene");
+        let mut group = criterion.benchmark_group(name);
+        group.throughput(Throughput::Elements((SIZE.0 * SIZE.1) as u64)).sample_size(20);
+        for quality_name in ["fast", "default"] {
+            let quality = Quality::named(quality_name).expect("a quality of the command line");
+            let mut frame = Frame::new(SIZE.0, SIZE.1);
+            let mut draw = |time: f64| {
+                maps::forget();
+                renderer.render(&scene, time, &quality, &mut frame).samples
+            };
+            // Every pixel but those of the sky has a fragment.
+            let share = draw(START) as f64 / (SIZE.0 * SIZE.1) as f64;
+            assert!((0.5..2.0).contains(&share), "{name} {quality_name}: {share} fragments a pixel");
+            let ms = median(|time| {
+                draw(time);
+            });
+            println!(
+                "{name} {quality_name} 2 threads {ms:.3} ms {:.1} fps {:.2} Mtri/s",
+                1e3 / ms,
+                (TRIANGLES * passes) as f64 / ms * 1e-3
+            );
+            let mut step = 0;
+            group.bench_function(quality_name, |bencher| {
+                bencher.iter(|| {
+                    step += 1;
+                    black_box(draw(START + step as f64 * STEP))
+                });
+            });
+        }
+    }
+}
+
+criterion_group!(benches, depth, frames);
+criterion_main!(benches);

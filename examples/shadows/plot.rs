@@ -1,0 +1,73 @@
+//! Curves, a panel a set.
+
+use plotters::coord::combinators::IntoLogRange;
+use plotters::prelude::*;
+use std::error::Error;
+use std::path::Path;
+
+/// A line, and a label at each of its points.
+pub struct Curve {
+    pub name: String,
+    pub points: Vec<(f64, f64, String)>,
+}
+
+/// An axis of a panel; both are logarithmic.
+#[derive(Clone, Copy)]
+pub struct Axis {
+    pub name: &'static str,
+}
+
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(31, 119, 180),
+    RGBColor(214, 96, 20),
+    RGBColor(44, 140, 60),
+    RGBColor(148, 103, 189),
+    RGBColor(140, 86, 75),
+    RGBColor(200, 60, 140),
+    RGBColor(20, 20, 20),
+];
+/// Nothing at all has no logarithm: it is drawn here.
+const LEAST: f64 = 1e-3;
+
+/// Writes panels side by side as SVG. Text is the viewer's: no fonts are needed here.
+pub fn draw(path: &Path, names: &[&str], panels: &[Vec<Curve>], [x, y]: [Axis; 2]) -> Result<(), Box<dyn Error>> {
+    let area = SVGBackend::new(path, (1160, 460)).into_drawing_area();
+    area.fill(&WHITE)?;
+    for ((area, curves), name) in area.split_evenly((1, panels.len())).iter().zip(panels).zip(names) {
+        let points = || curves.iter().flat_map(|curve| &curve.points);
+        let range = |of: fn(&(f64, f64, String)) -> f64| {
+            let low = points().map(|point| of(point).max(LEAST)).fold(f64::MAX, f64::min);
+            let high = points().map(|point| of(point).max(LEAST)).fold(f64::MIN, f64::max);
+            (0.8 * low..1.5 * high.max(1.5 * low)).log_scale()
+        };
+        let mut chart = ChartBuilder::on(area)
+            .caption(name, ("sans-serif", 17))
+            .margin(10)
+            .x_label_area_size(36)
+            .y_label_area_size(56)
+            .build_cartesian_2d(range(|point| point.0), range(|point| point.1))?;
+        let mut mesh = chart.configure_mesh();
+        // Sums of tenths are not tenths.
+        let short = |value: &f64| ((value * 1e4).round() / 1e4).to_string();
+        mesh.x_label_formatter(&short).y_label_formatter(&short);
+        mesh.x_desc(x.name).y_desc(y.name).max_light_lines(0).bold_line_style(BLACK.mix(0.12)).draw()?;
+        for (index, curve) in curves.iter().enumerate() {
+            let colour = COLOURS[index % COLOURS.len()];
+            let at = |(x, y, _): &(f64, f64, String)| (x.max(LEAST), y.max(LEAST));
+            chart
+                .draw_series(LineSeries::new(curve.points.iter().map(at), colour.stroke_width(2)))?
+                .label(&curve.name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
+            let size = if curve.points.len() == 1 { 6 } else { 3 };
+            chart.draw_series(curve.points.iter().map(|point| Circle::new(at(point), size, colour.filled())))?;
+            chart.draw_series(curve.points.iter().map(|point| {
+                let style = ("sans-serif", 11).into_font().color(&colour);
+                EmptyElement::at(at(point)) + Text::new(point.2.clone(), (6, -12), style)
+            }))?;
+        }
+        let mut legend = chart.configure_series_labels();
+        legend.position(SeriesLabelPosition::UpperRight).border_style(BLACK.mix(0.3));
+        legend.background_style(WHITE.mix(0.8)).draw()?;
+    }
+    Ok(area.present()?)
+}
