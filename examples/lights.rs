@@ -143,7 +143,7 @@ impl Stage {
                 textures: Vec::new(),
                 lights,
                 ambient: [Vec3::splat(0.1); 2],
-                haze: Haze { color: fog, density: 0.0, glow: (Vec3::Y, Vec3::ZERO) },
+                haze: Haze { color: fog, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
                 zenith: fog,
                 film: false,
                 background: Some(fog),
