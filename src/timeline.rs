@@ -13,32 +13,35 @@ pub type Key<const N: usize> = (f32, [f32; N]);
 ///
 /// Panics where the table is empty.
 pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> [f32; N] {
-    let at = |k: usize| keys[k].0 as f64;
-    // NaN is after no key.
-    let next = keys.partition_point(|key| key.0 as f64 <= time);
-    if next == 0 || next == keys.len() {
-        return keys[next.max(1) - 1].1;
-    }
-    let here = next - 1;
-    let length = at(next) - at(here);
-    let x = ((time - at(here)) / length) as f32;
-    let length = length as f32;
-    std::array::from_fn(|i| {
-        let (a, b) = (keys[here].1[i], keys[next].1[i]);
-        let (from, to) = (slope(keys, here, i) * length, slope(keys, next, i) * length);
-        // Hermite's cubic, written so that equal keys give their value exactly.
-        let y = 1.0 - x;
-        a + (b - a) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y)
-    })
+    std::array::from_fn(|i| value(keys.len(), &|k| (keys[k].0, keys[k].1[i]), time))
 }
 
-/// Speed of value `i` at key `k`, a second.
-fn slope<const N: usize>(keys: &[Key<N>], k: usize, i: usize) -> f32 {
+/// One value of a table of `count` keys at `time`: `key` gives the seconds and the value of each.
+#[inline(never)] // Else it is unrolled for each value.
+fn value(count: usize, key: &dyn Fn(usize) -> (f32, f32), time: f64) -> f32 {
+    // NaN is after no key.
+    let next = (0..count).take_while(|&k| key(k).0 as f64 <= time).count();
+    if next == 0 || next == count {
+        return key(next.max(1) - 1).1;
+    }
+    let here = next - 1;
+    let ((start, a), (end, b)) = (key(here), key(next));
+    let length = end as f64 - start as f64;
+    let x = ((time - start as f64) / length) as f32;
+    let length = length as f32;
+    let (from, to) = (slope(count, key, here) * length, slope(count, key, next) * length);
+    // Hermite's cubic, written so that equal keys give their value exactly.
+    let y = 1.0 - x;
+    a + (b - a) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y)
+}
+
+/// Speed of that value at key `k`, a second.
+fn slope(count: usize, key: &dyn Fn(usize) -> (f32, f32), k: usize) -> f32 {
     let interval = |k: usize| {
-        let length = keys[k + 1].0 - keys[k].0;
-        (length, (keys[k + 1].1[i] - keys[k].1[i]) / length)
+        let ((start, a), (end, b)) = (key(k), key(k + 1));
+        (end - start, (b - a) / (end - start))
     };
-    let last = keys.len() - 1;
+    let last = count - 1;
     if k == 0 || k == last {
         // The parabola through the three keys of that end, as far as it is monotone; through two the line.
         let ((h, s), (h2, s2)) = match k {
