@@ -121,7 +121,8 @@ fn picture(shot: &Shot) -> Picture {
     let size = if shot.quality.shadow_map == 0 { 1024 } else { shot.quality.shadow_map };
     let plan = Plan {
         views: fit::cascades(&camera, aspect, now.direction, &[40.0, 160.0, 900.0, 6000.0], size),
-        bias: Bias { constant: 0.02, slope: 1.0, normal: 1.0 },
+        // The curve of docs/report/shadows.md has its knee here.
+        bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
         back_faces: false,
         traced: shot.quality.shadow_map == 0,
         smooth: true,
