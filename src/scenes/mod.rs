@@ -13,6 +13,8 @@ pub mod shadow_set;
 #[cfg(feature = "bench-scenes")]
 pub mod sky;
 #[cfg(feature = "bench-scenes")]
+mod sky_grid;
+#[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
 use crate::camera::{Camera, Eye};

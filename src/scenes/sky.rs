@@ -1,11 +1,11 @@
 //! The bench scene `sky`, as specified for every renderer that is compared: an analytic day, the sun and stars.
 
+use super::sky_grid::{self as grid, Cells, Field};
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::lanes::{F, Lane, V3};
 use crate::math;
-use crate::sky::grid::{self, Cells, Field};
 use crate::tile::{Layer, Picture, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -18,7 +18,7 @@ pub const SKY: Scene = Scene { name: "sky", about: "bench: a sunrise, stars", du
 
 fn picture(shot: &Shot) -> Picture {
     let view = View::new(camera(shot.time), shot.width, shot.height);
-    let cells = Cells { size: if shot.quality.cell > 1 { 8 } else { 1 }, grid: shot.quality.grid, behind: false };
+    let cells = Cells { size: if shot.quality.cell > 1 { 8 } else { 1 }, grid: shot.quality.grid };
     Picture { layers: vec![Box::new(Cycle::new(shot.time, view, cells))], transfer: Transfer::Gamma22 }
 }
 

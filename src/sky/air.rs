@@ -61,62 +61,67 @@ fn erfcx<S: Simd>(y: F<S>) -> F<S> {
 /// Chapman's function by the expansion of Fitzmaurice, "Simplification of the Chapman function", 1964: within 0.3 %.
 /// Ways that would meet the ground go on through air that gets denser, and nothing is left of them: no edge.
 #[simd]
-fn columns<S: Simd>(simd: S, height: F<S>, density: [F<S>; 2], up: F<S>) -> V3<S> {
+fn columns<S: Simd>(simd: S, height: F<S>, density: V3<S>, up: F<S>) -> V3<S> {
     let zero = F::<S>::splat(simd, 0.0);
     let (radius, down) = (height + EARTH, up.simd_lt(zero));
     let level = (F::<S>::splat(simd, 1.0) - up * up).max(zero).sqrt();
     // The lowest point of the way's line.
     let lowest = radius * level;
-    let mut sums = [zero; 2];
-    let any_down = down.any_true();
+    let mut densest = density;
+    if down.any_true() {
+        densest = thinned(simd, (lowest - EARTH).max(-40.0));
+    }
+    let (mut sums, all, low) = ([zero; 2], [density.x, density.y], [densest.x, densest.y]);
     let mut k = 0;
     while k < 2 {
-        let thin = THIN[k];
-        let root = FRAC_PI_2.sqrt() * thin.sqrt();
-        let fall = erfcx::<S>((radius * (0.5 / thin)).sqrt() * up.abs());
-        let rest = density[k] * radius.sqrt() * fall * root;
-        sums[k] = rest;
-        if any_down {
-            // Twice the way from the lowest point, but for what lies behind.
-            let densest = math::exp2(simd, ((lowest - EARTH) * (-LOG2_E / thin)).min(60.0));
-            sums[k] = down.select(densest * lowest.sqrt() * (2.0 * root) - rest, rest);
-        }
+        let root = FRAC_PI_2.sqrt() * THIN[k].sqrt();
+        let fall = erfcx::<S>((radius * (0.5 / THIN[k])).sqrt() * up.abs());
+        let rest = all[k] * radius.sqrt() * fall * root;
+        // Twice the way from the lowest point, but for what lies behind.
+        sums[k] = down.select(low[k] * lowest.sqrt() * (2.0 * root) - rest, rest);
         k += 1;
     }
     let mut ozone = zero;
     let (squared, back) = (lowest * lowest, radius * up);
-    for (edge, sign) in OZONE.into_iter().zip([-1.0, 1.0]) {
+    let mut k = 0;
+    while k < 2 {
         // The length of the way within a ball, whose edge is soft by a km: at a hard one all light that grazes the
         // shell would change at once, and dusk would jerk.
-        let q = -squared + (EARTH + edge) * (EARTH + edge);
+        let edge = EARTH + OZONE[k];
+        let q = -squared + edge * edge;
         let half: F<S> = ((q + (q * q + 1.5e8).sqrt()) * 0.5).sqrt();
-        ozone += ((half - back).max(zero) - (-half - back).max(zero)) * sign;
+        ozone = (half - back).max(zero) - (-half - back).max(zero) - ozone;
+        k += 1;
     }
     V3 { x: sums[0], y: sums[1], z: ozone.max(zero) }
 }
 
 /// Gas and haze at a height, over their densest.
-#[inline(always)]
-fn density<S: Simd>(simd: S, height: F<S>) -> [F<S>; 2] {
-    [math::exp2(simd, height * (-LOG2_E / THIN[0])), math::exp2(simd, height * (-LOG2_E / THIN[1]))]
+#[simd]
+fn thinned<S: Simd>(simd: S, height: F<S>) -> V3<S> {
+    exp3(simd, V3 { x: height * (1.0 / THIN[0]), y: height * (1.0 / THIN[1]), z: height }, -1.0)
 }
 
-impl Air {
-    /// Optical depth of columns, per colour.
-    #[inline(always)]
-    fn depth<S: Simd>(&self, simd: S, c: V3<S>) -> V3<S> {
-        V3::splat(simd, GAS) * Lane(c.x)
-            + V3::splat(simd, Vec3::splat(HAZE * HAZE_LOSS * self.haze)) * Lane(c.y)
-            + V3::splat(simd, ABSORBED * self.ozone) * Lane(c.z)
-    }
+/// The share of light that comes through columns.
+#[simd]
+fn left<S: Simd>(simd: S, air: &Air, c: V3<S>) -> V3<S> {
+    let depth = V3::splat(simd, GAS) * Lane(c.x)
+        + V3::splat(simd, Vec3::splat(HAZE * HAZE_LOSS * air.haze)) * Lane(c.y)
+        + V3::splat(simd, ABSORBED * air.ozone) * Lane(c.z);
+    exp3(simd, depth, -1.0)
+}
 
-    /// The share of light that comes through from a direction outside of the air, whose y counts.
-    #[inline(always)]
-    pub fn through<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        let eye = F::<S>::splat(simd, EYE);
-        let depth = self.depth(simd, columns(simd, eye, density(simd, eye), d.y));
-        exp3(simd, depth, -1.0)
-    }
+/// Columns from the eye to space.
+#[inline(always)]
+fn whole<S: Simd>(simd: S, up: F<S>) -> V3<S> {
+    let eye = F::<S>::splat(simd, EYE);
+    columns(simd, eye, thinned(simd, eye), up)
+}
+
+/// The share of light that comes through from a direction outside of the air, whose y counts.
+#[simd]
+pub fn through<S: Simd>(simd: S, air: &Air, d: V3<S>) -> V3<S> {
+    left(simd, air, whole(simd, d.y))
 }
 
 /// The light that air sends from unit directions: what it scatters once, an integral along each over `steps` points (three
@@ -128,17 +133,20 @@ pub fn scattered<S: Simd>(simd: S, air: &Air, lamps: &[Lamp], again: Vec3, steps
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     // Bent away from the ground smoothly, so that the horizon is no edge.
     let up: F<S> = ((d.y + (d.y * d.y + 1.5e-4).sqrt()) * 0.5).min(1.0);
-    let ground = math::exp2(simd, (d.y - up) * 3.0);
+    let low = d.y - up;
+    let ground = exp3(simd, V3 { x: low, y: low, z: low }, 2.0);
     let level: F<S> = ((one - up * up) / (one - d.y * d.y).max(1e-6)).max(zero).sqrt();
     let d: V3<S> = V3 { x: d.x * level, y: up, z: d.z * level };
     let begin = EARTH + EYE;
-    let eye = F::<S>::splat(simd, EYE);
-    let whole = columns(simd, eye, density(simd, eye), up);
+    let whole = whole(simd, up);
     let back = up * begin;
     let reach = (back * back + (TOP - EYE) * (2.0 * EARTH + TOP + EYE)).sqrt() - back;
-    let opaque = V3::splat(simd, Vec3::ONE) - exp3(simd, air.depth(simd, whole), -1.0);
+    let opaque = V3::splat(simd, Vec3::ONE) - left(simd, air, whole);
     let mut sum = opaque.mulv(V3::splat(simd, again));
     for lamp in lamps {
+        if lamp.strength == 0.0 {
+            continue;
+        }
         let cosine = d.dot1(lamp.direction);
         let gas = (cosine * cosine + 1.0) * (3.0 / 16.0 * FRAC_1_PI);
         // Cornette and Shanks, "Physically reasonable analytic expression for the single-scattering phase
@@ -157,25 +165,25 @@ pub fn scattered<S: Simd>(simd: S, air: &Air, lamps: &[Lamp], again: Vec3, steps
             let (way, length) = (reach * place, reach * (slope * lamp.strength / steps as f32));
             let radius = (way * (way + back * 2.0) + begin * begin).sqrt();
             let height = radius - EARTH;
-            let [thick, hazy] = density(simd, height);
-            let inward = columns(simd, height, [thick, hazy], (way * cosine + begin * lamp.direction.y) / radius);
-            let rest = columns(simd, height, [thick, hazy], ((way + back) / radius).min(one));
+            let here = thinned(simd, height);
+            let inward = columns(simd, height, here, (way * cosine + begin * lamp.direction.y) / radius);
+            let rest = columns(simd, height, here, ((way + back) / radius).min(one));
             let seen = V3 {
                 x: (whole.x - rest.x).max(zero),
                 y: (whole.y - rest.y).max(zero),
                 z: (whole.z - rest.z).max(zero),
             };
-            let left = exp3(simd, air.depth(simd, inward + seen), -1.0);
-            let thick = thick * length * gas;
-            let hazy = hazy * length * haze * (HAZE * air.haze);
+            let left = left(simd, air, inward + seen);
+            let thick = here.x * length * gas;
+            let hazy = here.y * length * haze * (HAZE * air.haze);
             sum = sum + left.mulv(V3::splat(simd, GAS) * Lane(thick) + V3 { x: hazy, y: hazy, z: hazy });
         }
     }
-    sum * Lane(ground)
+    sum.mulv(ground)
 }
 
 /// `e^(v k)` by component.
-#[inline(always)]
+#[simd]
 pub(super) fn exp3<S: Simd>(simd: S, v: V3<S>, k: f32) -> V3<S> {
     let k = k * LOG2_E;
     V3 { x: math::exp2(simd, v.x * k), y: math::exp2(simd, v.y * k), z: math::exp2(simd, v.z * k) }

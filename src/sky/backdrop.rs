@@ -2,7 +2,7 @@
 
 use super::disc::{self, Disc};
 use super::dome::Dome;
-use super::grid::{self, Cells};
+use super::grid;
 use super::stars::{self, Star};
 use crate::camera::Camera;
 use crate::tile::{Layer, Stats, Tile};
@@ -13,7 +13,8 @@ use fearless_simd::{Level, dispatch};
 pub struct Backdrop {
     dome: Dome,
     view: View,
-    cells: Cells,
+    size: u32,
+    behind: bool,
     discs: [Disc; 2],
     stars: Vec<Star>,
 }
@@ -43,24 +44,25 @@ impl Backdrop {
     pub fn new(dome: Dome, camera: Camera, width: usize, height: usize, look: Look) -> Backdrop {
         let view = View::new(camera, width, height);
         let mut size = 64;
-        while size > 1 && size as u32 as f32 * view.pixel() > dome.quality.cell {
+        while size > 1 && size as f32 * view.pixel() > dome.quality.cell {
             size /= 2;
         }
-        let cells = Cells { size: if size < 8 { 1 } else { size }, grid: dome.quality.grid, behind: look.behind };
         let discs = [dome.sun_disc(camera.forward, look.sun), dome.moon_disc(look.moon)];
         let stars = dome.stars(&view, width, height, look.shimmer, look.moon);
-        Backdrop { dome, view, cells, discs, stars }
+        Backdrop { dome, view, size, behind: look.behind, discs, stars }
     }
 }
 
 impl Layer for Backdrop {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        dispatch!(level, simd => grid::fill(simd, &self.dome, &self.view, self.cells, tile));
-        stars::draw(&self.stars, self.cells.behind, tile);
+        if !self.behind {
+            tile.solids_matter = true;
+            tile.clear();
+        }
+        dispatch!(level, simd => grid::fill(simd, &self.dome, &self.view, self.size, tile));
+        stars::draw(&self.stars, tile);
         for disc in &self.discs {
-            if disc.meets(&self.view, tile) {
-                dispatch!(level, simd => disc::draw(simd, disc, &self.view, self.cells.behind, tile));
-            }
+            dispatch!(level, simd => disc::draw(simd, disc, &self.view, tile));
         }
         Stats::default()
     }

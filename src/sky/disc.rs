@@ -1,8 +1,10 @@
 //! The discs of sun and moon, and the glare around the sun.
 
+use super::air::exp3;
 use super::dome::Dome;
+use super::grid::put;
 use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane};
+use crate::lanes::{F, Lane, V3};
 use crate::noise;
 use crate::tile::Tile;
 use crate::view::View;
@@ -17,7 +19,7 @@ pub struct Disc {
     axes: [Vec3; 3],
     /// Radius, radians.
     radius: f32,
-    /// How far from the middle anything is drawn, radians.
+    /// How far from the middle anything is drawn, in radii.
     reach: f32,
     /// Its light.
     color: Vec3,
@@ -44,10 +46,11 @@ impl Dome {
         // Never 0, which is the moon.
         let into = d.dot(gaze).max(0.1);
         let color = self.through(d) * self.exposure;
+        let radius = super::sun::RADIUS as f32 * scale * (1.0 + 0.6 / (1.0 + near * near));
         Disc {
             axes: axes(d, Vec3::Y),
-            radius: super::sun::RADIUS as f32 * scale * (1.0 + 0.6 / (1.0 + near * near)),
-            reach: 0.35,
+            radius,
+            reach: 0.35 / radius,
             color,
             glare: 0.12 * into * into * into * into,
             lamp: Vec3::ZERO,
@@ -64,84 +67,65 @@ impl Dome {
         let color = self.through(sky.moon) * (1.4 * light / (1.0 + light));
         let lamp = vec3(sky.moon_to_sun.dot(axes[1]), sky.moon_to_sun.dot(axes[2]), -sky.moon_to_sun.dot(axes[0]));
         let radius = sky.moon_radius * scale;
-        Disc { axes, radius, reach: radius * 1.1, color, glare: 0.0, lamp, unlit: 0.03 * (1.0 - sky.lit) }
-    }
-}
-
-impl Disc {
-    /// May a tile show it?
-    pub fn meets(&self, view: &View, tile: &Tile) -> bool {
-        let half = Tile::SIZE as f32 * 0.5;
-        let (x, y) = (tile.x as u32 as f32 + half, tile.y as u32 as f32 + half);
-        let middle = view.ray(x, y).normalize();
-        let corner = |sx, sy| middle.distance(view.ray(x + sx * half, y + sy * half).normalize());
-        let spread = corner(-1.0, -1.0).max(corner(1.0, 1.0)).max(corner(-1.0, 1.0)).max(corner(1.0, -1.0));
-        middle.distance(self.axes[0]) < spread + self.reach && self.color.max_element() > 1e-5
+        Disc { axes, radius, reach: 1.1, color, glare: 0.0, lamp, unlit: 0.03 * (1.0 - sky.lit) }
     }
 }
 
 /// Draws a disc over a tile of sky, behind what solids have left.
 #[simd]
-pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, behind: bool, tile: &mut Tile) {
+pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let [d, right, up] = disc.axes;
-    let per_pixel = view.pixel();
+    let [left, top] = [tile.x, tile.y].map(|at| at as u32 as f32 + 0.5);
+    // Half of a tile's diagonal is 45 pixels, the middle's the widest.
+    let away = view.ray(left + 32.0, top + 32.0).normalize().distance(d);
+    if away > 46.0 * view.pixel() + disc.reach * disc.radius || disc.color.max_element() < 1e-5 {
+        return;
+    }
+    let shaded = disc.glare == 0.0;
+    let k = 1.0 / disc.radius;
     for row in 0..tile.height {
-        let [mut x, mut y, mut nx, mut ny, mut nz, mut spots] = [[0.0; BLOCK]; 6];
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = (tile.x + i) as u32 as f32 + 0.5;
+        // Offsets from the middle in radii.
+        let [mut x, mut y, mut z, mut spots] = [[0.0; BLOCK]; 4];
+        for (i, x) in spots.iter_mut().enumerate() {
+            *x = left + i as u32 as f32;
         }
-        y.fill((tile.y + row) as u32 as f32 + 0.5);
         let mut any = false;
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
-            let ray = view.rays(simd, load(simd, &x, i), load(simd, &y, i));
-            let ray = ray * Lane(one / ray.dot(ray).sqrt());
-            // Offsets from the middle; the half of the sky behind is moved out of reach.
-            let back = ray.dot1(d).simd_lt(0.0);
-            let u = back.select(one, ray.dot1(right));
-            let v = back.select(one, ray.dot1(up));
-            any |= (u * u + v * v).simd_lt(disc.reach * disc.reach).any_true();
-            store(u, &mut nx, i);
-            store(v, &mut ny, i);
+            let ray = view.rays(simd, load(simd, &spots, i), F::<S>::splat(simd, top + row as u32 as f32));
+            let ray = ray * Lane(one * k / ray.dot(ray).sqrt());
+            // The half of the sky behind is moved out of reach.
+            let (u, v) = (ray.dot1(d).simd_lt(zero).select(one * k, ray.dot1(right)), ray.dot1(up));
+            let squared = u * u + v * v;
+            any |= squared.simd_lt(disc.reach * disc.reach).any_true();
+            store(u, &mut x, i);
+            store(v, &mut y, i);
+            store((one - squared).max(zero).sqrt(), &mut z, i);
             i += 1;
         }
         if !any {
             continue;
         }
-        let shaded = disc.glare == 0.0;
         if shaded {
-            let mut i = 0;
-            let k = 1.0 / disc.radius;
-            while i < BLOCK / F::<S>::LEN {
-                let (u, v) = (load::<S, F<S>>(simd, &nx, i) * k, load::<S, F<S>>(simd, &ny, i) * k);
-                store(u, &mut x, i);
-                store(v, &mut y, i);
-                store((one - u * u - v * v).max(zero).sqrt(), &mut nz, i);
-                i += 1;
-            }
-            noise::fbm_block(simd, &x, &y, &nz, 4, &mut spots);
+            noise::fbm_block(simd, &x, &y, &z, 4, &mut spots);
         }
-        let coverage = &tile.coverage.as_chunks::<BLOCK>().0[row];
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
-            let (u, v): (F<S>, F<S>) = (load(simd, &nx, i), load(simd, &ny, i));
-            let squared = u * u + v * v;
+            let (a, b, c): (F<S>, F<S>, F<S>) = (load(simd, &x, i), load(simd, &y, i), load(simd, &z, i));
+            let squared = a * a + b * b;
             let distance = squared.sqrt().max(1e-6);
-            let inside = ((-distance + disc.radius) * (1.0 / per_pixel) + 0.5).max(zero).min(one);
-            let mut light = inside;
+            let mut light = ((one - distance) * (disc.radius / view.pixel()) + 0.5).max(zero).min(one);
             if shaded {
-                let (a, b, c): (F<S>, F<S>, F<S>) = (load(simd, &x, i), load(simd, &y, i), load(simd, &nz, i));
                 let sun = (a * disc.lamp.x + b * disc.lamp.y + c * disc.lamp.z).max(zero);
                 // Lommel and Seeliger's law: dust does not darken towards the rim.
                 let lit = sun * 2.0 / (sun + c + 1e-3);
                 let seas = (load::<S, F<S>>(simd, &spots, i) * -2.2 + 0.85).max(0.45).min(one);
-                light = inside * (lit.min(one) + disc.unlit) * seas;
+                light = light * (lit.min(one) + disc.unlit) * seas;
             } else {
                 // Falls with the square, to nothing where it ends; rays are waves around the sun, doubled in number.
                 let end = (one - squared * (1.0 / (disc.reach * disc.reach))).max(zero);
-                let around = disc.radius * disc.radius;
-                let (mut p, mut q) = (u / distance, v / distance);
+                let (mut p, mut q) = (a / distance, b / distance);
                 let mut rays = one;
                 let mut k = 0;
                 while k < 4 {
@@ -153,18 +137,11 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, behind: bool, tile: &mut
                     rays += p * 0.22;
                     k += 1;
                 }
-                light += end * end * rays * (disc.glare * around) / (squared + around);
-                light += end * end * end * (disc.glare * 0.05);
+                light += end * end * (rays / (squared + 1.0) + end * 0.05) * disc.glare;
             }
-            let left = if behind { one - load::<S, F<S>>(simd, coverage, i) } else { one };
-            let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
-            for (plane, color) in planes.into_iter().zip(disc.color.to_array()) {
-                let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
-                let there: F<S> = load(simd, plane, i);
-                // The shoulder of the dome, of both lights together.
-                let shown = one - crate::math::exp2(simd, light * (-std::f32::consts::LOG2_E * color));
-                store(there + (one - there).max(zero) * shown * left, plane, i);
-            }
+            // The shoulder of the dome, of both lights together.
+            let shown = exp3(simd, V3::splat(simd, disc.color) * Lane(light), -1.0);
+            put(simd, V3::splat(simd, Vec3::ONE) - shown, true, row, i, tile);
             i += 1;
         }
     }

@@ -1,8 +1,9 @@
-//! Light that varies slowly, evaluated at the corners of square cells of pixels and interpolated between.
+//! The dome evaluated at the corners of square cells of pixels and interpolated between, or at every pixel.
 //!
 //! The sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring tiles
 //! evaluate the same ones and no seam shows.
 
+use super::dome::{Dome, What, answer};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
 use crate::texture::Block3;
@@ -11,167 +12,85 @@ use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
-/// Light by direction.
-pub trait Field: Sync {
-    /// Linear light from unit directions. To be `#[inline(always)]`, as every leaf of a kernel.
-    fn light<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S>;
-
-    /// Has it an edge on the horizon? Cells on it are evaluated at each pixel then.
-    const HORIZON: bool = false;
-}
-
-/// How a field is drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Cells {
-    /// Edge of a cell, pixels: a power of two from 8 to 64, or 1 for every pixel.
-    pub size: usize,
-    /// Samples of a pixel along each axis, where every pixel is evaluated.
-    pub grid: usize,
-    /// Only what is not covered yet is filled. Else every pixel is written.
-    pub behind: bool,
-}
-
-/// Most corners of a tile, in blocks.
-const CORNERS: usize = 2;
-
-/// Fills a tile.
+/// Adds the dome to what solids have left of a tile. `size` of cells is a power of two up to 64.
 #[simd]
-pub fn fill<S: Simd, G: Field>(simd: S, field: &G, view: &View, cells: Cells, tile: &mut Tile) {
-    if cells.behind && covered(tile) {
+pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, tile: &mut Tile) {
+    if tile.coverage.iter().all(|c| *c >= 1.0) {
         return;
     }
     let (left, top) = (tile.x as u32 as f32, tile.y as u32 as f32);
-    let size = cells.size;
-    let row = Tile::SIZE / size + 1;
-    let mut corners = [[[0.0; BLOCK]; 3]; CORNERS];
-    if size > 1 {
-        for (block, light) in corners.iter_mut().enumerate() {
-            let [mut x, mut y] = [[0.0; BLOCK]; 2];
-            for i in 0..BLOCK {
-                let corner = block * BLOCK + i;
-                x[i] = left + (corner % row * size) as u32 as f32;
-                y[i] = top + (corner / row * size) as u32 as f32;
-            }
-            let count = (row * row).saturating_sub(block * BLOCK).min(BLOCK);
-            evaluate(simd, field, view, &x, &y, count, light);
+    let mut lines = [[[0.0; BLOCK]; 3]; 2];
+    line(simd, dome, view, size, left, top, &mut lines[1]);
+    for y in 0..tile.height as u32 {
+        if y % size == 0 {
+            lines[0] = lines[1];
+            line(simd, dome, view, size, left, top + (y + size) as f32, &mut lines[1]);
         }
-    }
-    let mut bounds = [[[0.0; BLOCK]; 3]; 2];
-    let mut sharp = true;
-    for y in 0..tile.height {
-        let within = y % size;
-        if size > 1 && within == 0 {
-            // Which side of the horizon a ray is on is linear over the picture: corners of the band tell.
-            let at = top + y as u32 as f32;
-            let (mut low, mut high) = (f32::MAX, f32::MIN);
-            for (x, y) in [(0.0, 0.0), (64.0, 0.0), (0.0, size as u32 as f32), (64.0, size as u32 as f32)] {
-                let up = view.ray(left + x, at + y).y;
-                (low, high) = (low.min(up), high.max(up));
-            }
-            sharp = G::HORIZON && low <= 0.0 && high >= 0.0;
-            for (below, bound) in bounds.iter_mut().enumerate() {
-                widen(&corners, (y / size + below) * row, size, bound);
-            }
-        }
-        let mut line = [[0.0; BLOCK]; 3];
-        if sharp {
-            sample(simd, field, view, cells.grid, left, top + y as u32 as f32, &mut line);
-        } else {
-            let share = (within as u32 as f32 + 0.5) / size as u32 as f32;
-            for (channel, line) in line.iter_mut().enumerate() {
-                let mut i = 0;
-                while i < BLOCK / F::<S>::LEN {
-                    let a: F<S> = load(simd, &bounds[0][channel], i);
-                    let b: F<S> = load(simd, &bounds[1][channel], i);
-                    store(a + (b - a) * share, line, i);
-                    i += 1;
-                }
-            }
-        }
-        put(simd, cells.behind, &line, y, tile);
-    }
-}
-
-/// Have solids left nothing of a tile?
-fn covered(tile: &Tile) -> bool {
-    tile.coverage.as_chunks::<{ Tile::SIZE }>().0[..tile.height]
-        .iter()
-        .all(|row| row[..tile.width].iter().all(|c| *c >= 1.0))
-}
-
-/// The light of the first `count` of 64 points of the picture, in pixels.
-#[simd]
-pub fn evaluate<S: Simd, G: Field>(
-    simd: S,
-    field: &G,
-    view: &View,
-    x: &[f32; BLOCK],
-    y: &[f32; BLOCK],
-    count: usize,
-    out: &mut Block3,
-) {
-    let mut i = 0;
-    while i * F::<S>::LEN < count {
-        let ray = view.rays(simd, load(simd, x, i), load(simd, y, i));
-        let light = field.light(simd, ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt()));
-        store(light.x, &mut out[0], i);
-        store(light.y, &mut out[1], i);
-        store(light.z, &mut out[2], i);
-        i += 1;
-    }
-}
-
-/// A row of pixels from (`left`, `top`) on, evaluated at `grid` times `grid` points of each.
-#[simd]
-fn sample<S: Simd, G: Field>(simd: S, field: &G, view: &View, grid: usize, left: f32, top: f32, out: &mut Block3) {
-    let step = 1.0 / grid as u32 as f32;
-    let [mut x, mut y] = [[0.0; BLOCK]; 2];
-    let mut light = [[0.0; BLOCK]; 3];
-    for part in 0..grid * grid {
-        y.fill(top + ((part / grid) as u32 as f32 + 0.5) * step);
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = left + i as u32 as f32 + ((part % grid) as u32 as f32 + 0.5) * step;
-        }
-        evaluate(simd, field, view, &x, &y, BLOCK, &mut light);
-        for (sum, light) in out.iter_mut().zip(&light) {
-            for (sum, light) in sum.iter_mut().zip(light) {
-                *sum += light * step * step;
-            }
-        }
-    }
-}
-
-/// A row of corners, from `first` on, interpolated along x.
-fn widen(corners: &[Block3; CORNERS], first: usize, size: usize, out: &mut Block3) {
-    let step = 1.0 / size as u32 as f32;
-    for (channel, out) in out.iter_mut().enumerate() {
-        for (cell, pixels) in out.chunks_mut(size).enumerate() {
-            let at = |i: usize| corners[i / BLOCK][channel][i % BLOCK];
-            let (a, b) = (at(first + cell), at(first + cell + 1));
-            for (i, pixel) in pixels.iter_mut().enumerate() {
-                *pixel = a + (b - a) * ((i as u32 as f32 + 0.5) * step);
-            }
-        }
-    }
-}
-
-/// Writes a row of light into a tile, or adds it behind what is there.
-#[inline(always)]
-fn put<S: Simd>(simd: S, behind: bool, line: &Block3, y: usize, tile: &mut Tile) {
-    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
-    let coverage = &tile.coverage.as_chunks::<BLOCK>().0[y];
-    for (plane, line) in planes.into_iter().zip(line) {
-        let plane = &mut plane.as_chunks_mut::<BLOCK>().0[y];
-        if !behind {
-            *plane = *line;
-            continue;
-        }
+        let share = ((y % size) as f32 + middle(size)) / size as f32;
+        let [a, b] = &lines;
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
-            let light: F<S> = load(simd, line, i);
-            let left = F::<S>::splat(simd, 1.0) - load::<S, F<S>>(simd, coverage, i);
-            store(load::<S, F<S>>(simd, plane, i) + light * left, plane, i);
+            let (a, b) = (load3(simd, a, i), load3(simd, b, i));
+            put(simd, a + (b - a) * Lane(F::<S>::splat(simd, share)), false, y as usize, i, tile);
             i += 1;
         }
+    }
+}
+
+/// Where pixels lie within cells: between corners, but a cell of one pixel has its light.
+fn middle(size: u32) -> f32 {
+    if size > 1 { 0.5 } else { 0.0 }
+}
+
+/// A row of 64 pixels from (`left`, `top`) on, between corners; or each at as many points as the quality says.
+#[simd]
+fn line<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, left: f32, top: f32, out: &mut Block3) {
+    let grid = if size > 1 { 1 } else { dome.quality.grid as u32 };
+    let step = 1.0 / grid as f32;
+    let mut x = [0.0; BLOCK];
+    for (i, x) in x.iter_mut().enumerate() {
+        *x = left + (i as u32 * size) as f32;
+    }
+    let mut sum = [[0.0; BLOCK]; 3];
+    for part in 0..grid * grid {
+        let dx = ((part % grid) as f32 + 0.5) * step - middle(size);
+        let dy = ((part / grid) as f32 + 0.5) * step - middle(size);
+        let mut i = 0;
+        while i < BLOCK / F::<S>::LEN && i * F::<S>::LEN <= BLOCK / size as usize {
+            let ray = view.rays(simd, load::<S, F<S>>(simd, &x, i) + dx, F::<S>::splat(simd, top + dy));
+            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
+            let light = answer(simd, dome, d, What::Shown) * Lane(F::<S>::splat(simd, step * step));
+            let light = load3(simd, &sum, i) + light;
+            store(light.x, &mut sum[0], i);
+            store(light.y, &mut sum[1], i);
+            store(light.z, &mut sum[2], i);
+            i += 1;
+        }
+    }
+    for (sum, out) in sum.iter().zip(out) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let cell = i / size as usize;
+            let (a, b) = (sum[cell], sum[(cell + 1) % BLOCK]);
+            *out = a + (b - a) * ((i as u32 % size) as f32 + middle(size)) / size as f32;
+        }
+    }
+}
+
+#[inline(always)]
+fn load3<S: Simd>(simd: S, v: &Block3, i: usize) -> V3<S> {
+    V3 { x: load(simd, &v[0], i), y: load(simd, &v[1], i), z: load(simd, &v[2], i) }
+}
+
+/// Adds light to what solids have left of vector `i` of a row; `soft` is less where there is light already.
+#[simd]
+pub fn put<S: Simd>(simd: S, light: V3<S>, soft: bool, row: usize, i: usize, tile: &mut Tile) {
+    let one = F::<S>::splat(simd, 1.0);
+    let left = one - load::<S, F<S>>(simd, &tile.coverage.as_chunks::<BLOCK>().0[row], i);
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, light) in planes.into_iter().zip([light.x, light.y, light.z]) {
+        let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
+        let there: F<S> = load(simd, plane, i);
+        let room = if soft { (one - there).max(0.0) } else { one };
+        store(there + light * room * left, plane, i);
     }
 }

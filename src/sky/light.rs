@@ -1,6 +1,6 @@
 //! The light that matters now, for what stands below the sky.
 
-use super::dome::{Dome, MOONLIGHT};
+use super::dome::Dome;
 use glam::{Vec3, vec3};
 use std::f32::consts::FRAC_1_PI;
 
@@ -26,9 +26,8 @@ impl Dome {
     /// The light of sun or moon, and of the sky.
     pub fn lighting(&self) -> Lighting {
         let sky = &self.sky;
-        let moonlight = MOONLIGHT * sky.lit * sky.lit * sky.lit;
         let scale = self.exposure * FRAC_1_PI;
-        let (sun, moon) = (self.through(sky.sun) * scale, self.through(sky.moon) * (scale * moonlight));
+        let [sun, moon] = self.lamps.map(|lamp| self.through(lamp.direction) * (scale * lamp.strength));
         let (a, b) = (luminance(sun), luminance(moon));
         let (direction, color) = if a >= b { (sky.sun, sun) } else { (sky.moon, moon) };
         let color = color * ((a - b).abs() / a.max(b).max(1e-9));

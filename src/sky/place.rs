@@ -2,7 +2,7 @@
 //!
 //! World axes: x east, y up, z south. Equatorial axes: x to the equinox of date, z to the north pole.
 
-use super::time::{centuries, sane};
+use super::time::{sane, turned};
 use glam::{DMat3, DVec3, dvec3};
 
 /// A place on a round earth.
@@ -27,19 +27,19 @@ impl Place {
     /// The rotation from equatorial axes to the world's at a time. Its z axis is the celestial pole.
     ///
     /// At a pole, where there is no east, the longitude says what south is. Angles that are no numbers count as 0.
+    #[inline(never)]
     pub fn turn(&self, days: f64) -> DMat3 {
-        let (s, c) = sidereal(days, self.longitude).sin_cos();
-        let (sin, cos) = sane(self.latitude).sin_cos();
+        let (s, c) = turned(sidereal(days, self.longitude));
+        let (sin, cos) = turned(sane(self.latitude).to_degrees());
         DMat3::from_cols(dvec3(-s, c * cos, c * sin), dvec3(c, s * cos, s * sin), dvec3(0.0, sin, -cos))
     }
 }
 
-/// Local mean sidereal time, radians. Meeus, "Astronomical Algorithms", 1998, 12.4.
+/// Local mean sidereal time, degrees. Meeus, "Astronomical Algorithms", 1998, 12.4, without the square of centuries, 1.4".
 ///
 /// Mean, as the equinox of [`super::sun`] and [`super::moon`] is: their nutation would cancel.
-pub fn sidereal(days: f64, longitude: f64) -> f64 {
-    let t = centuries(days);
-    (280.460_618_37 + 360.985_647_366_29 * sane(days) + 3.879e-4 * t * t).to_radians() + sane(longitude)
+fn sidereal(days: f64, longitude: f64) -> f64 {
+    280.460_618_37 + 360.985_647_366_29 * sane(days) + sane(longitude).to_degrees()
 }
 
 /// Altitude over the horizon and azimuth, from north over east, 0 to 2 pi, of a unit direction. Radians.
@@ -52,21 +52,12 @@ pub fn angles(d: DVec3) -> (f64, f64) {
     (d.y.clamp(-1.0, 1.0).asin(), if level { 0.0 } else { azimuth + turn })
 }
 
-/// How much air lifts what is at a true altitude, radians: 0.0084 (29') at 0, 1010 hPa and 10 C.
+/// The direction in which air shows a true unit direction: it lifts by 0.0084 (29') at 0, 1010 hPa and 10 C.
 ///
-/// Saemundsson, Sky and Telescope 72, 1986, p. 70, down to -1 degree, where his formula is still sound; from there it fades
-/// to nothing at -6. The zenith stays where it is to within 0.1".
-pub fn refraction(altitude: f64) -> f64 {
-    let h = altitude.to_degrees();
-    let low = h.max(-1.0);
-    let lift = 1.02 / (low + 10.3 / (low + 5.11)).to_radians().tan() / 60.0;
-    lift.to_radians() * (1.2 + h * 0.2).clamp(0.0, 1.0)
-}
-
-/// The direction in which air shows a true unit direction.
+/// Saemundsson, Sky and Telescope 72, 1986, p. 70, within 0.1" as a fraction of the altitude's sine, down to -1 degree, where
+/// his formula is still sound; from there it fades to nothing at -6.
 pub fn refracted(d: DVec3) -> DVec3 {
-    let (altitude, azimuth) = angles(d);
-    let (y, level) = (altitude + refraction(altitude)).sin_cos();
-    let (east, north) = azimuth.sin_cos();
-    dvec3(level * east, y, -level * north)
+    let low = d.y.max(-0.017_45);
+    let lift = 2.964_67e-4 / (low + 0.003_134_79 / (low + 0.089_147));
+    (d + DVec3::Y * (lift * (1.2 + d.y * 11.46).clamp(0.0, 1.0))).normalize()
 }

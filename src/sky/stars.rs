@@ -2,13 +2,15 @@
 //!
 //! Drawn as small soft spots rather than looked for in each pixel: a few hundred are in view, and they glide.
 
-use super::dome::Dome;
+use super::dome::{Dome, power};
+use super::time::turned;
+use crate::hash::rnd;
 use crate::tile::Tile;
 use crate::view::View;
 use glam::{Vec3, vec3};
 
 /// How many are brighter than the faintest, of magnitude 6.
-const COUNT: u32 = 5000;
+const COUNT: f32 = 5000.0;
 
 /// A star in view.
 #[derive(Clone, Copy, Debug)]
@@ -19,18 +21,6 @@ pub struct Star {
     pub color: Vec3,
 }
 
-/// The three words of entry `n` of a table of noise. Widynski's Squares would do; this is murmur's finalizer (Appleby).
-fn hash(n: u32) -> u32 {
-    let n = (n ^ n >> 16).wrapping_mul(0x85eb_ca6b);
-    let n = (n ^ n >> 13).wrapping_mul(0xc2b2_ae35);
-    n ^ n >> 16
-}
-
-/// A number of -1 to 1.
-fn random(n: u32) -> f32 {
-    (hash(n) >> 8) as f32 * (2.0 / 16_777_216.0) - 1.0
-}
-
 impl Dome {
     /// The stars that a view shows beside a moon `moon` times its true size; `shimmer` is the time that they twinkle by,
     /// seconds.
@@ -39,60 +29,61 @@ impl Dome {
     /// are of each as in the true sky, and the light of the sky says which magnitude is seen.
     pub fn stars(&self, view: &View, width: usize, height: usize, shimmer: f64, moon: f32) -> Vec<Star> {
         let mut stars = Vec::new();
-        // Decades of light from the darkest sky. Each costs 1.8 magnitudes: the first star is out when
-        // the sun is 2 degrees down.
-        let faintest = 6.2 - 1.8 * (self.level.max(1e-9) / 3e-7).log10();
-        let moon = (self.sky.moon, self.sky.moon_radius * moon);
-        for n in 0..COUNT {
-            let magnitude = 6.0 + 2.0 * ((n as f32 + 0.5) / COUNT as f32).log10();
-            let seen = faintest - magnitude;
-            if seen <= 0.0 {
-                break;
-            }
-            let place = vec3(random(3 * n), random(3 * n + 1), random(3 * n + 2));
+        // The number of the faintest. The first star is out when the sun is 2 degrees down.
+        let end = 6295.0 * power(3e-7 / self.level.max(1e-9), 230);
+        let moon = self.sky.moon_radius * moon;
+        for n in 0..end.min(COUNT) as u32 {
+            let place = 2.0 * vec3(rnd(50, n, 0), rnd(50, n, 1), rnd(50, n, 2)) - 1.0;
             // Points of a cube beyond its ball would crowd in its corners.
-            let d = self.sky.turn * place.normalize_or_zero();
-            let (x, y) = match view.project(view.camera().eye + d) {
-                Some((x, y, _)) => (x, y),
-                None => continue,
-            };
-            let inside = |at: f32, size: usize| at > -3.0 && at < size as u32 as f32 + 3.0;
-            if place.length_squared() > 1.0 || d.y < 0.0 || d.distance(moon.0) < moon.1 {
+            let length = place.length();
+            let d = self.sky.turn * place / length;
+            if length > 1.0 || d.y < 0.0 || d.distance(self.sky.moon) < moon {
                 continue;
             }
-            if inside(x, width) && inside(y, height) {
-                // Low ones are dimmed and twinkle most.
-                let low = 1.0 / (1.0 + 12.0 * d.y);
-                let phase = shimmer * (5.0 + 3.0 * random(n) as f64) + n as f64;
-                let twinkle = 1.0 + (0.1 + 0.4 * low) * phase.sin() as f32;
-                let light = (0.09 * seen + 0.03 * seen * seen).min(1.8) * twinkle * (1.0 - low);
-                // From orange to blue, as black bodies are.
-                let hue = random(n + 7) * 0.25;
-                stars.push(Star { at: (x, y), color: vec3(1.0 + hue, 1.0, 1.0 - hue) * light });
+            let Some((x, y, _)) = view.project(view.camera().eye + d) else { continue };
+            let outside = |at: f32, size: usize| {
+                let half = 0.5 * size as u32 as f32;
+                (at - half).abs() > half + 3.0
+            };
+            if outside(x, width) || outside(y, height) {
+                continue;
             }
+            // Low ones are dimmed and twinkle most.
+            let low = 1.0 / (1.0 + 12.0 * d.y);
+            let hue = rnd(50, n, 3) - 0.5;
+            let phase = shimmer * (300.0 + 340.0 * hue as f64) + n as f64 * 57.3;
+            let twinkle = 1.0 + (0.1 + 0.4 * low) * turned(phase).0 as f32;
+            // Fourth roots instead of magnitudes.
+            let seen = power(end / (n as f32 + 0.5), 64) - 1.0;
+            let light = (0.38 * seen).clamp(0.0, 1.8) * twinkle * (1.0 - low);
+            // From orange to blue, as black bodies are.
+            stars.push(Star { at: (x, y), color: vec3(1.0 + 0.5 * hue, 1.0, 1.0 - 0.5 * hue) * light });
         }
         stars
     }
 }
 
 /// Adds stars to what solids have left of a tile.
-pub fn draw(stars: &[Star], behind: bool, tile: &mut Tile) {
+pub fn draw(stars: &[Star], tile: &mut Tile) {
     const REACH: f32 = 2.5;
     for star in stars {
         let (x, y) = (star.at.0 - tile.x as u32 as f32, star.at.1 - tile.y as u32 as f32);
-        let clip = |at: f32, size: usize| at.clamp(0.0, size as u32 as f32) as usize;
-        for row in clip(y - REACH, tile.height)..clip(y + REACH, tile.height) {
-            for column in clip(x - REACH, tile.width)..clip(x + REACH, tile.width) {
-                let (dx, dy) = (column as u32 as f32 + 0.5 - x, row as u32 as f32 + 0.5 - y);
-                // Flat in the middle and at the rim, so that a spot that glides over pixels keeps its light.
-                let fall = (1.0 - (dx * dx + dy * dy) / (REACH * REACH)).max(0.0);
-                let at = row * Tile::SIZE + column;
-                let left = if behind { 1.0 - tile.coverage[at] } else { 1.0 };
-                let light = star.color * (fall * fall * fall * left);
-                tile.red[at] += light.x;
-                tile.green[at] += light.y;
-                tile.blue[at] += light.z;
+        if (x - 32.0).abs() > 35.0 || (y - 32.0).abs() > 35.0 {
+            continue;
+        }
+        for k in 0..36 {
+            let (column, row) = ((x + 61.5) as i32 - 64 + k % 6, (y + 61.5) as i32 - 64 + k / 6);
+            if (column | row) as u32 >= Tile::SIZE as u32 {
+                continue;
             }
+            let (dx, dy) = (column as f32 + 0.5 - x, row as f32 + 0.5 - y);
+            // Flat in the middle and at the rim, so that a spot that glides over pixels keeps its light.
+            let fall = (1.0 - (dx * dx + dy * dy) / (REACH * REACH)).max(0.0);
+            let at = row as usize * Tile::SIZE + column as usize;
+            let light = star.color * (fall * fall * fall * (1.0 - tile.coverage[at]));
+            tile.red[at] += light.x;
+            tile.green[at] += light.y;
+            tile.blue[at] += light.z;
         }
     }
 }

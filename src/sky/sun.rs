@@ -1,7 +1,7 @@
 //! Where the sun is, and when it rises and sets.
 
 use super::place::{Place, angles};
-use super::time::centuries;
+use super::time::{centuries, turned};
 use glam::{DVec3, dvec3};
 
 /// Altitude of the sun's centre when its upper edge is seen on the horizon, radians: -0.833 degrees, 34' of refraction
@@ -11,10 +11,11 @@ pub const RISE: f64 = -0.833 / 57.295_779_513_082_32;
 /// Radius of the sun's disc, radians, at its mean distance; it varies by 1.7 %.
 pub const RADIUS: f64 = 0.266_6 / 57.295_779_513_082_32;
 
-/// From ecliptic longitude and latitude of date, radians, to a unit vector on equatorial axes.
+/// From ecliptic longitude and latitude of date, degrees, to a unit vector on equatorial axes.
+#[inline(never)]
 pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
-    let (sin, cos) = (23.4393 - 0.013 * centuries(days)).to_radians().sin_cos();
-    let ((s, c), (z, level)) = (longitude.sin_cos(), latitude.sin_cos());
+    let (sin, cos) = turned(23.4393 - 0.013 * centuries(days));
+    let ((s, c), (z, level)) = (turned(longitude), turned(latitude));
     let y = s * level;
     dvec3(c * level, y * cos - z * sin, y * sin + z * cos)
 }
@@ -25,12 +26,10 @@ pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
 /// The Astronomical Almanac's shorter series drifts away by 0.02 to 1900 and 2100.
 pub fn equator(days: f64) -> DVec3 {
     let t = centuries(days);
-    let anomaly = (357.529_11 + 35_999.050_29 * t).to_radians();
-    let (s1, c1) = anomaly.sin_cos();
-    let center = (1.914_602 - 0.004_817 * t) * s1 + 0.039_986 * s1 * c1 + 2.9e-4 * (anomaly * 3.0).sin();
-    // 0.00569 is the aberration.
-    let longitude = 280.466_46 - 0.005_69 + t * (36_000.769_83 + t * 3.03e-4) + center;
-    equatorial(longitude.to_radians(), 0.0, days)
+    let (s, c) = turned(357.529_11 + 35_999.050_29 * t);
+    let center = (1.914_602 - 0.004_817 * t) * s + 0.039_986 * s * c;
+    // The aberration is in the first number.
+    equatorial(280.460_77 + t * 36_000.769_83 + center, 0.0, days)
 }
 
 /// The sun's true unit direction on world axes, without refraction; see [`super::place::refracted`].

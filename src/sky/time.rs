@@ -77,3 +77,9 @@ pub fn add_months(from: f64, months: i64) -> f64 {
 pub(super) fn centuries(days: f64) -> f64 {
     sane(days) / 36_525.0
 }
+
+/// Sine and cosine of degrees.
+#[inline(never)]
+pub(super) fn turned(degrees: f64) -> (f64, f64) {
+    degrees.to_radians().sin_cos()
+}
