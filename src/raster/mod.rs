@@ -1,7 +1,7 @@
 //! The rasterizer: triangles, shadow depth maps, several lights.
 //!
 //! One flow: [`mesh`] (what there is) -> [`triangle`] (clipped and snapped, in the camera's raster and in each light's) ->
-//! [`bins`] (by tile) -> [`fill`] (which triangle each pixel shows; in a light's raster that is all, a [`shadow`] map) ->
+//! [`bins`] (by tile) -> [`mod@fill`] (which triangle each pixel shows; in a light's raster that is all, a [`shadow`] map) ->
 //! [`shade`] (each visible fragment once, under all [`light`]s that reach it).
 
 pub mod bins;

@@ -14,7 +14,7 @@ pub struct Moon {
     pub distance: f64,
     /// Radius of the disc, radians.
     pub radius: f64,
-    /// Unit vector from the moon to the sun, as good as the earth's: which side is lit.
+    /// Unit vector from the moon to the sun: which side is lit.
     pub to_sun: DVec3,
     /// Share of the disc that is lit, 0 to 1, as almanacs count it: from the earth's centre. A place may see 0.008 more
     /// or less.
@@ -24,6 +24,8 @@ pub struct Moon {
 /// Radii of moon and earth, km.
 const RADIUS: f64 = 1737.4;
 const EARTH: f64 = 6371.0;
+/// The sun's mean distance, km.
+const SUN: f64 = 149_597_870.7;
 
 /// Arguments of the series, degrees at J2000 and a century: elongation, the sun's anomaly, the moon's, and its distance
 /// from the node. Rounded to 0.1.
@@ -75,7 +77,7 @@ impl Moon {
         }
         let center = sun::equatorial(sums[0], sums[1], days);
         let turn = place.turn(days);
-        let sun = sun::equator(days);
+        let to_sun = (sun::equator(days) * SUN - center * range).normalize();
         // From the place rather than from the earth's centre: up to a degree.
         let moon = turn * center * range - DVec3::Y * EARTH;
         let distance = moon.length();
@@ -83,8 +85,8 @@ impl Moon {
             direction: moon / distance,
             distance,
             radius: RADIUS / distance,
-            to_sun: turn * sun,
-            lit: 0.5 - 0.5 * sun.dot(center),
+            to_sun: turn * to_sun,
+            lit: 0.5 - 0.5 * to_sun.dot(center),
         }
     }
 }
