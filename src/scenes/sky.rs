@@ -17,7 +17,7 @@ use std::sync::OnceLock;
 pub const SKY: Scene = Scene { name: "sky", about: "bench: a sunrise, stars", duration: 20.0, picture };
 
 fn picture(shot: &Shot) -> Picture {
-    let view = View::new(camera(shot.time), shot.width, shot.height);
+    let view = View::new(shot.camera(camera(shot.time)), shot.width, shot.height);
     let cells = Cells { size: if shot.quality.cell > 1 { 8 } else { 1 }, grid: shot.quality.grid };
     Picture { layers: vec![Box::new(Cycle::new(shot.time, view, cells))], transfer: Transfer::Gamma22 }
 }
