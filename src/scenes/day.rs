@@ -6,6 +6,7 @@ use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::raster::fit;
 use crate::raster::light::{Haze, Light, Source};
+use crate::raster::mesh::Mesh;
 use crate::raster::shadow::{Bias, Plan};
 use crate::raster::{Body, Drawn, World};
 use crate::sky::backdrop::{Backdrop, Look};
@@ -67,8 +68,8 @@ const CAMERA: &[Key<7>] = &[
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
-fn bodies() -> &'static (Vec<Body>, [Arc<crate::raster::mesh::Mesh>; 2]) {
-    static BODIES: OnceLock<(Vec<Body>, [Arc<crate::raster::mesh::Mesh>; 2])> = OnceLock::new();
+fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
+    static BODIES: OnceLock<(Vec<Body>, [Arc<Mesh>; 2])> = OnceLock::new();
     BODIES.get_or_init(|| {
         let mut meshes = land::ground();
         meshes.extend(tree::woods(&tree::trees()));
@@ -108,7 +109,8 @@ fn picture(shot: &Shot) -> Picture {
     let (still, aeroplane) = bodies();
     let mut bodies = still.clone();
     // Over the hill in some seconds, again and again.
-    let way = (shot.time / 15.0 - (shot.time / 15.0).floor() - 0.5) as f32 * 900.0;
+    let flights = shot.time / 15.0;
+    let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
     let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
     // Turns a second, five.
@@ -130,18 +132,17 @@ fn picture(shot: &Shot) -> Picture {
     let mut lights = vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: Some(plan) }];
     // Somebody lights a lamp when it gets dark.
     let dark = ease(-0.02, 0.1, -dome.sky.sun.y as f64);
-    for (position, color, reach) in [(vec3(0.0, 14.5, 1.0), vec3(3.2, 1.5, 0.5), 30.0)] {
-        if dark > 0.0 {
-            let plan = Plan {
-                views: fit::cube(position, 512),
-                bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
-                back_faces: false,
-                traced: false,
-                smooth: true,
-            };
-            let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach };
-            lights.push(Light { source, color: color * dark, shadow: Some(plan) });
-        }
+    if dark > 0.0 {
+        let position = vec3(0.0, 14.5, 1.0);
+        let plan = Plan {
+            views: fit::cube(position, 512),
+            bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
+            back_faces: false,
+            traced: false,
+            smooth: true,
+        };
+        let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
+        lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
     }
     let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
     let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
