@@ -52,7 +52,7 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     x11::cut(&metadata(&root, toolchain)?, &crates)?;
     let mut cargo = toolchain.cargo(&root);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
-    cargo.args(["--no-default-features", "--features", "x11"]);
+    cargo.args(["--no-default-features", "--features", "x11,day"]);
     cargo.arg("-Zprofile-rustflags");
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
     cargo.arg("--target-dir").arg(&target);
