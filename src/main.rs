@@ -5,12 +5,13 @@ mod bench;
 mod canvas;
 mod capture;
 mod clock;
-#[cfg(unix)]
+#[cfg(all(unix, feature = "minifb"))]
 mod last_word;
 mod number;
 mod present;
 #[cfg(all(unix, feature = "terminal"))]
 mod terminal;
+mod window;
 
 use args::{Args, Mode};
 use paprsek::scenes;
@@ -41,8 +42,8 @@ fn run(args: &Args) -> Result<(), String> {
 
 /// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens anywhere.
 fn play(args: &Args) -> Result<(), String> {
-    let why = match present::Screen::open(args.size) {
-        Ok(screen) => return screen.play(args),
+    let why = match window::Window::open(args.size) {
+        Ok(window) => return present::play(window, args),
         Err(why) => why,
     };
     #[cfg(all(unix, feature = "terminal"))]

@@ -1,4 +1,4 @@
-//! The window: the only file that names minifb.
+//! Plays in a window.
 //!
 //! The window lives on the main thread and the renderer on one of its own, which is a worker of the renderer. So
 //! Esc ends at once however long a frame takes, and a frame is sent to the display while the next one renders.
@@ -6,13 +6,9 @@
 use crate::args::Args;
 use crate::canvas;
 use crate::clock::Clock;
-#[cfg(unix)]
-use crate::last_word::during;
-use minifb::{InputCallback, Key, ScaleMode, Window, WindowOptions};
+use crate::window::{Press, Window};
 use paprsek::tile::{Frame, Renderer};
-use std::cell::RefCell;
-use std::mem::{replace, swap, take};
-use std::rc::Rc;
+use std::mem::{swap, take};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -40,82 +36,52 @@ struct Desk {
 
 type Shared = (Mutex<Desk>, Condvar);
 
-/// An open window.
-pub struct Screen {
-    window: Window,
-    keys: Keys,
-}
-
-impl Screen {
-    /// Opens a window of the render size; the error says why there is none.
-    pub fn open(size: (usize, usize)) -> Result<Screen, String> {
-        let options =
-            WindowOptions { resize: true, scale_mode: ScaleMode::AspectRatioStretch, ..WindowOptions::default() };
-        let mut window =
-            during(|| Window::new("Paprsek", size.0, size.1, options)).map_err(|error| error.to_string())?;
-        window.set_cursor_visibility(false);
-        // The renderer keeps the pace; minifb would sleep a second time.
-        window.set_target_fps(0);
-        let keys = Keys::default();
-        window.set_input_callback(Box::new(keys.clone()));
-        Ok(Screen { window, keys })
-    }
-
-    /// Plays until Esc, until the window is closed or until the range ends.
-    pub fn play(mut self, args: &Args) -> Result<(), String> {
-        let mut frame = canvas::frame(args.size)?;
-        let desk = Desk { clock: Clock::new(args), frame: canvas::frame(args.size)?, fresh: false, ended: None };
-        let shared: Arc<Shared> = Arc::new((Mutex::new(desk), Condvar::new()));
-        let (theirs, scene, quality, stereo) = (shared.clone(), args.scene(), args.quality, args.stereo);
-        let (threads, back) = (args.threads, canvas::frame(args.size)?);
-        let render = move || {
-            let ended = Renderer::new(threads).map(|renderer| {
-                render(renderer, back, &theirs, |renderer, time, frame| {
-                    renderer.render_eyes(&scene, time, &quality, stereo, frame);
-                });
+/// Plays until Esc, until the window is closed or until the range ends.
+pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
+    let mut frame = canvas::frame(args.size)?;
+    let desk = Desk { clock: Clock::new(args), frame: canvas::frame(args.size)?, fresh: false, ended: None };
+    let shared: Arc<Shared> = Arc::new((Mutex::new(desk), Condvar::new()));
+    let (theirs, scene, quality, stereo) = (shared.clone(), args.scene(), args.quality, args.stereo);
+    let (threads, back) = (args.threads, canvas::frame(args.size)?);
+    let render = move || {
+        let ended = Renderer::new(threads).map(|renderer| {
+            render(renderer, back, &theirs, |renderer, time, frame| {
+                renderer.render_eyes(&scene, time, &quality, stereo, frame);
             });
-            lock(&theirs).ended = Some(ended);
-        };
-        // Never joined: when the window goes, the process goes, in the middle of a frame if need be.
-        thread::Builder::new()
-            .stack_size(STACK)
-            .spawn(render)
-            .map_err(|error| format!("cannot start threads: {error}"))?;
+        });
+        lock(&theirs).ended = Some(ended);
+    };
+    // Never joined: when the window goes, the process goes, in the middle of a frame if need be.
+    thread::Builder::new().stack_size(STACK).spawn(render).map_err(|error| format!("cannot start threads: {error}"))?;
 
-        let mut shown: Option<Instant> = None;
-        while self.window.is_open() {
-            let fresh = {
-                let mut desk = lock(&shared);
-                if !desk.fresh {
-                    desk = shared.1.wait_timeout(desk, POLL).unwrap_or_else(PoisonError::into_inner).0;
-                }
-                let fresh = take(&mut desk.fresh);
-                if fresh {
-                    swap(&mut desk.frame, &mut frame);
-                } else if let Some(ended) = desk.ended.take() {
-                    // The last frame has been shown.
-                    return ended;
-                }
-                fresh
-            };
-            if fresh || shown.is_some_and(|shown| shown.elapsed() >= REFRESH) {
-                during(|| self.window.update_with_buffer(&frame.pixels, frame.width, frame.height))
-                    .map_err(|error| error.to_string())?;
-                shown = Some(Instant::now());
-            } else {
-                during(|| self.window.update());
+    let mut shown: Option<Instant> = None;
+    loop {
+        let fresh = {
+            let mut desk = lock(&shared);
+            if !desk.fresh {
+                desk = shared.1.wait_timeout(desk, POLL).unwrap_or_else(PoisonError::into_inner).0;
             }
-            for key in self.keys.take() {
-                match key {
-                    Key::Escape => return Ok(()),
-                    Key::Space => lock(&shared).clock.toggle(),
-                    Key::Left => lock(&shared).clock.seek(-SEEK),
-                    Key::Right => lock(&shared).clock.seek(SEEK),
-                    _ => {}
-                }
+            let fresh = take(&mut desk.fresh);
+            if fresh {
+                swap(&mut desk.frame, &mut frame);
+            } else if let Some(ended) = desk.ended.take() {
+                // The last frame has been shown.
+                return ended;
+            }
+            fresh
+        };
+        if fresh || shown.is_some_and(|shown| shown.elapsed() >= REFRESH) {
+            window.show(&frame)?;
+            shown = Some(Instant::now());
+        }
+        while let Some(press) = window.press() {
+            match press {
+                Press::Leave => return Ok(()),
+                Press::Pause => lock(&shared).clock.toggle(),
+                Press::Back => lock(&shared).clock.seek(-SEEK),
+                Press::Forward => lock(&shared).clock.seek(SEEK),
             }
         }
-        Ok(())
     }
 }
 
@@ -142,36 +108,7 @@ fn render(mut renderer: Renderer, mut frame: Frame, shared: &Shared, draw: impl 
     }
 }
 
-/// Elsewhere a lost display does not end the process.
-#[cfg(not(unix))]
-fn during<T>(call: impl FnOnce() -> T) -> T {
-    call()
-}
-
 /// A panic elsewhere has ended the process already; the lock itself cannot fail.
 fn lock(shared: &Shared) -> MutexGuard<'_, Desk> {
     shared.0.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Keys as they go down. minifb's own state loses a key that goes down and up between two polls.
-#[derive(Clone, Default)]
-struct Keys(Rc<RefCell<(Vec<Key>, bool)>>);
-
-impl Keys {
-    fn take(&self) -> Vec<Key> {
-        take(&mut self.0.borrow_mut().0)
-    }
-}
-
-impl InputCallback for Keys {
-    fn add_char(&mut self, _: u32) {}
-
-    fn set_key_state(&mut self, key: Key, down: bool) {
-        let (pressed, space) = &mut *self.0.borrow_mut();
-        // Held keys repeat: right for seeking, not for the pause.
-        let repeated = key == Key::Space && replace(space, down);
-        if down && !repeated {
-            pressed.push(key);
-        }
-    }
 }

@@ -9,4 +9,3 @@ pub mod packer;
 pub mod stub;
 pub mod table;
 pub mod toolchain;
-mod x11;

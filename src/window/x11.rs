@@ -1,0 +1,318 @@
+//! A window on this machine's X server, by the protocol itself ("X Window System Protocol", X.Org, version 11):
+//! 1 kB packed, where minifb, Xlib's table of functions and what they take of the standard library are 6.
+//!
+//! A request is little-endian words of 32 bits: the first has its code, a byte of its own and its length in words.
+//! Answers, events and errors are eight words; an answer may have more.
+
+use super::{Press, TITLE};
+use paprsek::tile::Frame;
+use rustix::io::ioctl_fionread;
+use std::env;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::os::fd::OwnedFd;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::net::UnixStream;
+use std::path::PathBuf;
+
+/// Words of an answer, an event or an error.
+const PACKET: usize = 8;
+/// Words of a PutImage request before its pixels.
+const HEAD: usize = 6;
+/// Longest time from the release to the press that the server makes up where a held key repeats, milliseconds.
+const REPEAT: u32 = 20;
+
+/// An open window.
+pub struct Window {
+    server: File,
+    /// The window; the next number is its graphics context.
+    id: u32,
+    /// Bits of a pixel that are shown.
+    depth: u32,
+    /// Longest request, words.
+    longest: usize,
+    /// Width and height, pixels.
+    size: (usize, usize),
+    /// The atom `WM_DELETE_WINDOW`.
+    delete: u32,
+    /// First key code, and the answer to GetKeyboardMapping.
+    keys: (u32, Vec<u32>),
+    /// Code of the key that was released last, and when, milliseconds.
+    released: (u32, u32),
+    /// The request in the making.
+    bytes: Vec<u8>,
+}
+
+impl Window {
+    /// Opens a window of `size`, in pixels; the error says why there is none.
+    pub fn open(size: (usize, usize)) -> Result<Window, String> {
+        let (server, setup) = connect().ok_or("no X server")?;
+        Window::create(server, &setup, size).ok_or_else(|| "the X server cannot show it".into())
+    }
+
+    /// The window, where the server has 32 bits a pixel.
+    fn create(server: File, setup: &[u32], size: (usize, usize)) -> Option<Window> {
+        let [_, id, _, _, lengths, counts, codes, _, rest @ ..] = setup else { return None };
+        let (formats, screen) =
+            rest.get((lengths & 0xffff).div_ceil(4) as usize..)?.split_at_checked(2 * (counts >> 8 & 255) as usize)?;
+        let &[root, _, _, black, _, area, _, _, _, depths, ..] = screen else { return None };
+        let (id, depth) = (*id, depths >> 16 & 255);
+        // Pixels are little-endian, too.
+        formats.chunks_exact(2).find(|format| format[0] & 0xffff == (32 << 8 | depth) && counts >> 16 & 255 == 0)?;
+        let (first, last) = (codes >> 16 & 255, codes >> 24);
+        let mut window = Window {
+            server,
+            id,
+            depth,
+            longest: (lengths >> 16) as usize,
+            size,
+            delete: 0,
+            keys: (first, Vec::new()),
+            released: (0, 0),
+            bytes: Vec::new(),
+        };
+        let text = |bytes: &[u8; 4]| u32::from_le_bytes(*bytes);
+        window.send(&[
+            // InternAtom, twice.
+            16 | 5 << 16,
+            12,
+            text(b"WM_P"),
+            text(b"ROTO"),
+            text(b"COLS"),
+            16 | 6 << 16,
+            16,
+            text(b"WM_D"),
+            text(b"ELET"),
+            text(b"E_WI"),
+            text(b"NDOW"),
+            // GetKeyboardMapping
+            101 | 2 << 16,
+            first | (last + 1 - first) << 8,
+        ])?;
+        let protocols = window.answer()?[2];
+        window.delete = window.answer()?[2];
+        window.keys.1 = window.answer()?;
+        let middle = |screen: u32, side: usize| (screen & 0xffff).saturating_sub(side as u32) / 2;
+        let [context, pixmap, cursor] = [id + 1, id + 2, id + 3];
+        let [name, end] = TITLE_WORDS;
+        window.send(&[
+            // CreatePixmap of one pixel of one bit, CreateGC of black, PolyFillRectangle.
+            53 | 1 << 8 | 4 << 16,
+            pixmap,
+            root,
+            1 | 1 << 16,
+            55 | 4 << 16,
+            context,
+            pixmap,
+            0,
+            70 | 5 << 16,
+            pixmap,
+            context,
+            0,
+            1 | 1 << 16,
+            // CreateCursor that shows nothing, FreeGC.
+            93 | 8 << 16,
+            cursor,
+            pixmap,
+            pixmap,
+            0,
+            0,
+            0,
+            0,
+            60 | 2 << 16,
+            context,
+            // CreateWindow: no border, background, events (keys down and up, StructureNotify), cursor.
+            1 | 11 << 16,
+            id,
+            root,
+            middle(area, size.0) | middle(area >> 16, size.1) << 16,
+            size.0 as u32 | (size.1 as u32) << 16,
+            1 << 16,
+            0,
+            0x4802,
+            black,
+            0x20003,
+            cursor,
+            // CreateGC
+            55 | 4 << 16,
+            context,
+            id,
+            0,
+            // ChangeProperty WM_NAME of STRING, WM_PROTOCOLS of ATOM.
+            18 | 8 << 16,
+            id,
+            39,
+            31,
+            8,
+            TITLE.len() as u32,
+            name,
+            end,
+            18 | 7 << 16,
+            id,
+            protocols,
+            4,
+            32,
+            1,
+            window.delete,
+            // MapWindow
+            8 | 2 << 16,
+            id,
+        ])?;
+        Some(window)
+    }
+
+    /// Shows a frame, as large as it fits.
+    pub fn show(&mut self, frame: &Frame) -> Result<(), String> {
+        self.put(frame).ok_or_else(|| "the display went away".into())
+    }
+
+    fn put(&mut self, frame: &Frame) -> Option<()> {
+        let (width, height) = self.size;
+        let aspect = frame.width as f32 / frame.height as f32;
+        let fitting = (height as f32 * aspect) as usize;
+        let (columns, rows) =
+            if fitting > width { (width, (width as f32 / aspect) as usize) } else { (fitting, height) };
+        let (columns, rows) = (columns.max(1), rows.max(1));
+        let (left, top) = ((width - columns) / 2, (height - rows) / 2);
+        let sources: Vec<_> = (0..columns).map(|column| column * frame.width / columns).collect();
+        let band = ((self.longest - HEAD) / columns).max(1);
+        for first in (0..rows).step_by(band) {
+            let count = band.min(rows - first);
+            // PutImage of whole pixels
+            let head = [
+                72 | 2 << 8 | ((HEAD + count * columns) as u32) << 16,
+                self.id,
+                self.id + 1,
+                columns as u32 | (count as u32) << 16,
+                left as u32 | ((top + first) as u32) << 16,
+                self.depth << 8,
+            ];
+            self.bytes.clear();
+            self.bytes.extend(head.iter().flat_map(|word| word.to_le_bytes()));
+            self.bytes.resize(4 * (HEAD + count * columns), 0);
+            let lines = self.bytes[4 * HEAD..].chunks_exact_mut(4 * columns);
+            for (row, line) in (first..).zip(lines) {
+                let source = &frame.pixels[row * frame.height / rows * frame.width..];
+                for (&column, pixel) in sources.iter().zip(line.chunks_exact_mut(4)) {
+                    pixel.copy_from_slice(&source[column].to_le_bytes());
+                }
+            }
+            self.server.write_all(&self.bytes).ok()?;
+        }
+        Some(())
+    }
+
+    /// What has been asked for since the last call, one at a time; `None` when that was all.
+    pub fn press(&mut self) -> Option<Press> {
+        while ioctl_fionread(&self.server).ok()? >= 4 * PACKET as u64 {
+            let event = words(&mut self.server, PACKET)?;
+            let (key, time) = (event[0] >> 8 & 255, event[1]);
+            match event[0] & 127 {
+                // KeyPress
+                2 => {
+                    let (first, codes) = &self.keys;
+                    let each = codes[0] >> 8 & 255;
+                    // Held keys repeat: right for seeking, not for the pause.
+                    let held = self.released.0 == key && time.wrapping_sub(self.released.1) < REPEAT;
+                    match codes.get(PACKET + ((key - first) * each) as usize) {
+                        Some(0xff1b) => return Some(Press::Leave),
+                        Some(0x20) if !held => return Some(Press::Pause),
+                        Some(0xff51) => return Some(Press::Back),
+                        Some(0xff53) => return Some(Press::Forward),
+                        _ => {}
+                    }
+                }
+                // KeyRelease
+                3 => self.released = (key, time),
+                // DestroyNotify: another client closed it.
+                17 => return Some(Press::Leave),
+                // ConfigureNotify
+                22 => {
+                    self.size = ((event[5] & 0xffff) as usize, (event[5] >> 16) as usize);
+                    // ClearArea, of what was sent for another size.
+                    self.send(&[61 | 4 << 16, self.id, 0, 0])?;
+                }
+                // ClientMessage
+                33 if event[3] == self.delete => return Some(Press::Leave),
+                _ => {}
+            }
+        }
+        None
+    }
+
+    fn send(&mut self, words: &[u32]) -> Option<()> {
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        self.server.write_all(&bytes).ok()
+    }
+
+    /// The answer to the first request that waits for one.
+    fn answer(&mut self) -> Option<Vec<u32>> {
+        let mut answer = words(&mut self.server, PACKET)?;
+        answer.extend(words(&mut self.server, answer[1] as usize)?);
+        Some(answer)
+    }
+}
+
+/// The title, of up to eight bytes.
+const TITLE_WORDS: [u32; 2] = {
+    let mut words = [0; 2];
+    let mut i = 0;
+    while i < TITLE.len() {
+        words[i / 4] |= (TITLE.as_bytes()[i] as u32) << (8 * (i % 4));
+        i += 1;
+    }
+    words
+};
+
+/// Reads words.
+fn words(from: &mut File, count: usize) -> Option<Vec<u32>> {
+    let mut bytes = vec![0; 4 * count];
+    from.read_exact(&mut bytes).ok()?;
+    Some(bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect())
+}
+
+/// The server that `DISPLAY` names, with what it says of itself. Where it wants a cookie, each that there is for a
+/// display of that number is tried.
+fn connect() -> Option<(File, Vec<u32>)> {
+    let name = env::var_os("DISPLAY")?;
+    let number = name.as_bytes().strip_prefix(b":")?.split(|byte| *byte == b'.').next()?;
+    let mut socket = PathBuf::from("/tmp/.X11-unix/X");
+    socket.as_mut_os_string().push(OsStr::from_bytes(number));
+    let authority = env::var_os("XAUTHORITY").map(PathBuf::from);
+    let authority = authority.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".Xauthority")));
+    let entries = authority.and_then(|path| fs::read(path).ok()).unwrap_or_default();
+    let mut rest = &entries[..];
+    loop {
+        // The kind of address; then address, display, name of the method, cookie, each after its length.
+        let mut fields = [&[][..]; 4];
+        let more = rest.split_off(..2).is_some()
+            && fields.iter_mut().all(|field| {
+                let length = rest.split_off(..2).map(|length| usize::from(length[0]) << 8 | usize::from(length[1]));
+                length.and_then(|length| rest.split_off(..length)).map(|bytes| *field = bytes).is_some()
+            });
+        let [_, display, method, cookie] = if more { fields } else { [&[], number, &[], &[]] };
+        if display == number || display.is_empty() {
+            if let Some(found) = greet(&socket, method, cookie) {
+                return Some(found);
+            }
+        }
+        if !more {
+            return None;
+        }
+    }
+}
+
+/// Connects, with a cookie, and gives what the server says of itself if it agrees.
+fn greet(socket: &PathBuf, method: &[u8], cookie: &[u8]) -> Option<(File, Vec<u32>)> {
+    let mut server = File::from(OwnedFd::from(UnixStream::connect(socket).ok()?));
+    let mut hello = vec![b'l', 0, 11, 0, 0, 0, method.len() as u8, 0, cookie.len() as u8, 0, 0, 0];
+    for text in [method, cookie] {
+        hello.extend(text);
+        hello.resize(hello.len().next_multiple_of(4), 0);
+    }
+    server.write_all(&hello).ok()?;
+    let head = words(&mut server, 2)?;
+    let setup = words(&mut server, (head[1] >> 16) as usize)?;
+    (head[0] & 255 == 1).then_some((server, setup))
+}
