@@ -6,26 +6,23 @@
 
 use super::{Press, TITLE};
 use paprsek::tile::Frame;
-use rustix::io::ioctl_fionread;
-use std::env;
-use std::ffi::OsStr;
-use std::fs::{self, File};
-use std::io::{Read, Write};
+use rustix::fs::{Mode, OFlags, open};
+use rustix::io::{ioctl_fionread, read, write};
+use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
 use std::os::fd::OwnedFd;
-use std::os::unix::ffi::OsStrExt;
-use std::os::unix::net::UnixStream;
-use std::path::PathBuf;
 
 /// Words of an answer, an event or an error.
 const PACKET: usize = 8;
 /// Words of a PutImage request before its pixels.
 const HEAD: usize = 6;
+/// Bytes of a cookie.
+const COOKIE: usize = 16;
 /// Longest time from the release to the press that the server makes up where a held key repeats, milliseconds.
 const REPEAT: u32 = 20;
 
 /// An open window.
 pub struct Window {
-    server: File,
+    server: OwnedFd,
     /// The window; the next number is its graphics context.
     id: u32,
     /// Bits of a pixel that are shown.
@@ -47,19 +44,17 @@ pub struct Window {
 impl Window {
     /// Opens a window of `size`, in pixels; the error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
-        let (server, setup) = connect().ok_or("no X server")?;
+        let (server, setup) = find().ok_or("no X server")?;
         Window::create(server, &setup, size).ok_or_else(|| "the X server cannot show it".into())
     }
 
-    /// The window, where the server has 32 bits a pixel.
-    fn create(server: File, setup: &[u32], size: (usize, usize)) -> Option<Window> {
-        let [_, id, _, _, lengths, counts, codes, _, rest @ ..] = setup else { return None };
+    /// The window, where the server has 32 bits a pixel, little-endian.
+    fn create(server: OwnedFd, setup: &[u32], size: (usize, usize)) -> Option<Window> {
+        let (id, lengths, counts, codes) = (setup[1], setup[4], setup[5], setup[6]);
         let (formats, screen) =
-            rest.get((lengths & 0xffff).div_ceil(4) as usize..)?.split_at_checked(2 * (counts >> 8 & 255) as usize)?;
-        let &[root, _, _, black, _, area, _, _, _, depths, ..] = screen else { return None };
-        let (id, depth) = (*id, depths >> 16 & 255);
-        // Pixels are little-endian, too.
-        formats.chunks_exact(2).find(|format| format[0] & 0xffff == (32 << 8 | depth) && counts >> 16 & 255 == 0)?;
+            setup[8 + (lengths & 0xffff).div_ceil(4) as usize..].split_at(2 * (counts >> 8 & 255) as usize);
+        let (root, black, area, depth) = (screen[0], screen[3], screen[5], screen[9] >> 16 & 255);
+        formats.chunks(2).find(|format| format[0] & 0xffff == (32 << 8 | depth) && counts >> 16 & 255 == 0)?;
         let (first, last) = (codes >> 16 & 255, codes >> 24);
         let mut window = Window {
             server,
@@ -94,7 +89,7 @@ impl Window {
         window.delete = window.answer()?[2];
         window.keys.1 = window.answer()?;
         let middle = |screen: u32, side: usize| (screen & 0xffff).saturating_sub(side as u32) / 2;
-        let [context, pixmap, cursor] = [id + 1, id + 2, id + 3];
+        let [context, pixmap, cursor, pen] = [id + 1, id + 2, id + 3, id + 4];
         let [name, end] = TITLE_WORDS;
         window.send(&[
             // CreatePixmap of one pixel of one bit, CreateGC of black, PolyFillRectangle.
@@ -103,15 +98,15 @@ impl Window {
             root,
             1 | 1 << 16,
             55 | 4 << 16,
-            context,
+            pen,
             pixmap,
             0,
             70 | 5 << 16,
             pixmap,
-            context,
+            pen,
             0,
             1 | 1 << 16,
-            // CreateCursor that shows nothing, FreeGC.
+            // CreateCursor that shows nothing.
             93 | 8 << 16,
             cursor,
             pixmap,
@@ -120,8 +115,6 @@ impl Window {
             0,
             0,
             0,
-            60 | 2 << 16,
-            context,
             // CreateWindow: no border, background, events (keys down and up, StructureNotify), cursor.
             1 | 11 << 16,
             id,
@@ -189,7 +182,9 @@ impl Window {
                 self.depth << 8,
             ];
             self.bytes.clear();
-            self.bytes.extend(head.iter().flat_map(|word| word.to_le_bytes()));
+            for word in head {
+                self.bytes.extend_from_slice(&word.to_le_bytes());
+            }
             self.bytes.resize(4 * (HEAD + count * columns), 0);
             let lines = self.bytes[4 * HEAD..].chunks_exact_mut(4 * columns);
             for (row, line) in (first..).zip(lines) {
@@ -198,7 +193,7 @@ impl Window {
                     pixel.copy_from_slice(&source[column].to_le_bytes());
                 }
             }
-            self.server.write_all(&self.bytes).ok()?;
+            send(&self.server, &self.bytes)?;
         }
         Some(())
     }
@@ -206,7 +201,7 @@ impl Window {
     /// What has been asked for since the last call, one at a time; `None` when that was all.
     pub fn press(&mut self) -> Option<Press> {
         while ioctl_fionread(&self.server).ok()? >= 4 * PACKET as u64 {
-            let event = words(&mut self.server, PACKET)?;
+            let event = receive(&self.server, PACKET)?;
             let (key, time) = (event[0] >> 8 & 255, event[1]);
             match event[0] & 127 {
                 // KeyPress
@@ -241,15 +236,18 @@ impl Window {
         None
     }
 
-    fn send(&mut self, words: &[u32]) -> Option<()> {
-        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-        self.server.write_all(&bytes).ok()
+    fn send(&self, words: &[u32]) -> Option<()> {
+        let mut bytes = Vec::new();
+        for word in words {
+            bytes.extend_from_slice(&word.to_le_bytes());
+        }
+        send(&self.server, &bytes)
     }
 
     /// The answer to the first request that waits for one.
-    fn answer(&mut self) -> Option<Vec<u32>> {
-        let mut answer = words(&mut self.server, PACKET)?;
-        answer.extend(words(&mut self.server, answer[1] as usize)?);
+    fn answer(&self) -> Option<Vec<u32>> {
+        let mut answer = receive(&self.server, PACKET)?;
+        answer.append(&mut receive(&self.server, answer[1] as usize)?);
         Some(answer)
     }
 }
@@ -265,54 +263,54 @@ const TITLE_WORDS: [u32; 2] = {
     words
 };
 
-/// Reads words.
-fn words(from: &mut File, count: usize) -> Option<Vec<u32>> {
-    let mut bytes = vec![0; 4 * count];
-    from.read_exact(&mut bytes).ok()?;
-    Some(bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect())
+/// Sends whole requests.
+fn send(server: &OwnedFd, mut bytes: &[u8]) -> Option<()> {
+    while !bytes.is_empty() {
+        bytes = &bytes[write(server, bytes).ok()?..];
+    }
+    Some(())
 }
 
-/// The server that `DISPLAY` names, with what it says of itself. Where it wants a cookie, each that there is for a
-/// display of that number is tried.
-fn connect() -> Option<(File, Vec<u32>)> {
-    let name = env::var_os("DISPLAY")?;
-    let number = name.as_bytes().strip_prefix(b":")?.split(|byte| *byte == b'.').next()?;
-    let mut socket = PathBuf::from("/tmp/.X11-unix/X");
-    socket.as_mut_os_string().push(OsStr::from_bytes(number));
-    let authority = env::var_os("XAUTHORITY").map(PathBuf::from);
-    let authority = authority.or_else(|| Some(PathBuf::from(env::var_os("HOME")?).join(".Xauthority")));
-    let entries = authority.and_then(|path| fs::read(path).ok()).unwrap_or_default();
-    let mut rest = &entries[..];
-    loop {
-        // The kind of address; then address, display, name of the method, cookie, each after its length.
-        let mut fields = [&[][..]; 4];
-        let more = rest.split_off(..2).is_some()
-            && fields.iter_mut().all(|field| {
-                let length = rest.split_off(..2).map(|length| usize::from(length[0]) << 8 | usize::from(length[1]));
-                length.and_then(|length| rest.split_off(..length)).map(|bytes| *field = bytes).is_some()
-            });
-        let [_, display, method, cookie] = if more { fields } else { [&[], number, &[], &[]] };
-        if display == number || display.is_empty() {
-            if let Some(found) = greet(&socket, method, cookie) {
-                return Some(found);
-            }
-        }
-        if !more {
-            return None;
-        }
-    }
+/// Waits for words.
+fn receive(server: &OwnedFd, count: usize) -> Option<Vec<u32>> {
+    let mut bytes = vec![0; 4 * count];
+    let (got, _) = recv(server, &mut *bytes, RecvFlags::WAITALL).ok()?;
+    (got == bytes.len()).then(|| bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
+}
+
+/// The server that `DISPLAY` names, with what it says of itself. Each cookie that there is for it is tried.
+fn find() -> Option<(OwnedFd, Vec<u32>)> {
+    let environment = contents(b"/proc/self/environ");
+    let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
+    let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
+    let address = SocketAddrUnix::new([b"/tmp/.X11-unix/X", number].concat()).ok()?;
+    let authority = match variable(b"XAUTHORITY=") {
+        Some(path) => path.to_vec(),
+        None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority"].concat(),
+    };
+    // Of an entry: number, method and cookie, each after its length, big-endian.
+    let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
+    let entries = contents(&authority);
+    let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
+    // A server that wants none ignores it.
+    cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))
 }
 
 /// Connects, with a cookie, and gives what the server says of itself if it agrees.
-fn greet(socket: &PathBuf, method: &[u8], cookie: &[u8]) -> Option<(File, Vec<u32>)> {
-    let mut server = File::from(OwnedFd::from(UnixStream::connect(socket).ok()?));
-    let mut hello = vec![b'l', 0, 11, 0, 0, 0, method.len() as u8, 0, cookie.len() as u8, 0, 0, 0];
-    for text in [method, cookie] {
-        hello.extend(text);
-        hello.resize(hello.len().next_multiple_of(4), 0);
-    }
-    server.write_all(&hello).ok()?;
-    let head = words(&mut server, 2)?;
-    let setup = words(&mut server, (head[1] >> 16) as usize)?;
+fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<(OwnedFd, Vec<u32>)> {
+    let server = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
+    connect(&server, address).ok()?;
+    send(&server, &[b"l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0", cookie].concat())?;
+    let head = receive(&server, 2)?;
+    let setup = receive(&server, (head[1] >> 16) as usize)?;
     (head[0] & 255 == 1).then_some((server, setup))
+}
+
+/// A file's first megabyte, which is all; nothing where it cannot be read.
+fn contents(path: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![0; 1 << 20];
+    let file = open(path, OFlags::RDONLY, Mode::empty());
+    let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
+    bytes.truncate(length);
+    bytes
 }
