@@ -9,8 +9,8 @@ use crate::clock::Clock;
 use crate::window::{Press, Window};
 use paprsek::tile::{Frame, Renderer};
 use std::mem::{swap, take};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::{self, Builder, Thread};
 use std::time::{Duration, Instant};
 
 /// Time from frame to frame at the least: 60 a second, what most displays show. A faster scene rests.
@@ -34,33 +34,35 @@ struct Desk {
     ended: Option<Result<(), String>>,
 }
 
-type Shared = (Mutex<Desk>, Condvar);
-
 /// Plays until Esc, until the window is closed or until the range ends.
 pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
-    let mut frame = canvas::frame(args.size)?;
-    let desk = Desk { clock: Clock::new(args), frame: canvas::frame(args.size)?, fresh: false, ended: None };
-    let shared: Arc<Shared> = Arc::new((Mutex::new(desk), Condvar::new()));
-    let (theirs, scene, quality, stereo) = (shared.clone(), args.scene(), args.quality, args.stereo);
-    let (threads, back) = (args.threads, canvas::frame(args.size)?);
+    let (size, scene, quality, stereo, threads) = (args.size, args.scene(), args.quality, args.stereo, args.threads);
+    let mut frame = canvas::frame(size)?;
+    let desk = Desk { clock: Clock::new(args), frame: canvas::frame(size)?, fresh: false, ended: None };
+    // Kept for good: when the window goes, the process goes, in the middle of a frame if need be.
+    let desk: &Mutex<Desk> = Box::leak(Box::new(Mutex::new(desk)));
+    let here = thread::current();
     let render = move || {
-        let ended = Renderer::new(threads).map(|renderer| {
-            render(renderer, back, &theirs, |renderer, time, frame| {
+        let run = || {
+            let (renderer, back) = (Renderer::new(threads)?, canvas::frame(size)?);
+            render(renderer, back, desk, &here, |renderer, time, frame| {
                 renderer.render_eyes(&scene, time, &quality, stereo, frame);
             });
-        });
-        lock(&theirs).ended = Some(ended);
+            Ok(())
+        };
+        let ended = run();
+        lock(desk).ended = Some(ended);
+        0
     };
-    // Never joined: when the window goes, the process goes, in the middle of a frame if need be.
-    thread::Builder::new().stack_size(STACK).spawn(render).map_err(|error| format!("cannot start threads: {error}"))?;
+    // As the renderer's own threads are, so that there is one way to start any.
+    let render: &(dyn Fn() -> u64 + Sync) = Box::leak(Box::new(render));
+    Builder::new().stack_size(STACK).spawn(render).map_err(|_| "cannot start threads")?;
 
     let mut shown: Option<Instant> = None;
     loop {
         let fresh = {
-            let mut desk = lock(&shared);
-            if !desk.fresh {
-                desk = shared.1.wait_timeout(desk, POLL).unwrap_or_else(PoisonError::into_inner).0;
-            }
+            thread::park_timeout(POLL);
+            let mut desk = lock(desk);
             let fresh = take(&mut desk.fresh);
             if fresh {
                 swap(&mut desk.frame, &mut frame);
@@ -77,31 +79,37 @@ pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
         while let Some(press) = window.press() {
             match press {
                 Press::Leave => return Ok(()),
-                Press::Pause => lock(&shared).clock.toggle(),
-                Press::Back => lock(&shared).clock.seek(-SEEK),
-                Press::Forward => lock(&shared).clock.seek(SEEK),
+                Press::Pause => lock(desk).clock.toggle(),
+                Press::Back => lock(desk).clock.seek(-SEEK),
+                Press::Forward => lock(desk).clock.seek(SEEK),
             }
         }
     }
 }
 
 /// Renders what the clock says, until it says nothing any more.
-fn render(mut renderer: Renderer, mut frame: Frame, shared: &Shared, draw: impl Fn(&mut Renderer, f64, &mut Frame)) {
+fn render(
+    mut renderer: Renderer,
+    mut frame: Frame,
+    desk: &Mutex<Desk>,
+    window: &Thread,
+    draw: impl Fn(&mut Renderer, f64, &mut Frame),
+) {
     let mut last = None;
     let mut due = Instant::now();
     loop {
-        let Some(time) = lock(shared).clock.now() else { return };
+        let Some(time) = lock(desk).clock.now() else { return };
         if last == Some(time) {
             thread::sleep(POLL);
             continue;
         }
         draw(&mut renderer, time, &mut frame);
         last = Some(time);
-        let mut desk = lock(shared);
-        swap(&mut desk.frame, &mut frame);
-        desk.fresh = true;
-        drop(desk);
-        shared.1.notify_one();
+        let mut shared = lock(desk);
+        swap(&mut shared.frame, &mut frame);
+        shared.fresh = true;
+        drop(shared);
+        window.unpark();
         // Late frames are not made up for: the next one is due a period after this one came.
         due = Instant::now().max(due + PERIOD);
         thread::sleep(due.saturating_duration_since(Instant::now()));
@@ -109,6 +117,6 @@ fn render(mut renderer: Renderer, mut frame: Frame, shared: &Shared, draw: impl 
 }
 
 /// A panic elsewhere has ended the process already; the lock itself cannot fail.
-fn lock(shared: &Shared) -> MutexGuard<'_, Desk> {
-    shared.0.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock(desk: &Mutex<Desk>) -> MutexGuard<'_, Desk> {
+    desk.lock().unwrap_or_else(PoisonError::into_inner)
 }

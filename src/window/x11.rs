@@ -33,12 +33,10 @@ pub struct Window {
     size: (usize, usize),
     /// The atom `WM_DELETE_WINDOW`.
     delete: u32,
-    /// First key code, and the answer to GetKeyboardMapping.
-    keys: (u32, Vec<u32>),
+    /// Symbols of the keys, the code of the first and how many each has.
+    symbols: (Vec<u32>, u32, u32),
     /// Code of the key that was released last, and when, milliseconds.
     released: (u32, u32),
-    /// The request in the making.
-    bytes: Vec<u8>,
 }
 
 impl Window {
@@ -63,9 +61,8 @@ impl Window {
             longest: (lengths >> 16) as usize,
             size,
             delete: 0,
-            keys: (first, Vec::new()),
+            symbols: (Vec::new(), first, 0),
             released: (0, 0),
-            bytes: Vec::new(),
         };
         let text = |bytes: &[u8; 4]| u32::from_le_bytes(*bytes);
         window.send(&[
@@ -85,9 +82,10 @@ impl Window {
             101 | 2 << 16,
             first | (last + 1 - first) << 8,
         ])?;
-        let protocols = window.answer()?[2];
-        window.delete = window.answer()?[2];
-        window.keys.1 = window.answer()?;
+        let protocols = window.receive(PACKET)?[2];
+        window.delete = window.receive(PACKET)?[2];
+        let keyboard = window.receive(PACKET)?;
+        window.symbols = (window.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
         let middle = |screen: u32, side: usize| (screen & 0xffff).saturating_sub(side as u32) / 2;
         let [context, pixmap, cursor, pen] = [id + 1, id + 2, id + 3, id + 4];
         let [name, end] = TITLE_WORDS;
@@ -168,32 +166,28 @@ impl Window {
             if fitting > width { (width, (width as f32 / aspect) as usize) } else { (fitting, height) };
         let (columns, rows) = (columns.max(1), rows.max(1));
         let (left, top) = ((width - columns) / 2, (height - rows) / 2);
-        let sources: Vec<_> = (0..columns).map(|column| column * frame.width / columns).collect();
-        let band = ((self.longest - HEAD) / columns).max(1);
-        for first in (0..rows).step_by(band) {
-            let count = band.min(rows - first);
-            // PutImage of whole pixels
-            let head = [
-                72 | 2 << 8 | ((HEAD + count * columns) as u32) << 16,
+        // The nearest pixel, without a division for each.
+        let sources = |count, of| (0..count).map(|place| place * of / count).collect::<Vec<_>>();
+        let (across, down) = (sources(columns, frame.width), sources(rows, frame.height));
+        let mut first = top;
+        for band in down.chunks(((self.longest - HEAD) / columns).max(1)) {
+            // PutImage of whole pixels.
+            self.send(&[
+                72 | 2 << 8 | ((HEAD + band.len() * columns) as u32) << 16,
                 self.id,
                 self.id + 1,
-                columns as u32 | (count as u32) << 16,
-                left as u32 | ((top + first) as u32) << 16,
+                columns as u32 | (band.len() as u32) << 16,
+                left as u32 | (first as u32) << 16,
                 self.depth << 8,
-            ];
-            self.bytes.clear();
-            for word in head {
-                self.bytes.extend_from_slice(&word.to_le_bytes());
-            }
-            self.bytes.resize(4 * (HEAD + count * columns), 0);
-            let lines = self.bytes[4 * HEAD..].chunks_exact_mut(4 * columns);
-            for (row, line) in (first..).zip(lines) {
-                let source = &frame.pixels[row * frame.height / rows * frame.width..];
-                for (&column, pixel) in sources.iter().zip(line.chunks_exact_mut(4)) {
-                    pixel.copy_from_slice(&source[column].to_le_bytes());
+            ])?;
+            first += band.len();
+            let mut bytes = vec![0; 4 * band.len() * columns];
+            for (row, line) in band.iter().zip(bytes.chunks_mut(4 * columns)) {
+                for (column, pixel) in across.iter().zip(line.chunks_mut(4)) {
+                    pixel.copy_from_slice(&frame.pixels[row * frame.width + column].to_le_bytes());
                 }
             }
-            send(&self.server, &self.bytes)?;
+            send(&self.server, &bytes)?;
         }
         Some(())
     }
@@ -201,16 +195,15 @@ impl Window {
     /// What has been asked for since the last call, one at a time; `None` when that was all.
     pub fn press(&mut self) -> Option<Press> {
         while ioctl_fionread(&self.server).ok()? >= 4 * PACKET as u64 {
-            let event = receive(&self.server, PACKET)?;
+            let event = self.receive(PACKET)?;
             let (key, time) = (event[0] >> 8 & 255, event[1]);
             match event[0] & 127 {
                 // KeyPress
                 2 => {
-                    let (first, codes) = &self.keys;
-                    let each = codes[0] >> 8 & 255;
+                    let (symbols, first, each) = &self.symbols;
                     // Held keys repeat: right for seeking, not for the pause.
                     let held = self.released.0 == key && time.wrapping_sub(self.released.1) < REPEAT;
-                    match codes.get(PACKET + ((key - first) * each) as usize) {
+                    match symbols.get(((key - first) * each) as usize) {
                         Some(0xff1b) => return Some(Press::Leave),
                         Some(0x20) if !held => return Some(Press::Pause),
                         Some(0xff51) => return Some(Press::Back),
@@ -244,11 +237,8 @@ impl Window {
         send(&self.server, &bytes)
     }
 
-    /// The answer to the first request that waits for one.
-    fn answer(&self) -> Option<Vec<u32>> {
-        let mut answer = receive(&self.server, PACKET)?;
-        answer.append(&mut receive(&self.server, answer[1] as usize)?);
-        Some(answer)
+    fn receive(&self, count: usize) -> Option<Vec<u32>> {
+        receive(&self.server, count)
     }
 }
 
