@@ -5,6 +5,7 @@ pub mod compress;
 pub mod elf;
 pub mod encoder;
 pub mod first;
+mod library;
 pub mod packer;
 pub mod stub;
 pub mod table;
