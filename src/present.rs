@@ -7,10 +7,11 @@ use crate::args::Args;
 use crate::canvas;
 use crate::clock::Clock;
 use crate::window::{Press, Window};
+use paprsek::pool::start;
 use paprsek::tile::{Frame, Renderer};
 use std::mem::{swap, take};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread::{self, Builder, Thread};
+use std::thread::{self, Thread};
 use std::time::{Duration, Instant};
 
 /// Time from frame to frame at the least: 60 a second, what most displays show. A faster scene rests.
@@ -19,8 +20,6 @@ const PERIOD: Duration = Duration::from_nanos(16_666_667);
 const POLL: Duration = Duration::from_millis(10);
 /// A still is sent again this often: the display forgets what another window covers.
 const REFRESH: Duration = Duration::from_millis(200);
-/// Stack of the renderer's thread, bytes: the standard size. Said here, it is not looked for in the environment.
-const STACK: usize = 2 << 20;
 /// Seconds that an arrow key moves.
 const SEEK: f64 = 5.0;
 
@@ -52,11 +51,8 @@ pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
         };
         let ended = run();
         lock(desk).ended = Some(ended);
-        0
     };
-    // As the renderer's own threads are, so that there is one way to start any.
-    let render: &(dyn Fn() -> u64 + Sync) = Box::leak(Box::new(render));
-    Builder::new().stack_size(STACK).spawn(render).map_err(|_| "cannot start threads")?;
+    start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
 
     let mut shown: Option<Instant> = None;
     loop {
@@ -96,8 +92,8 @@ fn render(
     draw: impl Fn(&mut Renderer, f64, &mut Frame),
 ) {
     let mut last = None;
-    let mut due = Instant::now();
     loop {
+        let began = Instant::now();
         let Some(time) = lock(desk).clock.now() else { return };
         if last == Some(time) {
             thread::sleep(POLL);
@@ -110,9 +106,7 @@ fn render(
         shared.fresh = true;
         drop(shared);
         window.unpark();
-        // Late frames are not made up for: the next one is due a period after this one came.
-        due = Instant::now().max(due + PERIOD);
-        thread::sleep(due.saturating_duration_since(Instant::now()));
+        thread::sleep(PERIOD.saturating_sub(began.elapsed()));
     }
 }
 

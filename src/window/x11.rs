@@ -9,6 +9,7 @@ use paprsek::tile::Frame;
 use rustix::fs::{Mode, OFlags, open};
 use rustix::io::{ioctl_fionread, read, write};
 use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
+use std::ffi::{CStr, CString};
 use std::os::fd::OwnedFd;
 
 /// Words of an answer, an event or an error.
@@ -42,8 +43,8 @@ pub struct Window {
 impl Window {
     /// Opens a window of `size`, in pixels; the error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
-        let (server, setup) = find().ok_or("no X server")?;
-        Window::create(server, &setup, size).ok_or_else(|| "the X server cannot show it".into())
+        let window = find().and_then(|(server, setup)| Window::create(server, &setup, size));
+        window.ok_or_else(|| "no X server with 32 bits a pixel".into())
     }
 
     /// The window, where the server has 32 bits a pixel, little-endian.
@@ -160,11 +161,8 @@ impl Window {
 
     fn put(&mut self, frame: &Frame) -> Option<()> {
         let (width, height) = self.size;
-        let aspect = frame.width as f32 / frame.height as f32;
-        let fitting = (height as f32 * aspect) as usize;
-        let (columns, rows) =
-            if fitting > width { (width, (width as f32 / aspect) as usize) } else { (fitting, height) };
-        let (columns, rows) = (columns.max(1), rows.max(1));
+        let columns = (height * frame.width / frame.height).clamp(1, width);
+        let rows = (width * frame.height / frame.width).clamp(1, height);
         let (left, top) = ((width - columns) / 2, (height - rows) / 2);
         // The nearest pixel, without a division for each.
         let sources = |count, of| (0..count).map(|place| place * of / count).collect::<Vec<_>>();
@@ -181,10 +179,11 @@ impl Window {
                 self.depth << 8,
             ])?;
             first += band.len();
-            let mut bytes = vec![0; 4 * band.len() * columns];
-            for (row, line) in band.iter().zip(bytes.chunks_mut(4 * columns)) {
-                for (column, pixel) in across.iter().zip(line.chunks_mut(4)) {
-                    pixel.copy_from_slice(&frame.pixels[row * frame.width + column].to_le_bytes());
+            let mut bytes = Vec::with_capacity(4 * band.len() * columns);
+            for row in band {
+                let line = &frame.pixels[row * frame.width..];
+                for &column in &across {
+                    bytes.extend_from_slice(&line[column].to_le_bytes());
                 }
             }
             send(&self.server, &bytes)?;
@@ -270,17 +269,17 @@ fn receive(server: &OwnedFd, count: usize) -> Option<Vec<u32>> {
 
 /// The server that `DISPLAY` names, with what it says of itself. Each cookie that there is for it is tried.
 fn find() -> Option<(OwnedFd, Vec<u32>)> {
-    let environment = contents(b"/proc/self/environ");
+    let environment = contents(c"/proc/self/environ");
     let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
     let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
-    let address = SocketAddrUnix::new([b"/tmp/.X11-unix/X", number].concat()).ok()?;
+    let address = SocketAddrUnix::new(&*CString::new([b"/tmp/.X11-unix/X", number].concat()).ok()?).ok()?;
     let authority = match variable(b"XAUTHORITY=") {
         Some(path) => path.to_vec(),
         None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority"].concat(),
     };
     // Of an entry: number, method and cookie, each after its length, big-endian.
     let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
-    let entries = contents(&authority);
+    let entries = contents(&CString::new(authority).ok()?);
     let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
     // A server that wants none ignores it.
     cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))
@@ -297,7 +296,7 @@ fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<(OwnedFd, Vec<u32>)>
 }
 
 /// A file's first megabyte, which is all; nothing where it cannot be read.
-fn contents(path: &[u8]) -> Vec<u8> {
+fn contents(path: &CStr) -> Vec<u8> {
     let mut bytes = vec![0; 1 << 20];
     let file = open(path, OFlags::RDONLY, Mode::empty());
     let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);

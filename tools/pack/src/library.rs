@@ -15,7 +15,15 @@ const CUTS: [Cuts; 4] = [
         "std/src/thread/lifecycle.rs",
         &[
             // Nothing asks to be told of new threads: that is unstable.
-            ("    let hooks = if no_hooks {", "    let hooks = if true {"),
+            (
+                "    let hooks = if no_hooks {
+        spawnhook::ChildSpawnHooks::default()
+    } else {
+        spawnhook::run_spawn_hooks(&thread)
+    };
+",
+                "",
+            ),
             ("            crate::sys::backtrace::__rust_begin_short_backtrace(|| hooks.run());\n", ""),
             // No thread has a name.
             ("        if let Some(name) = self.handle.cname() {\n            imp::set_name(name);\n        }\n", ""),
