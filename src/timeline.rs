@@ -6,49 +6,54 @@
 //!
 //! M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy & Astrophysics 239, 1990.
 
-/// A key: seconds, and the values there. Times ascend within a table.
-pub type Key<const N: usize> = (f32, [f32; N]);
+/// A key: seconds, then the values there. Times ascend within a table.
+pub type Key<const N: usize> = [f32; N];
 
-/// The values of a table at `time`: those of the first key before it and at NaN, of the last after it.
+/// The line of a table at `time`: the first key before it and at NaN, the last after it.
 ///
 /// Panics where the table is empty.
-pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> [f32; N] {
-    let at = |k: usize| keys[k].0 as f64;
-    // NaN is after no key.
-    let next = keys.partition_point(|key| key.0 as f64 <= time);
-    if next == 0 || next == keys.len() {
-        return keys[next.max(1) - 1].1;
-    }
-    let here = next - 1;
-    let length = at(next) - at(here);
-    let x = ((time - at(here)) / length) as f32;
-    let length = length as f32;
-    std::array::from_fn(|i| {
-        let (a, b) = (keys[here].1[i], keys[next].1[i]);
-        let (from, to) = (slope(keys, here, i) * length, slope(keys, next, i) * length);
-        // Hermite's cubic, written so that equal keys give their value exactly.
-        let y = 1.0 - x;
-        a + (b - a) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y)
-    })
+pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
+    let mut line = [0.0; N];
+    interpolate(keys.as_flattened(), time, &mut line);
+    line
 }
 
-/// Speed of value `i` at key `k`, a second.
-fn slope<const N: usize>(keys: &[Key<N>], k: usize, i: usize) -> f32 {
-    let interval = |k: usize| {
-        let length = keys[k + 1].0 - keys[k].0;
-        (length, (keys[k + 1].1[i] - keys[k].1[i]) / length)
-    };
-    let last = keys.len() - 1;
-    if k == 0 || k == last {
-        // The parabola through the three keys of that end, as far as it is monotone; through two the line.
-        let ((h, s), (h2, s2)) = match k {
-            0 => (interval(0), interval(1.min(last - 1))),
-            _ => (interval(last - 1), interval(last.max(2) - 2)),
-        };
-        let p = s + (s - s2) * (h / (h + h2));
-        return if p * s <= 0.0 { 0.0 } else { p.abs().min(2.0 * s.abs()).copysign(s) };
+/// [`sample`] for a table whose lines are as long as `out`.
+#[inline(never)]
+fn interpolate(keys: &[f32], time: f64, out: &mut [f32]) {
+    let n = out.len();
+    let last = keys.len() / n - 1;
+    // NaN is after no key.
+    let mut next = 0;
+    while next <= last && keys[next * n] as f64 <= time {
+        next += 1;
     }
-    let ((h0, s0), (h1, s1)) = (interval(k - 1), interval(k));
+    let here = next.max(1) - 1;
+    let x = (time - keys[here * n] as f64) as f32;
+    for (i, value) in out.iter_mut().enumerate() {
+        let a = keys[here * n + i];
+        *value = a;
+        if next > 0 && next <= last {
+            let length = keys[next * n] - keys[here * n];
+            let change = keys[next * n + i] - a;
+            let [from, to] = [here, next].map(|k| slope(keys, n, k, i) * length);
+            // Hermite's cubic, written so that equal keys give their value exactly.
+            let x = x / length;
+            let y = 1.0 - x;
+            *value += change * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y);
+        }
+    }
+}
+
+/// Speed of value `i` at key `k`, a second; at both ends that of the line to the next key.
+#[inline(never)]
+fn slope(keys: &[f32], n: usize, k: usize, i: usize) -> f32 {
+    let interval = |k: usize| {
+        let [here, next] = [k * n, k * n + n];
+        let length = keys[next] - keys[here];
+        (length, (keys[next + i] - keys[here + i]) / length)
+    };
+    let ((h0, s0), (h1, s1)) = (interval(k.max(1) - 1), interval(k.min(keys.len() / n - 2)));
     if s0 * s1 <= 0.0 {
         return 0.0;
     }

@@ -6,10 +6,10 @@ use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
 use super::time::sane;
-use crate::lanes::{F, Lane, V3};
+use crate::lanes::{F, Lane, V3, best};
 use crate::math;
 use crate::quality::Quality;
-use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd::{dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 
 /// The moon's full light over the sun's: sixteen times the truth, and
@@ -171,9 +171,4 @@ fn power<S: Simd>(simd: S, level: f32) -> f32 {
 #[inline(always)]
 fn first<S: Simd>(v: V3<S>) -> Vec3 {
     vec3(v.x.as_slice()[0], v.y.as_slice()[0], v.z.as_slice()[0])
-}
-
-/// The best SIMD level: any gives the same bits.
-fn best() -> Level {
-    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }
