@@ -16,10 +16,12 @@ pub mod spheres;
 use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
+#[cfg(feature = "bench-scenes")]
 use crate::raster::{self, Drawn};
 use crate::tile::Picture;
 use crate::trace::Traced;
 use crate::trace::world::World;
+#[cfg(feature = "bench-scenes")]
 use crate::view::View;
 
 /// A scene of the command line.
@@ -70,6 +72,7 @@ impl Shot {
     }
 
     /// A picture that is all triangles.
+    #[cfg(feature = "bench-scenes")]
     fn drawn(&self, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
         let view = View::new(camera, self.width, self.height);
         Picture { layers: vec![Box::new(Drawn::new(world, view, self.width, self.height, self.quality))], transfer }
