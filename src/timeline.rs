@@ -6,57 +6,62 @@
 //!
 //! M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy & Astrophysics 239, 1990.
 
-/// A key: seconds, and the values there. Times ascend within a table.
-pub type Key<const N: usize> = (f32, [f32; N]);
+/// A key: seconds, then the values there. Times ascend within a table.
+pub type Key<const N: usize> = [f32; N];
 
-/// The values of a table at `time`: those of the first key before it and at NaN, of the last after it.
+/// The line of a table at `time`: the first key before it and at NaN, the last after it.
 ///
 /// Panics where the table is empty.
-pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> [f32; N] {
-    std::array::from_fn(|i| value(keys.len(), &|k| (keys[k].0, keys[k].1[i]), time))
+pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
+    let mut line = [0.0; N];
+    interpolate(keys.as_flattened(), time, &mut line);
+    line
 }
 
-/// One value of a table of `count` keys at `time`: `key` gives the seconds and the value of each.
-#[inline(never)] // Else it is unrolled for each value.
-fn value(count: usize, key: &dyn Fn(usize) -> (f32, f32), time: f64) -> f32 {
+/// [`sample`] for a table whose lines are as long as `out`.
+#[inline(never)]
+fn interpolate(keys: &[f32], time: f64, out: &mut [f32]) {
+    let n = out.len();
+    let last = keys.len() / n - 1;
     // NaN is after no key.
-    let next = (0..count).take_while(|&k| key(k).0 as f64 <= time).count();
-    if next == 0 || next == count {
-        return key(next.max(1) - 1).1;
+    let mut next = 0;
+    while next <= last && keys[next * n] as f64 <= time {
+        next += 1;
     }
-    let here = next - 1;
-    let ((start, a), (end, b)) = (key(here), key(next));
-    let length = end as f64 - start as f64;
-    let x = ((time - start as f64) / length) as f32;
-    let length = length as f32;
-    let (from, to) = (slope(count, key, here) * length, slope(count, key, next) * length);
-    // Hermite's cubic, written so that equal keys give their value exactly.
-    let y = 1.0 - x;
-    a + (b - a) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y)
+    let here = next.max(1) - 1;
+    let x = (time - keys[here * n] as f64) as f32;
+    for (i, value) in out.iter_mut().enumerate() {
+        let a = keys[here * n + i];
+        *value = a;
+        if next > 0 && next <= last {
+            let length = keys[next * n] - keys[here * n];
+            let change = keys[next * n + i] - a;
+            let [from, to] = [here, next].map(|k| slope(keys, n, k, i) * length);
+            // Hermite's cubic, written so that equal keys give their value exactly.
+            let x = x / length;
+            let y = 1.0 - x;
+            *value += change * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y);
+        }
+    }
 }
 
-/// Speed of that value at key `k`, a second.
-fn slope(count: usize, key: &dyn Fn(usize) -> (f32, f32), k: usize) -> f32 {
+/// Speed of value `i` at key `k`, a second: that of the parabola through three keys, at both ends too, as far as the
+/// curve stays monotone.
+#[inline(never)]
+fn slope(keys: &[f32], n: usize, k: usize, i: usize) -> f32 {
+    let last = keys.len() / n - 1;
     let interval = |k: usize| {
-        let ((start, a), (end, b)) = (key(k), key(k + 1));
-        (end - start, (b - a) / (end - start))
+        let [here, next] = [k * n, k * n + n];
+        let length = keys[next] - keys[here];
+        (length, (keys[next + i] - keys[here + i]) / length)
     };
-    let last = count - 1;
-    if k == 0 || k == last {
-        // The parabola through the three keys of that end, as far as it is monotone; through two the line.
-        let ((h, s), (h2, s2)) = match k {
-            0 => (interval(0), interval(1.min(last - 1))),
-            _ => (interval(last - 1), interval(last.max(2) - 2)),
-        };
-        let p = s + (s - s2) * (h / (h + h2));
-        return if p * s <= 0.0 { 0.0 } else { p.abs().min(2.0 * s.abs()).copysign(s) };
-    }
-    let ((h0, s0), (h1, s1)) = (interval(k - 1), interval(k));
-    if s0 * s1 <= 0.0 {
-        return 0.0;
-    }
-    let p = (s0 * h1 + s1 * h0) / (h0 + h1);
-    s0.abs().min(s1.abs()).min(0.5 * p.abs()).copysign(s0) * 2.0
+    // Of three keys, `k` among them, and of two the line.
+    let middle = k.clamp(1, last.max(2) - 1);
+    let ((h0, s0), (h1, s1)) = (interval(middle - 1), interval(middle.min(last - 1)));
+    let way = 2.0 * keys[k * n] - keys[(middle - 1) * n] - keys[middle * n];
+    let p = s0 + (s1 - s0) / (h0 + h1) * way;
+    let [(_, before), (_, after)] = [k.max(1) - 1, k.min(last - 1)].map(interval);
+    p.max(2.0 * before.max(after).min(0.0)).min(2.0 * before.min(after).max(0.0))
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.

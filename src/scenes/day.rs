@@ -54,17 +54,17 @@ pub fn clock(time: f64) -> (usize, f64) {
     (day as usize % SEASONS.len(), 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
 }
 
-/// Eye, target, vertical field of view in degrees, by the hour.
-const CAMERA: &[Key<7>] = &[
-    (4.0, [-36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0]),
-    (8.0, [-24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0]),
-    (12.0, [0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0]),
-    (14.0, [38.0, 19.0, -28.0, 0.0, 16.5, 0.0, 54.0]),
-    (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
-    (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
+/// The hour; eye, target, vertical field of view in degrees; the last number is free.
+const CAMERA: &[Key<9>] = &[
+    [4.0, -36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0, 0.0],
+    [8.0, -24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0, 0.0],
+    [12.0, 0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0, 0.0],
+    [14.0, 38.0, 19.0, -28.0, 0.0, 16.5, 0.0, 54.0, 0.0],
+    [18.0, 33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0, 0.0],
+    [21.999, 24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0, 0.0],
     // To the south, where the moon stands over the lake.
-    (22.0, [-4.0, 15.5, -46.0, -6.0, 19.5, 0.0, 54.0]),
-    (28.0, [14.0, 16.5, -45.0, -4.0, 20.0, 0.0, 54.0]),
+    [22.0, -4.0, 15.5, -46.0, -6.0, 19.5, 0.0, 54.0, 0.0],
+    [28.0, 14.0, 16.5, -45.0, -4.0, 20.0, 0.0, 54.0, 0.0],
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
@@ -101,7 +101,7 @@ fn textures(season: &Season) -> Vec<Texture> {
 fn picture(shot: &Shot) -> Picture {
     let (day, hour) = clock(shot.time);
     let season = &SEASONS[day];
-    let [x, y, z, tx, ty, tz, fov] = timeline::sample(CAMERA, hour);
+    let [_, x, y, z, tx, ty, tz, fov, _] = timeline::sample(CAMERA, hour);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     let camera = shot.camera(camera);
     let dome = Dome::new(Sky::new(season.midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));

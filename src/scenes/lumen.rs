@@ -25,7 +25,7 @@ pub struct Take {
     /// The world, by seconds since the shot's start and the last number of the keys.
     set: fn(f32, f32) -> World,
     /// Seconds since the shot's start; eye, target, vertical field of view in degrees, and a number for the set.
-    camera: &'static [Key<8>],
+    camera: &'static [Key<9>],
 }
 
 /// The shots, by the second that each starts.
@@ -45,17 +45,17 @@ fn picture(shot: &Shot) -> Picture {
 /// What is seen at `time` seconds, and from where.
 pub fn stage(time: f64) -> (World, Camera) {
     let (take, time) = timeline::cut(CUTS, END, time);
-    let [x, y, z, tx, ty, tz, fov, number] = timeline::sample(take.camera, time);
+    let [_, x, y, z, tx, ty, tz, fov, number] = timeline::sample(take.camera, time);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     ((take.set)(time as f32, number), camera)
 }
 
 // Dawn: two doors open, and the first ray falls across a dark hall. The number is half of the gap between them, metres.
 
-const DOOR: &[Key<8>] = &[
-    (0.0, [2.7, 0.8, 9.6, 0.3, 1.7, 0.0, 42.0, 0.08]),
-    (5.25, [2.1, 0.9, 8.9, 0.3, 1.7, 0.0, 42.0, 0.5]),
-    (11.0, [0.7, 1.2, 7.4, 0.3, 1.7, 0.0, 40.0, 1.6]),
+const DOOR: &[Key<9>] = &[
+    [0.0, 2.7, 0.8, 9.6, 0.3, 1.7, 0.0, 42.0, 0.08],
+    [5.25, 2.1, 0.9, 8.9, 0.3, 1.7, 0.0, 42.0, 0.5],
+    [11.0, 0.7, 1.2, 7.4, 0.3, 1.7, 0.0, 40.0, 1.6],
 ];
 
 fn door(_: f32, gap: f32) -> World {
@@ -88,10 +88,10 @@ fn door(_: f32, gap: f32) -> World {
 
 // Morning: a table, close, through the ball.
 
-const TABLE: &[Key<8>] = &[
-    (0.0, [1.9, 1.15, 3.3, 0.25, 0.95, 0.0, 38.0, 0.0]),
-    (5.0, [0.5, 1.0, 3.5, 0.35, 0.95, 0.0, 38.0, 0.0]),
-    (10.0, [-1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 38.0, 0.0]),
+const TABLE: &[Key<9>] = &[
+    [0.0, 1.9, 1.15, 3.3, 0.25, 0.95, 0.0, 38.0, 0.0],
+    [5.0, 0.5, 1.0, 3.5, 0.35, 0.95, 0.0, 38.0, 0.0],
+    [10.0, -1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 38.0, 0.0],
 ];
 
 fn table(time: f32, _: f32) -> World {
@@ -122,10 +122,10 @@ fn table(time: f32, _: f32) -> World {
 
 // Noon and after: turning columns, and their shadows.
 
-const COLUMNS: &[Key<8>] = &[
-    (0.0, [1.5, 0.7, 5.8, -0.4, 1.7, -4.0, 48.0, 0.0]),
-    (6.0, [0.7, 1.3, 1.2, -0.5, 1.6, -9.0, 48.0, 0.0]),
-    (12.0, [-0.9, 2.0, -3.6, 0.3, 1.5, -14.0, 48.0, 0.0]),
+const COLUMNS: &[Key<9>] = &[
+    [0.0, 1.5, 0.7, 5.8, -0.4, 1.7, -4.0, 48.0, 0.0],
+    [6.0, 0.7, 1.3, 1.2, -0.5, 1.6, -9.0, 48.0, 0.0],
+    [12.0, -0.9, 2.0, -3.6, 0.3, 1.5, -14.0, 48.0, 0.0],
 ];
 
 fn columns(time: f32, _: f32) -> World {
@@ -154,11 +154,11 @@ fn columns(time: f32, _: f32) -> World {
 
 // Evening: spheres dance on an inlaid floor, under a lamp.
 
-const DANCE: &[Key<8>] = &[
-    (0.0, [6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 42.0, 0.0]),
-    (4.0, [1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 42.0, 0.0]),
-    (8.0, [-4.0, 1.8, 5.8, 0.9, 1.2, 0.5, 42.0, 0.0]),
-    (12.0, [-6.6, 1.3, 2.3, 0.5, 1.4, 0.7, 42.0, 0.0]),
+const DANCE: &[Key<9>] = &[
+    [0.0, 6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 42.0, 0.0],
+    [4.0, 1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 42.0, 0.0],
+    [8.0, -4.0, 1.8, 5.8, 0.9, 1.2, 0.5, 42.0, 0.0],
+    [12.0, -6.6, 1.3, 2.3, 0.5, 1.4, 0.7, 42.0, 0.0],
 ];
 
 fn dance(time: f32, _: f32) -> World {
@@ -196,10 +196,10 @@ fn dance(time: f32, _: f32) -> World {
 
 // Sunset: the ball on the water, and the sun in it.
 
-const SUNSET: &[Key<8>] = &[
-    (0.0, [-1.4, 0.9, 3.4, 0.3, 1.05, 0.0, 40.0, 0.0]),
-    (5.0, [-0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 40.0, 0.0]),
-    (11.0, [0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 40.0, 0.0]),
+const SUNSET: &[Key<9>] = &[
+    [0.0, -1.4, 0.9, 3.4, 0.3, 1.05, 0.0, 40.0, 0.0],
+    [5.0, -0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 40.0, 0.0],
+    [11.0, 0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 40.0, 0.0],
 ];
 
 fn sunset(time: f32, _: f32) -> World {

@@ -5,11 +5,11 @@ use super::{PAINTS, paint};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::Mesh;
 use glam::{Mat3, Vec3, vec3};
-use std::f32::consts::PI;
 
-/// Masonry, in decimetres: which of [`BODIES`], where its middle is, and its half size, or for other bodies its scale.
+/// In decimetres: which of [`BODIES`], and 4 times which of [`RUNS`]; where the middle is, and the half size, or for
+/// other bodies than the first the scale.
 #[rustfmt::skip]
-static PIECES: [[i8; 7]; 34] = [
+static PIECES: [[i8; 7]; 44] = [
     // The west wall: sill, four piers, what is left of the lintel.
     [0, -35, 5, 0, 4, 15, 60],
     [0, -35, 30, -54, 4, 15, 6],
@@ -51,6 +51,34 @@ static PIECES: [[i8; 7]; 34] = [
     [3, 35, 0, -19, 10, 10, 10],
     [3, 35, 0, 18, 10, 10, 10],
     [3, 35, 0, 55, 10, 10, 10],
+    // Round arches: the arcade's, and that of the door.
+    [4, 35, 21, -38, 4, 7, 2],
+    [4, 35, 21, 0, 4, 7, 2],
+    [4, 35, 21, 37, 4, 7, 2],
+    [8, 0, 21, 58, 4, 5, 2],
+    // The roof: rafters and, to the south, two sheets of tiles. The ridge.
+    [12, 20, 57, 52, 1, 1, 29],
+    [16, -20, 57, 52, 1, 1, 29],
+    [20, 20, 60, 43, 13, 1, 30],
+    [24, -20, 60, 23, 33, 1, 30],
+    [28, 0, 76, 1, 2, 1, 56],
+    // A low wall around the yard, with gaps.
+    [32, 0, 2, 0, 18, 5, 2],
+];
+
+/// Pieces in a row: how many; around y and then x the first one's turn and the step to the next, in fortieths of a
+/// radian; how far out the turn takes them, 15 cm; the step along z, decimetres; paint.
+#[rustfmt::skip]
+static RUNS: [[i8; 8]; 9] = [
+    [1, 0, 0, 0, 0, 0, 0, paint::STONE as i8],
+    [5, 0, 0, -13, -25, 11, 0, paint::STONE as i8],
+    [5, 63, 0, -13, -25, 7, 0, paint::STONE as i8],
+    [6, 63, 0, 30, 0, 0, -21, paint::BARK as i8],
+    [6, 63, 0, -30, 0, 0, -21, paint::BARK as i8],
+    [1, 63, 0, 30, 0, 0, 0, paint::ROOF as i8],
+    [1, 63, 0, -30, 0, 0, 0, paint::ROOF as i8],
+    [1, 0, 0, 0, 0, 0, 0, paint::BARK as i8],
+    [20, 36, 10, 0, 0, 113, 0, paint::STONE as i8],
 ];
 
 const fn square(rows: &'static [[i8; 5]]) -> Body {
@@ -74,47 +102,20 @@ static BODIES: [Body; 4] = [
 /// The chapel, where it stands: flat.
 pub fn chapel() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    let foot = Vec3::Y * height(0.0, 0.0);
     for piece in &PIECES {
-        let [_, x, y, z, a, b, c] = piece.map(|i| i as f32);
-        let scale = Mat3::from_diagonal(vec3(a, b, c) * 0.01);
-        mesh.body(&BODIES[piece[0] as usize], &scale, foot + vec3(x, y, z) * 0.1, paint::STONE);
-    }
-    // Four round arches of five stones: the arcade's, and that of the door.
-    for i in 0..20u32 {
-        let k = (i / 5) as f32;
-        let (middle, radius, along) = if i < 15 {
-            (vec3(3.5, 2.1, 3.7 * k - 3.75), 1.48, Vec3::NEG_Z)
-        } else {
-            (vec3(0.0, 2.1, 5.8), 0.92, Vec3::X)
-        };
-        let (sin, cos) = (PI / 5.0 * ((i % 5) as f32 + 0.5)).sin_cos();
-        let out = (along * cos + Vec3::Y * sin) * radius;
-        let wide = along.cross(Vec3::Y) * 0.42;
-        let stone = Mat3::from_cols(out * 0.15, wide.cross(out) * 1.2, wide);
-        mesh.block(&stone, foot + middle + out * 1.15, paint::STONE);
+        let [kind, x, y, z, a, b, c] = piece.map(|i| i as f32);
+        let run = &RUNS[piece[0] as usize / 4];
+        let [_, yaw, yaws, pitch, pitches, out, step, _] = run.map(|i| i as f32);
+        for k in 0..run[0] {
+            let k = k as f32;
+            let angle = |from: f32, step: f32| (from + step * k) * 0.025;
+            let turn = Mat3::from_rotation_y(angle(yaw, yaws)) * Mat3::from_rotation_x(angle(pitch, pitches));
+            let out = turn * Vec3::Z * (out * 0.15);
+            let at = vec3(x, y, z + step * k) * 0.1 + out + Vec3::Y * height(out.x, out.z);
+            let turn = turn * Mat3::from_diagonal(vec3(a, b, c) * 0.01);
+            mesh.body(&BODIES[kind as usize % 4], &turn, at, run[7] as u16);
+        }
     }
     mesh.weather(0, 0.06, 0.7);
-    // The roof: 12 rafters and, to the south, two sheets of tiles. The ridge.
-    for i in 0..15u32 {
-        let side = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let k = (i / 2) as f32;
-        let slope = vec3(side * -2.1, 1.95, 0.0);
-        let (size, middle, kind) = match i {
-            0..12 => (vec3(1.0, 0.04, 0.1), vec3(side * 1.95, 5.7, 5.2 - 2.1 * k), paint::BARK),
-            12..14 => (vec3(1.06, 0.02, 2.3 - side), vec3(side * 2.02, 5.92, 3.3 + side), paint::ROOF),
-            _ => (vec3(0.06, 0.04, 5.6), vec3(0.0, 7.6, 0.1), paint::BARK),
-        };
-        let half = Mat3::from_cols(slope * size.x, slope.cross(Vec3::NEG_Z) * size.y, Vec3::Z * size.z);
-        mesh.block(&half, foot + middle, kind);
-    }
-    // A low wall around the yard, with gaps.
-    for i in 0..20u32 {
-        let (sin, cos) = (0.9 + 0.25 * i as f32).sin_cos();
-        let (x, z) = (17.0 * sin, 17.0 * cos);
-        let high = 0.4 + 0.03 * (i * 5 % 7) as f32;
-        let half = Mat3::from_cols(vec3(cos, 0.0, -sin) * (1.3 + high), Vec3::Y * high, vec3(sin, 0.0, cos) * 0.22);
-        mesh.block(&half, vec3(x, height(x, z) + 0.2, z), paint::STONE);
-    }
     mesh
 }
