@@ -12,56 +12,43 @@ pub type Key<const N: usize> = [f32; N];
 /// The line of a table at `time`: the first key before it and at NaN, the last after it.
 ///
 /// Panics where the table is empty.
-pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
-    let mut line = [0.0; N];
-    interpolate(keys.as_flattened(), time, &mut line);
-    line
-}
-
-/// [`sample`] for a table whose lines are as long as `out`.
 #[inline(never)]
-fn interpolate(keys: &[f32], time: f64, out: &mut [f32]) {
-    let n = out.len();
-    let last = keys.len() / n - 1;
+pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
     // NaN is after no key.
     let mut next = 0;
-    while next <= last && keys[next * n] as f64 <= time {
+    while next < keys.len() && keys[next][0] as f64 <= time {
         next += 1;
     }
     let here = next.max(1) - 1;
-    let x = (time - keys[here * n] as f64) as f32;
-    for (i, value) in out.iter_mut().enumerate() {
-        let a = keys[here * n + i];
-        *value = a;
-        if next > 0 && next <= last {
-            let length = keys[next * n] - keys[here * n];
-            let change = keys[next * n + i] - a;
-            let [from, to] = [here, next].map(|k| slope(keys, n, k, i) * length);
+    let mut line = keys[here];
+    if next > 0 && next < keys.len() {
+        let length = keys[next][0] - line[0];
+        let x = (time - line[0] as f64) as f32 / length;
+        let y = 1.0 - x;
+        for (i, value) in line.iter_mut().enumerate() {
+            let [from, to] = [here, next].map(|k| speed(keys, k, i) * length);
             // Hermite's cubic, written so that equal keys give their value exactly.
-            let x = x / length;
-            let y = 1.0 - x;
-            *value += change * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y);
+            *value += (keys[next][i] - *value) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y);
         }
     }
+    line
 }
 
 /// Speed of value `i` at key `k`, a second: that of the parabola through three keys, at both ends too, as far as the
-/// curve stays monotone.
+/// curve stays monotone; through two keys the line.
 #[inline(never)]
-fn slope(keys: &[f32], n: usize, k: usize, i: usize) -> f32 {
-    let last = keys.len() / n - 1;
-    let interval = |k: usize| {
-        let [here, next] = [k * n, k * n + n];
-        let length = keys[next] - keys[here];
-        (length, (keys[next + i] - keys[here + i]) / length)
+fn speed<const N: usize>(keys: &[Key<N>], k: usize, i: usize) -> f32 {
+    let last = keys.len() - 1;
+    let mean = |k: usize| {
+        let [a, b] = [k.min(last - 1), k.min(last - 1) + 1].map(|k| &keys[k]);
+        (b[i] - a[i]) / (b[0] - a[0])
     };
-    // Of three keys, `k` among them, and of two the line.
+    let time = |k: usize| keys[k.min(last)][0];
     let middle = k.clamp(1, last.max(2) - 1);
-    let ((h0, s0), (h1, s1)) = (interval(middle - 1), interval(middle.min(last - 1)));
-    let way = 2.0 * keys[k * n] - keys[(middle - 1) * n] - keys[middle * n];
-    let p = s0 + (s1 - s0) / (h0 + h1) * way;
-    let [(_, before), (_, after)] = [k.max(1) - 1, k.min(last - 1)].map(interval);
-    p.max(2.0 * before.max(after).min(0.0)).min(2.0 * before.min(after).max(0.0))
+    let bend = (mean(middle) - mean(middle - 1)) / (time(middle + 1) - time(middle - 1));
+    let speed = mean(middle - 1) + bend * (2.0 * time(k) - time(middle - 1) - time(middle));
+    let (before, after) = (mean(k.max(1) - 1), mean(k));
+    speed.max(2.0 * before.max(after).min(0.0)).min(2.0 * before.min(after).max(0.0))
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
@@ -75,7 +62,10 @@ pub fn ease(from: f64, to: f64, time: f64) -> f32 {
 ///
 /// The first before its start and at NaN; the last up to `end`, where it stops. Panics where the list is empty.
 pub fn cut<T>(list: &[(f64, T)], end: f64, time: f64) -> (&T, f64) {
-    let next = list.partition_point(|&(start, _)| start <= time).max(1);
+    let mut next = 1;
+    while next < list.len() && list[next].0 <= time {
+        next += 1;
+    }
     let (start, shot) = &list[next - 1];
     let end = list.get(next).map_or(end, |&(start, _)| start);
     (shot, (time - start).max(0.0).min(end - start))

@@ -14,7 +14,7 @@ use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
 use crate::texture::{Palette, Texture};
 use crate::tile::Picture;
-use crate::timeline::{self, Key, ease};
+use crate::timeline::{self, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::f32::consts::TAU;
@@ -55,7 +55,7 @@ pub fn clock(time: f64) -> (usize, f64) {
 }
 
 /// The hour; eye, target, vertical field of view in degrees; the last number is free.
-const CAMERA: &[Key<9>] = &[
+static CAMERA: [[f32; 9]; 8] = [
     [4.0, -36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0, 0.0],
     [8.0, -24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0, 0.0],
     [12.0, 0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0, 0.0],
@@ -101,7 +101,7 @@ fn textures(season: &Season) -> Vec<Texture> {
 fn picture(shot: &Shot) -> Picture {
     let (day, hour) = clock(shot.time);
     let season = &SEASONS[day];
-    let [_, x, y, z, tx, ty, tz, fov, _] = timeline::sample(CAMERA, hour);
+    let [_, x, y, z, tx, ty, tz, fov, _] = timeline::sample(&CAMERA, hour);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     let camera = shot.camera(camera);
     let dome = Dome::new(Sky::new(season.midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));

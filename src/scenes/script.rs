@@ -1,0 +1,199 @@
+//! A small language for sets, since a number in a table takes fewer bytes than one in code.
+//!
+//! A script is a row of words, run from left to right over a stack: a number goes onto it, an operation takes its
+//! numbers from there. Arithmetic is done here, all other operations by whoever asks for the [`Script::next`] one: they
+//! take the whole stack. Below it are [`VARIABLES`], which stay.
+
+use std::slice::Iter;
+
+/// A word: a number up to 120 in steps of 1/200, or an operation, which is [`word`] of its byte.
+pub type Word = f32;
+
+/// Numbers beside the stack.
+pub const VARIABLES: usize = 16;
+/// Steps of 1.
+const STEPS: f32 = 200.0;
+/// Bytes from here on start a number, in two bytes; this one and 0 is the least.
+const NUMBERS: u8 = 64;
+/// The first byte of 0.
+const ZERO: i32 = 160;
+
+/// An operation as a word.
+pub const fn word(operation: u8) -> Word {
+    1000.0 + operation as f32
+}
+
+/// Puts the value of a variable onto the stack.
+pub const fn get(variable: u8) -> Word {
+    word(variable)
+}
+
+/// Takes the value of a variable from the stack.
+pub const fn set(variable: u8) -> Word {
+    word(VARIABLES as u8 + variable)
+}
+
+/// Names operations, as words and in the module `byte` as bytes.
+macro_rules! operations {
+    ($($(#[$about:meta])* $name:ident = $byte:expr;)+) => {
+        $($(#[$about])* pub const $name: $crate::scenes::script::Word = $crate::scenes::script::word(byte::$name);)+
+        #[allow(missing_docs)]
+        pub mod byte {
+            $(pub const $name: u8 = $byte;)+
+        }
+    };
+}
+pub(crate) use operations;
+
+operations! {
+    /// The sum of two numbers.
+    ADD = 32;
+    /// Their product.
+    MUL = 33;
+    /// The sine of a number.
+    SIN = 34;
+    /// Its cosine.
+    COS = 35;
+    /// What it is without its sign.
+    ABS = 36;
+    /// Takes a width and before it a number, and leaves of a stack of such rows that one, counted around.
+    PICK = 37;
+    /// Takes a number: what follows is to run so often, by a [`COUNT`] from 0 on,
+    REPEAT = 38;
+    /// up to here. Operations from 40 on are left to others.
+    AGAIN = 39;
+}
+/// The variable that counts.
+pub const COUNT: Word = get(3);
+/// Bytes that a script takes.
+pub const fn size(parts: &[&[Word]]) -> usize {
+    let (mut size, mut i) = (0, 0);
+    while i < parts.len() {
+        let mut k = 0;
+        while k < parts[i].len() {
+            size += if parts[i][k] < word(0) { 2 } else { 1 };
+            k += 1;
+        }
+        i += 1;
+    }
+    size
+}
+
+/// The bytes of a script.
+pub const fn bytes<const N: usize>(parts: &[&[Word]]) -> [u8; N] {
+    let (mut bytes, mut at, mut i) = ([0; N], 0, 0);
+    while i < parts.len() {
+        let mut k = 0;
+        while k < parts[i].len() {
+            let word = parts[i][k];
+            if word < self::word(0) {
+                let steps = (word * STEPS + (ZERO << 8) as f32 + 0.5) as i32;
+                assert!(steps >= (NUMBERS as i32) << 8 && steps < 1 << 16);
+                bytes[at] = (steps >> 8) as u8;
+                at += 1;
+                bytes[at] = steps as u8;
+            } else {
+                bytes[at] = (word - self::word(0)) as u8;
+            }
+            at += 1;
+            k += 1;
+        }
+        i += 1;
+    }
+    bytes
+}
+
+/// The bytes of a script of some parts, each of which is an array of words.
+macro_rules! script {
+    ($($part:expr),+ $(,)?) => {{
+        const PARTS: &[&[$crate::scenes::script::Word]] = &[$(&$part),+];
+        const SIZE: usize = $crate::scenes::script::size(PARTS);
+        static BYTES: [u8; SIZE] = $crate::scenes::script::bytes(PARTS);
+        &BYTES
+    }};
+}
+pub(crate) use script;
+
+/// A script that runs.
+pub struct Script {
+    bytes: Iter<'static, u8>,
+    /// What is to be repeated, and how often.
+    again: (Iter<'static, u8>, f32),
+    /// Variables, then the stack.
+    pub numbers: [f32; 256],
+    /// The end of the stack.
+    top: u8,
+}
+
+impl Script {
+    /// Of these bytes, with the first variables.
+    pub fn new(bytes: &'static [u8], variables: [f32; 2]) -> Script {
+        let mut numbers = [0.0; 256];
+        [numbers[0], numbers[1]] = variables;
+        Script { bytes: bytes.iter(), again: (bytes.iter(), 0.0), numbers, top: 0 }
+    }
+
+    /// The numbers that the last operation takes.
+    pub fn stack(&self) -> &[f32] {
+        &self.numbers[VARIABLES..self.top as usize]
+    }
+
+    /// The next operation that is not arithmetic; 0 at the end.
+    #[inline(never)]
+    pub fn next(&mut self) -> u8 {
+        const COUNT: usize = 3;
+        self.top = VARIABLES as u8;
+        loop {
+            let word = self.byte();
+            let last = self.top - 1;
+            let [a, b] = [last - 1, last].map(|i| self.numbers[i as usize]);
+            let (at, number) = match word {
+                NUMBERS.. => {
+                    let steps = (word as i32 - ZERO) * 256 + self.byte() as i32;
+                    (self.top, steps as f32 / STEPS)
+                }
+                0..16 => (self.top, self.numbers[word as usize]),
+                16..32 => {
+                    self.numbers[word as usize - VARIABLES] = b;
+                    self.top = last;
+                    continue;
+                }
+                byte::ADD => (last - 1, a + b),
+                byte::MUL => (last - 1, a * b),
+                byte::SIN => (last, b.sin()),
+                byte::COS => (last, b.cos()),
+                byte::ABS => (last, b.abs()),
+                byte::PICK => {
+                    let width = b as u8;
+                    let rows = (last - 1 - VARIABLES as u8) / width;
+                    let row = a as u8 % rows * width;
+                    self.top = VARIABLES as u8 + width;
+                    for i in VARIABLES as u8..self.top {
+                        self.numbers[i as usize] = self.numbers[(i + row) as usize];
+                    }
+                    continue;
+                }
+                byte::REPEAT => {
+                    self.again = (self.bytes.clone(), b);
+                    self.numbers[COUNT] = 0.0;
+                    self.top = last;
+                    continue;
+                }
+                byte::AGAIN => {
+                    self.numbers[COUNT] += 1.0;
+                    if self.numbers[COUNT] < self.again.1 {
+                        self.bytes = self.again.0.clone();
+                    }
+                    continue;
+                }
+                _ => return word,
+            };
+            self.numbers[at as usize] = number;
+            self.top = at + 1;
+        }
+    }
+
+    fn byte(&mut self) -> u8 {
+        self.bytes.next().copied().unwrap_or(0)
+    }
+}
