@@ -75,59 +75,107 @@ fn picture(shot: &Shot) -> Picture {
 /// What is seen at `time` seconds, and from where.
 pub fn stage(time: f64) -> (World, Camera) {
     let (bytes, time) = timeline::cut(CUTS, END, time);
-    let mut script = Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]);
-    let (mut objects, mut lights) = (Vec::new(), Vec::new());
-    let (mut at, mut turn) = (Vec3::ZERO, Mat3::IDENTITY);
-    let (mut material, mut casts_shadow) = (CLEAR, true);
-    let mut key = [0.0; 9];
-    loop {
-        let operation = script.next();
-        let n: &[f32; 14] = script.numbers[VARIABLES..].first_chunk().unwrap();
-        let vector = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
-        match operation {
-            byte::CAMERA => {
-                key = timeline::sample(script.stack().as_chunks().0, time);
-                script.numbers[NUMBER] = key[8];
-            }
-            byte::AT => at = vector(0),
-            byte::AWAY => at = at.normalize() * n[0],
-            byte::TURN => turn = Mat3::from_cols(vector(0), vector(3), vector(6)),
-            byte::TEXTURE => {
-                material.albedo = texture(n[8] as u8, vector(0), vector(3), n[7]);
-                material.albedo.turn = turn * n[6];
-                material.albedo.origin = at;
-                turn = Mat3::IDENTITY;
-            }
-            byte::SURFACE => {
-                let [_, _, _, specular, exponent, fresnel, shadow, ..] = *n;
-                let matt = Material::matt(material.albedo);
-                material = Material { reflectance: vector(0), specular, exponent, fresnel, ..matt };
-                casts_shadow = shadow > 0.0;
-            }
-            byte::GLASS => (material, casts_shadow) = (CLEAR, true),
-            byte::BALL..byte::SUN => {
-                let shape = match operation {
-                    byte::BALL => Shape::Sphere { center: at, radius: n[0] },
-                    byte::BLOCK => Shape::Block { center: at, half: vector(0), turn: Mat3::IDENTITY },
-                    byte::COLUMN => {
-                        let half = n[0] * 0.5;
-                        Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
-                    }
-                    byte::PLANE => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
-                    _ => Shape::Globe { touch: at, normal: Vec3::Y, radius: n[0] },
-                };
-                objects.push(Object { shape, material, casts_shadow });
-            }
-            byte::SUN | byte::LAMP => {
-                let source =
-                    if operation == byte::SUN { Source::Directional(at.normalize()) } else { Source::Point(at) };
-                lights.push(Light { source, color: vector(0), radius: n[3] });
-            }
-            _ => {
-                let sky = Sky { horizon: vector(3), zenith: vector(6), glow: (at.normalize(), vector(9), n[12]) };
-                let world = World { objects, lights, ambient: vector(0), sky, max_level: n[13] as u32 };
-                let [_, x, y, z, tx, ty, tz, fov, _] = key;
-                return (world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0));
+    let mut set = EMPTY;
+    set.build(Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]), time);
+    let [_, x, y, z, tx, ty, tz, fov, _] = set.key;
+    (set.world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0))
+}
+
+/// A world that is being built.
+struct Set {
+    world: World,
+    /// The last body, and what the next one has of it.
+    object: Object,
+    at: Vec3,
+    turn: Mat3,
+    /// The camera.
+    key: [f32; 9],
+}
+
+const EMPTY: Set = Set {
+    world: World {
+        objects: Vec::new(),
+        lights: Vec::new(),
+        ambient: Vec3::ZERO,
+        sky: Sky { horizon: Vec3::ZERO, zenith: Vec3::ZERO, glow: (Vec3::ZERO, Vec3::ZERO, 0.0) },
+        max_level: 0,
+    },
+    object: CLEAR,
+    at: Vec3::ZERO,
+    turn: Mat3::IDENTITY,
+    key: [0.0; 9],
+};
+
+impl Set {
+    /// Runs a script at `time` seconds.
+    #[inline(never)]
+    fn build(&mut self, mut script: Script, time: f64) {
+        loop {
+            let operation = script.next();
+            let n: &[f32; 14] = script.numbers[VARIABLES..].first_chunk().unwrap();
+            let vector = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
+            let at = self.at;
+            let material = &mut self.object.material;
+            match operation {
+                byte::CAMERA => {
+                    self.key = timeline::sample(script.stack().as_chunks().0, time);
+                    script.numbers[NUMBER] = self.key[8];
+                }
+                byte::AT => self.at = vector(0),
+                byte::AWAY => self.at = at.normalize() * n[0],
+                byte::TURN => self.turn = Mat3::from_cols(vector(0), vector(3), vector(6)),
+                byte::TEXTURE => {
+                    let (a, b, warp, kind) = (vector(0), vector(3), n[7], n[8] as u8);
+                    let pattern = match kind {
+                        PLAIN => Pattern::Plain,
+                        CHECKER => Pattern::Checker,
+                        CLOUDS => Pattern::Clouds { octaves: 4 },
+                        CREASES => Pattern::Turbulence { octaves: 4 },
+                        WOOD => Pattern::Wood { warp, octaves: 2 },
+                        _ => Pattern::Marble { warp, scale: 0.5 * warp, octaves: 3 },
+                    };
+                    let palette = match kind {
+                        VEINS => Palette::Ramp([a, b, b * 0.75, b]),
+                        WOOD => Palette::Ramp([a, b, a * 0.4 + b * 0.6, a]),
+                        _ => Palette::Mix(a, b),
+                    };
+                    material.albedo = Texture { pattern, palette, turn: self.turn * n[6], origin: at };
+                    self.turn = Mat3::IDENTITY;
+                }
+                byte::SURFACE => {
+                    material.reflectance = vector(0);
+                    [material.specular, material.exponent, material.fresnel] = [n[3], n[4], n[5]];
+                    material.ior = 0.0;
+                    self.object.casts_shadow = n[6] > 0.0;
+                }
+                byte::GLASS => self.object = CLEAR,
+                byte::BALL..byte::SUN => {
+                    let half = n[0] * 0.5;
+                    self.object.shape = match operation {
+                        byte::BALL => Shape::Sphere { center: at, radius: n[0] },
+                        byte::BLOCK => Shape::Block { center: at, half: vector(0), turn: Mat3::IDENTITY },
+                        byte::COLUMN => {
+                            Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
+                        }
+                        byte::PLANE => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
+                        _ => Shape::Globe { touch: at, normal: Vec3::Y, radius: n[0] },
+                    };
+                    self.world.objects.push(self.object);
+                }
+                byte::SUN | byte::LAMP => {
+                    let source = match operation {
+                        byte::SUN => Source::Directional(at.normalize()),
+                        _ => Source::Point(at),
+                    };
+                    self.world.lights.push(Light { source, color: vector(0), radius: n[3] });
+                }
+                _ => {
+                    self.world.ambient = vector(0);
+                    let glow = (at.normalize(), vector(9), n[12]);
+                    self.world.sky = Sky { horizon: vector(3), zenith: vector(6), glow };
+                    self.world.max_level = n[13] as u32;
+                    return;
+                }
             }
         }
     }
@@ -145,25 +193,12 @@ const VEINS: u8 = 5;
 /// Rings around y. The last year's wood is as dark as the next one's.
 const WOOD: u8 = 6;
 
-/// A texture of a kind.
-fn texture(kind: u8, a: Vec3, b: Vec3, warp: f32) -> Texture {
-    let pattern = match kind {
-        PLAIN => Pattern::Plain,
-        CHECKER => Pattern::Checker,
-        CLOUDS => Pattern::Clouds { octaves: 4 },
-        CREASES => Pattern::Turbulence { octaves: 4 },
-        WOOD => Pattern::Wood { warp, octaves: 2 },
-        _ => Pattern::Marble { warp, scale: 0.5 * warp, octaves: 3 },
-    };
-    let palette = match kind {
-        VEINS => Palette::Ramp([a, b, b * 0.75, b]),
-        WOOD => Palette::Ramp([a, b, a * 0.4 + b * 0.6, a]),
-        _ => Palette::Mix(a, b),
-    };
-    Texture::new(pattern, palette, 1.0)
-}
-
-const CLEAR: Material = Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) };
+/// Of glass.
+const CLEAR: Object = Object {
+    shape: Shape::Sphere { center: Vec3::ZERO, radius: 0.0 },
+    material: Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) },
+    casts_shadow: true,
+};
 
 // What is in several sets.
 
@@ -248,7 +283,8 @@ const DOOR: &[u8] = script![
     [0.0, 6.5, 6.0, AT, 9.0, 1.0, 9.0, BLOCK, 0.0, 3.0, 15.0, AT, 9.0, 5.0, 1.0, BLOCK],
     [2.0, REPEAT, 2.0, COUNT, MUL, -1.0, ADD, SIDE, GAP, 4.0, ADD, X, MUL, set(5)],
     // A leaf, then a wall and its columns.
-    [X, -1.5, MUL, get(5), ADD, 2.8, -1.0, AT], wood([0.03, 0.015, 0.01], [0.16, 0.075, 0.03], 3.0, 0.2), [TEXTURE],
+    [X, -1.5, MUL, get(5), ADD, 2.8, -1.0, AT, 0.03, 0.07, 0.2, MUL, 0.04, 0.2, MUL],
+    [0.16, 0.075, 0.03, 3.0, 0.2, WOOD as Word, TEXTURE],
     MATT, [get(5), 2.8, 0.0, AT, 4.0, 2.9, 0.25, BLOCK],
     [0.0, 0.0, 0.0, AT], HALL, [TEXTURE], MATT,
     [X, 7.0, MUL, 3.0, 7.0, AT, 1.0, 4.0, 9.0, BLOCK],
@@ -332,7 +368,7 @@ const DANCE: &[u8] = script![
     // Three by three, in rings: which of its ring; radius, speed and size.
     [9.0, REPEAT, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, COUNT, 1.0, PICK, set(6)],
     [1.9, 0.55, 0.3, 3.2, -0.4, 0.42, 4.5, 0.28, 0.34, COUNT, 3.0, PICK, set(9), set(8), set(7)],
-    [get(6), -0.905, MUL, COUNT, ADD, get(8), TIME, MUL, ADD], ANGLE,
+    [get(6), -0.03, 0.02, MUL, -0.905, ADD, MUL, COUNT, ADD, get(8), TIME, MUL, ADD], ANGLE,
     [get(7), get(4), MUL, 1.3, TIME, MUL, COUNT, 1.7, MUL, ADD, SIN, ABS, 0.5, MUL, get(9), ADD],
     [get(7), get(5), MUL, AT, TIME, COUNT, ADD], ANGLE, PITCH,
     RED, WHITE, GREEN, [COUNT, get(6), ADD, 9.0, PICK, TEXTURE],
