@@ -27,17 +27,17 @@ pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, COLUMNS),
 
 operations! {
     /// The camera's keys, nine numbers each: seconds since the shot's start; eye, target, vertical field of view in
-    /// degrees, and what [`NUMBER`] shall be.
+    /// tens of degrees, and what [`NUMBER`] shall be.
     CAMERA = 40;
     /// A place: the next texture's origin, the middle of the next body.
     AT = 41;
-    /// Moves that place along its direction to a distance from the origin.
+    /// Moves that place along its direction to a distance from the origin, hundreds of metres.
     AWAY = 42;
     /// Columns of a matrix: how the next texture is turned (world to texture).
     TURN = 43;
     /// A texture: two colours, scale, how far noise bends it, and its kind.
     TEXTURE = 44;
-    /// What the next bodies have beside the last texture: mirror, weight and exponent of the highlight, what Fresnel
+    /// What the next bodies have beside the last texture: mirror, weight and a tenth of the exponent of the highlight, what Fresnel
     /// adds, and 1 where they keep light from others.
     SURFACE = 45;
     /// Or they are of glass.
@@ -50,14 +50,14 @@ operations! {
     COLUMN = 49;
     /// a plane, upwards for 1 and downwards for -1, that far from the origin,
     PLANE = 50;
-    /// the top of a ball of a radius.
+    /// the top of a ball of a radius, hundreds of metres.
     GLOBE = 51;
     /// Light of a colour from a ball in the direction of that place, whose radius is the sine of what is seen of it,
     SUN = 52;
     /// or of a radius on the place.
     LAMP = 53;
     /// The last word: light from everywhere; the sky's colours at the horizon, at the zenith, and of a glow in the
-    /// direction of that place, with its exponent; the longest chain of rays.
+    /// direction of that place, with a tenth of its exponent; the longest chain of rays.
     WORLD = 54;
 }
 
@@ -78,7 +78,7 @@ pub fn stage(time: f64) -> (World, Camera) {
     let mut set = EMPTY;
     set.build(Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]), time);
     let [_, x, y, z, tx, ty, tz, fov, _] = set.key;
-    (set.world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0))
+    (set.world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), (10.0 * fov).to_radians(), 0.0))
 }
 
 /// A world that is being built.
@@ -122,7 +122,7 @@ impl Set {
                     script.numbers[NUMBER] = self.key[8];
                 }
                 byte::AT => self.at = vector(0),
-                byte::AWAY => self.at = at.normalize() * n[0],
+                byte::AWAY => self.at = at.normalize() * (100.0 * n[0]),
                 byte::TURN => self.turn = Mat3::from_cols(vector(0), vector(3), vector(6)),
                 byte::TEXTURE => {
                     let (a, b, warp, kind) = (vector(0), vector(3), n[7], n[8] as u8);
@@ -144,7 +144,7 @@ impl Set {
                 }
                 byte::SURFACE => {
                     material.reflectance = vector(0);
-                    [material.specular, material.exponent, material.fresnel] = [n[3], n[4], n[5]];
+                    [material.specular, material.exponent, material.fresnel] = [n[3], 10.0 * n[4], n[5]];
                     material.ior = 0.0;
                     self.object.casts_shadow = n[6] > 0.0;
                 }
@@ -158,7 +158,7 @@ impl Set {
                             Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
                         }
                         byte::PLANE => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
-                        _ => Shape::Globe { touch: at, normal: Vec3::Y, radius: n[0] },
+                        _ => Shape::Globe { touch: at, normal: Vec3::Y, radius: 100.0 * n[0] },
                     };
                     self.world.objects.push(self.object);
                 }
@@ -171,7 +171,7 @@ impl Set {
                 }
                 _ => {
                     self.world.ambient = vector(0);
-                    let glow = (at.normalize(), vector(9), n[12]);
+                    let glow = (at.normalize(), vector(9), 10.0 * n[12]);
                     self.world.sky = Sky { horizon: vector(3), zenith: vector(6), glow };
                     self.world.max_level = n[13] as u32;
                     return;
@@ -202,9 +202,9 @@ const CLEAR: Object = Object {
 
 // What is in several sets.
 
-const MATT: [Word; 8] = polished(0.0, 0.12, 24.0);
+const MATT: [Word; 8] = polished(0.0, 0.12, 2.4);
 /// As bright as it can be.
-const LUMINOUS: [Word; 8] = surface(0.0, 0.0, 1.0, 0.0, 0.0);
+const LUMINOUS: [Word; 8] = surface(0.0, 0.0, 0.1, 0.0, 0.0);
 
 /// With a mirror of one grey and a highlight.
 const fn polished(mirror: Word, specular: Word, exponent: Word) -> [Word; 8] {
@@ -213,7 +213,7 @@ const fn polished(mirror: Word, specular: Word, exponent: Word) -> [Word; 8] {
 
 /// Polished: far away it is a mirror of the sky, so that nothing shimmers at the horizon.
 const fn floor(fresnel: Word) -> [Word; 8] {
-    surface(0.06, 0.2, 40.0, fresnel, 0.0)
+    surface(0.06, 0.2, 4.0, fresnel, 0.0)
 }
 
 const fn surface(mirror: Word, specular: Word, exponent: Word, fresnel: Word, shadow: Word) -> [Word; 8] {
@@ -264,21 +264,21 @@ const VEINED: [Word; 25] = [
     0.7, 0.52, 0.44, 0.44, 0.2, 0.14,
     COUNT, 6.0, PICK, 6.0, 7.0, VEINS as Word, TEXTURE,
 ];
-const COLUMN_POLISH: [Word; 8] = polished(0.0, 0.35, 40.0);
+const COLUMN_POLISH: [Word; 8] = polished(0.0, 0.35, 4.0);
 
 /// Dawn: two doors open, and the first ray falls across a dark hall. The keys' number is half of the gap between them,
 /// metres.
 #[rustfmt::skip]
 const DOOR: &[u8] = script![
     [
-        0.0, 2.7, 0.8, 9.6, 0.3, 1.7, 0.0, 42.0, 0.08,
-        5.25, 2.1, 0.9, 8.9, 0.3, 1.7, 0.0, 42.0, 0.5,
-        11.0, 0.7, 1.2, 7.4, 0.3, 1.7, 0.0, 40.0, 1.6, CAMERA,
+        0.0, 2.7, 0.8, 9.6, 0.3, 1.7, 0.0, 4.2, 0.08,
+        5.25, 2.1, 0.9, 8.9, 0.3, 1.7, 0.0, 4.2, 0.5,
+        11.0, 0.7, 1.2, 7.4, 0.3, 1.7, 0.0, 4.0, 1.6, CAMERA,
     ],
     HALL, [TEXTURE], floor(0.4), [1.0, 0.0, PLANE],
     [GLASS, 1.75, 0.75, 3.6, AT, 0.75, BALL],
     SUNRISE, [5.0, 2.8, 1.1, 0.0, SUN],
-    plain([25.0, 16.0, 5.0]), [TEXTURE], LUMINOUS, [100.0, 3.0, MUL, AWAY, 8.0, BALL],
+    plain([25.0, 16.0, 5.0]), [TEXTURE], LUMINOUS, [3.0, AWAY, 8.0, BALL],
     [0.0, 0.0, 0.0, AT], HALL, [TEXTURE], MATT,
     [0.0, 6.5, 6.0, AT, 9.0, 1.0, 9.0, BLOCK, 0.0, 3.0, 15.0, AT, 9.0, 5.0, 1.0, BLOCK],
     [2.0, REPEAT, 2.0, COUNT, MUL, -1.0, ADD, SIDE, GAP, 4.0, ADD, X, MUL, set(5)],
@@ -290,7 +290,7 @@ const DOOR: &[u8] = script![
     [X, 7.0, MUL, 3.0, 7.0, AT, 1.0, 4.0, 9.0, BLOCK],
     [X, 3.7, MUL, 0.0, 2.2, AT, 5.6, 0.42, COLUMN, X, 3.7, MUL, 0.0, 5.6, AT, 5.6, 0.42, COLUMN, AGAIN],
     [-2.0, 4.6, 10.0, AT, 0.1, 0.15, 0.26, 0.0, LAMP],
-    SUNRISE, [0.06, 0.085, 0.15, 0.5, 0.27, 0.2, 0.1, 0.2, 0.45, 0.45, 0.32, 0.12, 24.0, 6.0, WORLD],
+    SUNRISE, [0.06, 0.085, 0.15, 0.5, 0.27, 0.2, 0.1, 0.2, 0.45, 0.45, 0.32, 0.12, 2.4, 6.0, WORLD],
 ];
 const HALL: [Word; 9] = marble([0.06, 0.06, 0.06], [0.3, 0.29, 0.27], 0.9);
 const SUNRISE: [Word; 4] = [-0.1, 0.14, -1.0, AT];
@@ -302,12 +302,12 @@ const X: Word = get(6);
 #[rustfmt::skip]
 const TABLE: &[u8] = script![
     [
-        0.0, 1.9, 1.15, 3.3, 0.25, 0.95, 0.0, 38.0, 0.0,
-        5.0, 0.5, 1.0, 3.5, 0.35, 0.95, 0.0, 38.0, 0.0,
-        10.0, -1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 38.0, 0.0, CAMERA,
+        0.0, 1.9, 1.15, 3.3, 0.25, 0.95, 0.0, 3.8, 0.0,
+        5.0, 0.5, 1.0, 3.5, 0.35, 0.95, 0.0, 3.8, 0.0,
+        10.0, -1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 3.8, 0.0, CAMERA,
     ],
     [0.0, -1.1, 0.4, AT, 0.0, 0.2, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, TURN],
-    wood([0.1, 0.04, 0.015], [0.34, 0.17, 0.065], 2.5, 1.0), [TEXTURE], polished(0.05, 0.3, 40.0),
+    wood([0.1, 0.04, 0.015], [0.34, 0.17, 0.065], 2.5, 1.0), [TEXTURE], polished(0.05, 0.3, 4.0),
     [0.0, -0.2, -1.0, AT, 7.0, 0.2, 5.6, BLOCK, GLASS, -0.4, 1.0, 0.0, AT, 1.0, BALL],
     [7.0, REPEAT, 1.6, COUNT, MUL, -4.6, ADD, 0.0, -5.4, AT, 0.3, COUNT, MUL], ANGLE, YAW, VEINED, COLUMN_POLISH,
     [COUNT, 0.7, MUL, 0.5, TIME, MUL, ADD, SIN, 1.2, MUL, 2.1, ADD, 0.45, COLUMN, AGAIN],
@@ -315,9 +315,9 @@ const TABLE: &[u8] = script![
     rolling(0.55, -3.7, 3.6, -0.6, 1.82), ANGLE, ROLL, GREEN, [TEXTURE], ROLLING, [0.55, BALL],
     rolling(0.3, 1.1, 3.0, -0.25, 3.335), ANGLE, ROLL, WHITE, [TEXTURE], ROLLING, [0.3, BALL],
     [-0.75, 0.5, 0.1, AT, 1.15, 0.95, 0.7, 0.0, SUN],
-    [-0.5, 0.3, -0.8, AT, 0.13, 0.16, 0.19, 0.2, 0.36, 0.4, 0.02, 0.06, 0.12, 0.5, 0.4, 0.2, 8.0, 5.0, WORLD],
+    [-0.5, 0.3, -0.8, AT, 0.13, 0.16, 0.19, 0.2, 0.36, 0.4, 0.02, 0.06, 0.12, 0.5, 0.4, 0.2, 0.8, 5.0, WORLD],
 ];
-const ROLLING: [Word; 8] = polished(0.12, 0.5, 60.0);
+const ROLLING: [Word; 8] = polished(0.12, 0.5, 6.0);
 /// A ball on the table rolls along x: as far as it has come it has turned, by `curvature`, 1 over its radius.
 #[rustfmt::skip]
 const fn rolling(radius: Word, z: Word, start: Word, speed: Word, curvature: Word) -> [Word; 13] {
@@ -328,19 +328,19 @@ const fn rolling(radius: Word, z: Word, start: Word, speed: Word, curvature: Wor
 #[rustfmt::skip]
 const COLUMNS: &[u8] = script![
     [
-        0.0, 1.5, 0.7, 5.8, -0.4, 1.7, -4.0, 48.0, 0.0,
-        6.0, 0.7, 1.3, 1.2, -0.5, 1.6, -9.0, 48.0, 0.0,
-        12.0, -0.9, 2.0, -3.6, 0.3, 1.5, -14.0, 48.0, 0.0, CAMERA,
+        0.0, 1.5, 0.7, 5.8, -0.4, 1.7, -4.0, 4.8, 0.0,
+        6.0, 0.7, 1.3, 1.2, -0.5, 1.6, -9.0, 4.8, 0.0,
+        12.0, -0.9, 2.0, -3.6, 0.3, 1.5, -14.0, 4.8, 0.0, CAMERA,
     ],
     SANDSTONE, [TEXTURE], floor(0.7), [1.0, 0.0, PLANE],
     [-2.6, SIDE], ROW, ANGLE, YAW, VEINED, COLUMN_POLISH, [5.4, 0.55, COLUMN, AGAIN],
     [0.0, 0.0, 0.0, AT], SANDSTONE, [TEXTURE], MATT, BEAM,
     [2.6, SIDE], ROW, ANGLE, YAW, VEINED, COLUMN_POLISH, [5.4, 0.55, COLUMN, AGAIN],
     [0.0, 0.0, 0.0, AT], SANDSTONE, [TEXTURE], MATT, BEAM,
-    plain([0.3, 0.18, 0.06]), [TEXTURE, 0.75, 0.52, 0.25, 0.6, 60.0, 0.0, 1.0, SURFACE],
+    plain([0.3, 0.18, 0.06]), [TEXTURE, 0.75, 0.52, 0.25, 0.6, 6.0, 0.0, 1.0, SURFACE],
     [0.42, TIME, MUL, COS, -1.2, MUL, 0.6, TIME, -1.0, MUL, AT, 0.6, BALL],
     [0.8, 0.55, -0.3, AT, 1.7, 1.25, 0.8, 0.0, SUN],
-    [0.14, 0.19, 0.28, 0.58, 0.52, 0.46, 0.0, 0.08, 0.4, 0.5, 0.35, 0.15, 6.0, 4.0, WORLD],
+    [0.14, 0.19, 0.28, 0.58, 0.52, 0.46, 0.0, 0.08, 0.4, 0.5, 0.35, 0.15, 0.6, 4.0, WORLD],
 ];
 const SANDSTONE: [Word; 9] = marble([0.12, 0.085, 0.06], [0.36, 0.27, 0.19], 0.6);
 /// Six columns on one side, turned by an angle.
@@ -353,10 +353,10 @@ const BEAM: [Word; 8] = [X, 5.8, -7.5, AT, 0.7, 0.4, 10.0, BLOCK];
 #[rustfmt::skip]
 const DANCE: &[u8] = script![
     [
-        0.0, 6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 42.0, 0.0,
-        4.0, 1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 42.0, 0.0,
-        8.0, -4.0, 1.8, 5.8, 0.9, 1.2, 0.5, 42.0, 0.0,
-        12.0, -6.6, 1.3, 2.3, 0.5, 1.4, 0.7, 42.0, 0.0, CAMERA,
+        0.0, 6.5, 4.6, 6.2, 0.6, 0.6, 0.0, 4.2, 0.0,
+        4.0, 1.0, 2.9, 7.6, 0.7, 0.9, 0.0, 4.2, 0.0,
+        8.0, -4.0, 1.8, 5.8, 0.9, 1.2, 0.5, 4.2, 0.0,
+        12.0, -6.6, 1.3, 2.3, 0.5, 1.4, 0.7, 4.2, 0.0, CAMERA,
     ],
     [0.12, TIME, MUL], ANGLE, [0.0, 0.0, 0.0, AT],
     YAW, marble([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0), [TEXTURE], inlay(0.0, -0.44, 5.4),
@@ -364,7 +364,7 @@ const DANCE: &[u8] = script![
     YAW, kind(CHECKER, [0.06, 0.06, 0.07], [0.46, 0.42, 0.35], 1.4, 0.0), [TEXTURE], inlay(0.14, -0.4, 2.6),
     [GLASS, 0.0, 1.1, TIME, MUL, SIN, 0.12, MUL, 1.5, ADD, 0.0, AT, 0.9, BALL],
     [0.0, 0.0, 0.0, AT], clouds([0.1, 0.15, 0.25], [0.75, 0.85, 1.0], 0.25), [TEXTURE], LUMINOUS,
-    MOON, [90.0, AWAY, 6.0, BALL],
+    MOON, [0.9, AWAY, 6.0, BALL],
     // Three by three, in rings: which of its ring; radius, speed and size.
     [9.0, REPEAT, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, COUNT, 1.0, PICK, set(6)],
     [1.9, 0.55, 0.3, 3.2, -0.4, 0.42, 4.5, 0.28, 0.34, COUNT, 3.0, PICK, set(9), set(8), set(7)],
@@ -372,17 +372,17 @@ const DANCE: &[u8] = script![
     [get(7), get(4), MUL, 1.3, TIME, MUL, COUNT, 1.7, MUL, ADD, SIN, ABS, 0.5, MUL, get(9), ADD],
     [get(7), get(5), MUL, AT, TIME, COUNT, ADD], ANGLE, PITCH,
     RED, WHITE, GREEN, [COUNT, get(6), ADD, 9.0, PICK, TEXTURE],
-    [0.0, 0.35, COUNT, 1.0, PICK, set(5), get(5), get(5), get(5), 0.5, 50.0, 0.0, 1.0, SURFACE, get(9), BALL, AGAIN],
+    [0.0, 0.35, COUNT, 1.0, PICK, set(5), get(5), get(5), get(5), 0.5, 5.0, 0.0, 1.0, SURFACE, get(9), BALL, AGAIN],
     [1.5, 5.5, -2.0, AT, 1.2, 0.95, 0.65, 0.4, LAMP],
     MOON, [0.1, 0.2, 0.42, 0.0, SUN],
-    [0.07, 0.08, 0.12, 0.03, 0.05, 0.11, 0.02, 0.02, 0.05, 0.16, 0.18, 0.3, 6.0, 4.0, WORLD],
+    [0.07, 0.08, 0.12, 0.03, 0.05, 0.11, 0.02, 0.02, 0.05, 0.16, 0.18, 0.3, 0.6, 4.0, WORLD],
 ];
 const MOON: [Word; 4] = [0.99, 0.15, 0.07, AT];
 /// A disc of 40 cm on `y`; around its texture's origin.
 #[rustfmt::skip]
 const fn inlay(mirror: Word, y: Word, radius: Word) -> [Word; 19] {
     [
-        mirror, mirror, mirror, 0.3, 50.0, 0.0, 0.0, SURFACE,
+        mirror, mirror, mirror, 0.3, 5.0, 0.0, 0.0, SURFACE,
         0.0, y, 0.0, AT, 0.4, radius, COLUMN, 0.0, 0.0, 0.0, AT,
     ]
 }
@@ -391,25 +391,25 @@ const fn inlay(mirror: Word, y: Word, radius: Word) -> [Word; 19] {
 #[rustfmt::skip]
 const SUNSET: &[u8] = script![
     [
-        0.0, -1.4, 0.9, 3.4, 0.3, 1.05, 0.0, 40.0, 0.0,
-        5.0, -0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 40.0, 0.0,
-        11.0, 0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 40.0, 0.0, CAMERA,
+        0.0, -1.4, 0.9, 3.4, 0.3, 1.05, 0.0, 4.0, 0.0,
+        5.0, -0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 4.0, 0.0,
+        11.0, 0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 4.0, 0.0, CAMERA,
     ],
     clouds([0.0, 0.01, 0.03], [0.05, 0.1, 0.14], 0.4),
-    [TEXTURE, 0.05, 0.05, 0.05, 0.0, 1.0, 1.0, 0.0, SURFACE, 100.0, 2.2, MUL, GLOBE],
+    [TEXTURE, 0.05, 0.05, 0.05, 0.0, 0.1, 1.0, 0.0, SURFACE, 2.2, GLOBE],
     // The clouds have no light but the ambient: theirs is painted on. Towards the horizon they mirror the sky.
     [0.0, 0.0, 1.5, TIME, MUL, AT, 0.6, DAY, MUL, 0.18, DAY, MUL, 0.15, DAY, MUL],
     [11.0, DAY, MUL, 0.6, ADD, 4.545, DAY, MUL, 0.545, ADD, 0.8, DAY, MUL, 0.7, ADD],
-    [0.05, 0.0, CLOUDS as Word, TEXTURE, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, SURFACE, -1.0, -25.0, PLANE],
+    [0.05, 0.0, CLOUDS as Word, TEXTURE, 0.0, 0.0, 0.0, 0.0, 0.1, 1.0, 0.0, SURFACE, -1.0, -25.0, PLANE],
     [GLASS, -0.5, 0.9, 0.0, AT, 1.0, BALL],
     LOW, [0.2, 0.8, DAY, MUL, ADD, set(5)],
     [get(5), 1.2, MUL, get(5), 0.54, MUL, get(5), 0.145, MUL, 0.0, SUN],
-    plain([25.0, 14.0, 3.0]), [TEXTURE], LUMINOUS, [60.0, AWAY, 2.4, BALL],
+    plain([25.0, 14.0, 3.0]), [TEXTURE], LUMINOUS, [0.6, AWAY, 2.4, BALL],
     [0.0, 0.0, 0.0, AT], marble([0.2, 0.13, 0.09], [0.74, 0.66, 0.54], 1.5), [TEXTURE], MATT,
     [3.3, 4.7, -14.0, AT, 3.0, 0.35, 0.6, BLOCK],
     [1.1, -1.5, -14.0, AT, 6.0, 0.5, COLUMN, 5.5, -1.5, -14.0, AT, 6.0, 0.5, COLUMN],
     [-5.2, -1.5, -9.0, AT, 6.0, 0.5, COLUMN, -8.0, -1.5, -17.0, AT, 6.0, 0.5, COLUMN],
     LOW, [0.1, 0.11, 0.2, 0.6, DAY, MUL, 0.12, ADD, 0.2, DAY, MUL, 0.1, ADD, 0.2, 0.02, 0.05, 0.2],
-    [get(5), get(5), 0.45, MUL, get(5), 0.12, MUL, 18.0, 6.0, WORLD],
+    [get(5), get(5), 0.45, MUL, get(5), 0.12, MUL, 1.8, 6.0, WORLD],
 ];
 const LOW: [Word; 8] = [0.17, 0.26, DAY, MUL, -0.14, ADD, -1.0, AT];

@@ -6,17 +6,22 @@
 
 use std::slice::Iter;
 
-/// A word: a number up to 120 in steps of 1/200, or an operation, which is [`word`] of its byte.
+/// A word: a number from -4 to 11.9 in tenths, which is one byte; from -25.6 to 25.595 in steps of 1/200, which is two;
+/// or an operation, which is [`word`] of its byte.
 pub type Word = f32;
 
 /// Numbers beside the stack.
 pub const VARIABLES: usize = 16;
-/// Steps of 1.
+/// Bytes from here on start a number of two bytes,
+const TWO: u8 = 56;
+/// bytes from here on are one.
+const ONE: u8 = 96;
+// The first bytes of 0.
+const TWO_ZERO: i32 = 76;
+const ONE_ZERO: i32 = 136;
+/// Steps of 1, and of a tenth.
 const STEPS: f32 = 200.0;
-/// Bytes from here on start a number, in two bytes; this one and 0 is the least.
-const NUMBERS: u8 = 64;
-/// The first byte of 0.
-const ZERO: i32 = 160;
+const TENTH: i32 = 20;
 
 /// An operation as a word.
 pub const fn word(operation: u8) -> Word {
@@ -65,50 +70,49 @@ operations! {
 }
 /// The variable that counts.
 pub const COUNT: Word = get(3);
-/// Bytes that a script takes.
-pub const fn size(parts: &[&[Word]]) -> usize {
-    let (mut size, mut i) = (0, 0);
-    while i < parts.len() {
-        let mut k = 0;
-        while k < parts[i].len() {
-            size += if parts[i][k] < word(0) { 2 } else { 1 };
-            k += 1;
-        }
-        i += 1;
+/// The bytes of a word, and how many.
+const fn coded(word: Word) -> ([u8; 2], usize) {
+    if word >= self::word(0) {
+        return ([(word - self::word(0)) as u8, 0], 1);
     }
-    size
+    let steps = (word * STEPS + (TWO_ZERO << 8) as f32 + 0.5) as i32;
+    let exact = steps - (TWO_ZERO << 8);
+    let one = exact / TENTH + ONE_ZERO;
+    if exact % TENTH == 0 && one >= ONE as i32 && one < 256 {
+        return ([one as u8, 0], 1);
+    }
+    assert!(steps >> 8 >= TWO as i32 && steps >> 8 < ONE as i32);
+    ([(steps >> 8) as u8, steps as u8], 2)
 }
 
-/// The bytes of a script.
-pub const fn bytes<const N: usize>(parts: &[&[Word]]) -> [u8; N] {
-    let (mut bytes, mut at, mut i) = ([0; N], 0, 0);
+/// The bytes of a script's parts, if it takes at most so many, and how many it takes.
+pub const fn bytes<const N: usize>(parts: &[&[Word]]) -> ([u8; N], usize) {
+    let (mut bytes, mut size, mut i) = ([0; N], 0, 0);
     while i < parts.len() {
         let mut k = 0;
         while k < parts[i].len() {
-            let word = parts[i][k];
-            if word < self::word(0) {
-                let steps = (word * STEPS + (ZERO << 8) as f32 + 0.5) as i32;
-                assert!(steps >= (NUMBERS as i32) << 8 && steps < 1 << 16);
-                bytes[at] = (steps >> 8) as u8;
-                at += 1;
-                bytes[at] = steps as u8;
-            } else {
-                bytes[at] = (word - self::word(0)) as u8;
+            let (word, length) = coded(parts[i][k]);
+            let mut byte = 0;
+            while byte < length {
+                if size < N {
+                    bytes[size] = word[byte];
+                }
+                size += 1;
+                byte += 1;
             }
-            at += 1;
             k += 1;
         }
         i += 1;
     }
-    bytes
+    (bytes, size)
 }
 
 /// The bytes of a script of some parts, each of which is an array of words.
 macro_rules! script {
     ($($part:expr),+ $(,)?) => {{
         const PARTS: &[&[$crate::scenes::script::Word]] = &[$(&$part),+];
-        const SIZE: usize = $crate::scenes::script::size(PARTS);
-        static BYTES: [u8; SIZE] = $crate::scenes::script::bytes(PARTS);
+        const SIZE: usize = $crate::scenes::script::bytes::<0>(PARTS).1;
+        static BYTES: [u8; SIZE] = $crate::scenes::script::bytes(PARTS).0;
         &BYTES
     }};
 }
@@ -148,8 +152,11 @@ impl Script {
             let last = self.top - 1;
             let [a, b] = [last - 1, last].map(|i| self.numbers[i as usize]);
             let (at, number) = match word {
-                NUMBERS.. => {
-                    let steps = (word as i32 - ZERO) * 256 + self.byte() as i32;
+                TWO.. => {
+                    let steps = match word {
+                        ONE.. => (word as i32 - ONE_ZERO) * TENTH,
+                        _ => (word as i32 - TWO_ZERO) * 256 + self.byte() as i32,
+                    };
                     (self.top, steps as f32 / STEPS)
                 }
                 0..16 => (self.top, self.numbers[word as usize]),
