@@ -14,41 +14,50 @@ pub type Key<const N: usize> = [f32; N];
 /// Panics where the table is empty.
 #[inline(never)]
 pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
+    let last = keys.len() - 1;
     // NaN is after no key.
     let mut next = 0;
-    while next < keys.len() && keys[next][0] as f64 <= time {
+    while next <= last && keys[next][0] as f64 <= time {
         next += 1;
     }
     let here = next.max(1) - 1;
     let mut line = keys[here];
-    if next > 0 && next < keys.len() {
-        let length = keys[next][0] - line[0];
-        let x = (time - line[0] as f64) as f32 / length;
+    if next > 0 && next <= last {
+        let x = (time - line[0] as f64) as f32 / (keys[next][0] - line[0]);
         let y = 1.0 - x;
+        // This interval, and its neighbours if there are.
+        let intervals = [here.max(1) - 1, here, next.min(last - 1)].map(|k| (&keys[k], &keys[k + 1]));
         for (i, value) in line.iter_mut().enumerate() {
-            let [from, to] = [here, next].map(|k| speed(keys, k, i) * length);
+            // Their lengths and mean speeds.
+            let [(h0, s0), (h, s), (h1, s1)] = intervals.map(|(a, b)| (b[0] - a[0], (b[i] - a[i]) / (b[0] - a[0])));
+            // The parabola's speed at both ends; the first and the last are those of its neighbour's.
+            let (mut from, mut to) = ((s0 * h + s * h0) / (h0 + h), (s * h1 + s1 * h) / (h + h1));
+            if here == 0 {
+                from = 2.0 * s - to;
+            }
+            if next == last {
+                to = 2.0 * s - from;
+            }
             // Hermite's cubic, written so that equal keys give their value exactly.
-            *value += (keys[next][i] - *value) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y);
+            *value += h * (s * (x * x * (1.0 + 2.0 * y)) + (monotone(from, s0, s) * y - monotone(to, s, s1) * x) * (x * y));
         }
     }
     line
 }
 
-/// Speed of value `i` at key `k`, a second: that of the parabola through three keys, at both ends too, as far as the
-/// curve stays monotone; through two keys the line.
+/// A speed where intervals of two mean speeds meet, as far as the curve stays monotone in both.
 #[inline(never)]
-fn speed<const N: usize>(keys: &[Key<N>], k: usize, i: usize) -> f32 {
-    let last = keys.len() - 1;
-    let mean = |k: usize| {
-        let [a, b] = [k.min(last - 1), k.min(last - 1) + 1].map(|k| &keys[k]);
-        (b[i] - a[i]) / (b[0] - a[0])
-    };
-    let time = |k: usize| keys[k.min(last)][0];
-    let middle = k.clamp(1, last.max(2) - 1);
-    let bend = (mean(middle) - mean(middle - 1)) / (time(middle + 1) - time(middle - 1));
-    let speed = mean(middle - 1) + bend * (2.0 * time(k) - time(middle - 1) - time(middle));
-    let (before, after) = (mean(k.max(1) - 1), mean(k));
-    speed.max(2.0 * before.max(after).min(0.0)).min(2.0 * before.min(after).max(0.0))
+fn monotone(speed: f32, a: f32, b: f32) -> f32 {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    let most = if low > 0.0 { 2.0 * low } else { 0.0 };
+    let least = if high < 0.0 { 2.0 * high } else { 0.0 };
+    if speed < least {
+        least
+    } else if speed > most {
+        most
+    } else {
+        speed
+    }
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.

@@ -76,7 +76,8 @@ fn picture(shot: &Shot) -> Picture {
 pub fn stage(time: f64) -> (World, Camera) {
     let (bytes, time) = timeline::cut(CUTS, END, time);
     let mut set = EMPTY;
-    set.build(Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]), time);
+    let mut script = Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]);
+    set.build(&mut script, time);
     let [_, x, y, z, tx, ty, tz, fov, _] = set.key;
     (set.world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), (10.0 * fov).to_radians(), 0.0))
 }
@@ -109,7 +110,7 @@ const EMPTY: Set = Set {
 impl Set {
     /// Runs a script at `time` seconds.
     #[inline(never)]
-    fn build(&mut self, mut script: Script, time: f64) {
+    fn build(&mut self, script: &mut Script, time: f64) {
         loop {
             let operation = script.next();
             let n: &[f32; 14] = script.numbers[VARIABLES..].first_chunk().unwrap();

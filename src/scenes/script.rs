@@ -4,8 +4,6 @@
 //! numbers from there. Arithmetic is done here, all other operations by whoever asks for the [`Script::next`] one: they
 //! take the whole stack. Below it are [`VARIABLES`], which stay.
 
-use std::slice::Iter;
-
 /// A word: a number from -4 to 11.9 in tenths, which is one byte; from -25.6 to 25.595 in steps of 1/200, which is two;
 /// or an operation, which is [`word`] of its byte.
 pub type Word = f32;
@@ -120,9 +118,11 @@ pub(crate) use script;
 
 /// A script that runs.
 pub struct Script {
-    bytes: Iter<'static, u8>,
-    /// What is to be repeated, and how often.
-    again: (Iter<'static, u8>, f32),
+    bytes: &'static [u8],
+    /// The next byte.
+    at: usize,
+    /// What is to be repeated from where, and how often.
+    again: (usize, f32),
     /// Variables, then the stack.
     pub numbers: [f32; 256],
     /// The end of the stack.
@@ -131,10 +131,11 @@ pub struct Script {
 
 impl Script {
     /// Of these bytes, with the first variables.
+    #[inline(never)]
     pub fn new(bytes: &'static [u8], variables: [f32; 2]) -> Script {
         let mut numbers = [0.0; 256];
         [numbers[0], numbers[1]] = variables;
-        Script { bytes: bytes.iter(), again: (bytes.iter(), 0.0), numbers, top: 0 }
+        Script { bytes, at: 0, again: (0, 0.0), numbers, top: 0 }
     }
 
     /// The numbers that the last operation takes.
@@ -142,65 +143,78 @@ impl Script {
         &self.numbers[VARIABLES..self.top as usize]
     }
 
-    /// The next operation that is not arithmetic; 0 at the end.
+    /// The next operation that is not arithmetic. Panics after the last one.
     #[inline(never)]
     pub fn next(&mut self) -> u8 {
         const COUNT: usize = 3;
-        self.top = VARIABLES as u8;
+        let mut top = VARIABLES as u8;
         loop {
-            let word = self.byte();
-            let last = self.top - 1;
-            let [a, b] = [last - 1, last].map(|i| self.numbers[i as usize]);
-            let (at, number) = match word {
-                TWO.. => {
-                    let steps = match word {
-                        ONE.. => (word as i32 - ONE_ZERO) * TENTH,
-                        _ => (word as i32 - TWO_ZERO) * 256 + self.byte() as i32,
-                    };
-                    (self.top, steps as f32 / STEPS)
+            let word = self.bytes[self.at];
+            self.at += 1;
+            // The last two numbers; where the result goes.
+            let mut at = top - 2;
+            let [a, b] = [at, at + 1].map(|i| self.numbers[i as usize]);
+            let number = match word {
+                byte::ADD => a + b,
+                byte::MUL => a * b,
+                byte::SIN | byte::COS | byte::ABS => {
+                    at += 1;
+                    match word {
+                        byte::SIN => b.sin(),
+                        byte::COS => b.cos(),
+                        _ => b.abs(),
+                    }
                 }
-                0..16 => (self.top, self.numbers[word as usize]),
-                16..32 => {
-                    self.numbers[word as usize - VARIABLES] = b;
-                    self.top = last;
-                    continue;
-                }
-                byte::ADD => (last - 1, a + b),
-                byte::MUL => (last - 1, a * b),
-                byte::SIN => (last, b.sin()),
-                byte::COS => (last, b.cos()),
-                byte::ABS => (last, b.abs()),
                 byte::PICK => {
                     let width = b as u8;
-                    let rows = (last - 1 - VARIABLES as u8) / width;
+                    let rows = (at - VARIABLES as u8) / width;
                     let row = a as u8 % rows * width;
-                    self.top = VARIABLES as u8 + width;
-                    for i in VARIABLES as u8..self.top {
-                        self.numbers[i as usize] = self.numbers[(i + row) as usize];
+                    top = VARIABLES as u8;
+                    for _ in 0..width {
+                        self.numbers[top as usize] = self.numbers[(top + row) as usize];
+                        top += 1;
                     }
-                    continue;
-                }
-                byte::REPEAT => {
-                    self.again = (self.bytes.clone(), b);
-                    self.numbers[COUNT] = 0.0;
-                    self.top = last;
                     continue;
                 }
                 byte::AGAIN => {
                     self.numbers[COUNT] += 1.0;
                     if self.numbers[COUNT] < self.again.1 {
-                        self.bytes = self.again.0.clone();
+                        self.at = self.again.0;
                     }
                     continue;
                 }
-                _ => return word,
+                byte::REPEAT => {
+                    self.again = (self.at, b);
+                    self.numbers[COUNT] = 0.0;
+                    top -= 1;
+                    continue;
+                }
+                16..32 => {
+                    self.numbers[word as usize - VARIABLES] = b;
+                    top -= 1;
+                    continue;
+                }
+                _ => {
+                    at = top;
+                    match word {
+                        0..16 => self.numbers[word as usize],
+                        TWO.. => {
+                            let mut steps = (word as i32 - ONE_ZERO) * TENTH;
+                            if word < ONE {
+                                steps = (word as i32 - TWO_ZERO) * 256 + self.bytes[self.at] as i32;
+                                self.at += 1;
+                            }
+                            steps as f32 / STEPS
+                        }
+                        _ => {
+                            self.top = top;
+                            return word;
+                        }
+                    }
+                }
             };
             self.numbers[at as usize] = number;
-            self.top = at + 1;
+            top = at + 1;
         }
-    }
-
-    fn byte(&mut self) -> u8 {
-        self.bytes.next().copied().unwrap_or(0)
     }
 }
