@@ -53,8 +53,8 @@ pub fn run(args: &Args, json: bool) -> Result<(), String> {
             "scene", "frames", "fps median", "slowest 1 %", "ms median", "samples"
         ))?;
     }
-    for scene in args.scene.map_or_else(scenes::all, |scene| vec![scene]) {
-        let times = time(&mut renderer, &scene, args, &mut frame);
+    for scene in args.scene.as_ref().map_or(scenes::all(), std::slice::from_ref) {
+        let times = time(&mut renderer, scene, args, &mut frame);
         let (name, frames) = (scene.name, times.ms.len());
         let (median, slow) = (times.median(), times.quantile(0.99));
         let (fps_median, fps_p1, ms) = (fixed(1000.0 / median), fixed(1000.0 / slow), fixed(median));

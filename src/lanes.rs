@@ -2,7 +2,7 @@
 //!
 //! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
 
-use fearless_simd::prelude::*;
+use fearless_simd::{Level, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -125,4 +125,9 @@ impl Iterator for Bits {
             lane
         })
     }
+}
+
+/// The best SIMD level: any gives the same bits.
+pub fn best() -> Level {
+    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }

@@ -11,6 +11,9 @@ mod wide;
 
 pub use wide::{fbm_block, noise_block, turbulence_block};
 
+use crate::block::BLOCK;
+use crate::lanes::best;
+use fearless_simd::dispatch;
 use glam::Vec3;
 
 /// Perlin's permutation of 0..256.
@@ -118,6 +121,24 @@ fn sum_octaves(p: Vec3, octaves: u32, shape: impl Fn(f32) -> f32) -> f32 {
         sum += amplitude * shape(noise(p));
         amplitude *= 0.5;
         p *= 2.0;
+    }
+    sum
+}
+
+/// [`fbm`], or where it is `absolute` [`turbulence`], of up to 8 octaves: the same bits, by [`noise_block`].
+#[inline(never)]
+pub fn octaves(p: Vec3, octaves: usize, absolute: bool) -> f32 {
+    let [mut x, mut y, mut z, mut n] = [[0.0; BLOCK]; 4];
+    let mut zoomed = p;
+    for k in 0..8 {
+        [x[k], y[k], z[k]] = zoomed.to_array();
+        zoomed *= 2.0;
+    }
+    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, &mut n));
+    let (mut sum, mut amplitude) = (0.0, 0.5);
+    for n in &n[..octaves] {
+        sum += amplitude * if absolute { n.abs() } else { *n };
+        amplitude *= 0.5;
     }
     sum
 }

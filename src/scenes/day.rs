@@ -1,6 +1,7 @@
 //! The second part of the intro: days on a hill by a lake, from dawn to the stars, through the year.
 
 use super::models::{self, MEADOW, chapel, land, mustang, tree};
+use super::script::{ADD, MUL, PICK, Script, get, operations, script};
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
@@ -14,7 +15,7 @@ use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
 use crate::texture::{Palette, Texture};
 use crate::tile::Picture;
-use crate::timeline::{self, Key, ease};
+use crate::timeline::{self, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::f32::consts::TAU;
@@ -27,44 +28,45 @@ pub const DAY: Scene =
 /// Seconds that a day takes, from four in the morning to four in the morning.
 pub const LENGTH: f64 = 60.0;
 
-/// A day of the year.
-struct Season {
-    /// Days from J2000 to midnight, Central European Time: 2026-06-25, 2026-09-19, 2026-12-22, 2027-03-10.
-    midnight: f64,
-    /// Albedo of the meadows, and what that of leaves is multiplied by.
-    grass: Vec3,
-    leaves: Vec3,
-    /// Share of the land that is white.
-    snow: f32,
-}
-
-const SEASONS: [Season; 4] = [
-    Season { midnight: 9671.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
-    Season { midnight: 9757.5 - HOUR, grass: vec3(0.16, 0.14, 0.045), leaves: vec3(2.2, 0.8, 0.3), snow: 0.0 },
-    Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.6, 0.35, 0.7), snow: 1.0 },
-    Season { midnight: 9929.5 - HOUR, grass: vec3(0.12, 0.15, 0.03), leaves: vec3(1.0, 1.1, 0.8), snow: 0.15 },
-];
-
 /// A day's 24th part.
 const HOUR: f64 = 1.0 / 24.0;
 
 /// What day it is at `time` seconds, and how many of its hours have passed.
 pub fn clock(time: f64) -> (usize, f64) {
     let day = (time / LENGTH).floor();
-    (day as usize % SEASONS.len(), 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
+    (day as usize % 4, 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
 }
 
-/// Eye, target, vertical field of view in degrees, by the hour.
-const CAMERA: &[Key<7>] = &[
-    (4.0, [-36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0]),
-    (8.0, [-24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0]),
-    (12.0, [0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0]),
-    (14.0, [38.0, 19.0, -28.0, 0.0, 16.5, 0.0, 54.0]),
-    (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
-    (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
-    // To the south, where the moon stands over the lake.
-    (22.0, [-4.0, 15.5, -46.0, -6.0, 19.5, 0.0, 54.0]),
-    (28.0, [14.0, 16.5, -45.0, -4.0, 20.0, 0.0, 54.0]),
+operations! {
+    /// The camera's keys, nine numbers each: the hour; eye, target, vertical field of view in degrees; the last one is
+    /// free. In tens.
+    CAMERA = 40;
+    /// A day of the year: days from 2026-06-25 on, in twenties; albedo of the meadows, what that of leaves is multiplied
+    /// by, the share of the land that is white.
+    SEASON = 41;
+}
+
+/// The course of days. The last keys are to the south, where the moon stands over the lake.
+#[rustfmt::skip]
+const PLAN: &[u8] = script![
+    [
+        0.4, -3.6, 1.35, 1.4, 0.0, 1.85, -0.2, 5.4, 0.0,
+        0.8, -2.4, 1.7, -3.4, 0.0, 1.7, 0.0, 5.4, 0.0,
+        1.2, 0.0, 1.9, -4.7, 0.0, 1.6, 0.0, 5.4, 0.0,
+        1.4, 3.8, 1.9, -2.8, 0.0, 1.65, 0.0, 5.4, 0.0,
+        1.8, 3.3, 1.35, 3.9, 0.0, 1.8, -0.4, 5.4, 0.0,
+        -0.02, 0.005, MUL, 2.2, ADD, 2.4, 1.4, 4.4, -0.3, 1.9, 0.0, 5.4, 0.0,
+        2.2, -0.4, 1.55, -4.6, -0.6, 1.95, 0.0, 5.4, 0.0,
+        2.8, 1.4, 1.65, -4.5, -0.4, 2.0, 0.0, 5.4, 0.0, CAMERA,
+    ],
+    [
+        // Also 2026-09-19, 2026-12-22 and 2027-03-10.
+        0.0, 0.115, 0.165, 0.035, 1.0, 1.0, 1.0, 0.0,
+        4.3, 0.16, 0.14, 0.045, 2.2, 0.8, 0.3, 0.0,
+        9.0, 0.7, 0.72, 0.78, 0.6, 0.35, 0.7, 1.0,
+        12.9, 0.12, 0.15, 0.03, 1.0, 1.1, 0.8, 0.15,
+        get(0), 8.0, PICK, SEASON,
+    ],
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
@@ -81,18 +83,19 @@ fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
 }
 
 /// The textures of a season.
-fn textures(season: &Season) -> Vec<Texture> {
+fn textures(&[_, r, g, b, x, y, z, snow]: &[f32; 8]) -> Vec<Texture> {
+    let (grass, leaves) = (vec3(r, g, b), vec3(x, y, z));
     let mut textures = models::TEXTURES.to_vec();
-    for (index, scale) in [(0, season.grass / MEADOW), (6, season.leaves)] {
+    for (index, scale) in [(0, grass / MEADOW), (6, leaves)] {
         if let Palette::Mix(a, b) = &mut textures[index].palette {
-            let calm = 0.7 * season.snow;
+            let calm = 0.7 * snow;
             (*a, *b) = (a.lerp(Vec3::ONE, calm) * scale, b.lerp(Vec3::ONE, calm) * scale);
         }
     }
     if let Palette::Ramp(colors) = &mut textures[1].palette {
-        colors[0] = season.grass;
+        colors[0] = grass;
         for color in &mut colors[1..3] {
-            *color = color.lerp(Vec3::splat(0.6), 0.5 * season.snow);
+            *color = color.lerp(Vec3::splat(0.6), 0.5 * snow);
         }
     }
     textures
@@ -100,11 +103,16 @@ fn textures(season: &Season) -> Vec<Texture> {
 
 fn picture(shot: &Shot) -> Picture {
     let (day, hour) = clock(shot.time);
-    let season = &SEASONS[day];
-    let [x, y, z, tx, ty, tz, fov] = timeline::sample(CAMERA, hour);
+    let mut plan = Script::new(PLAN, [day as u32 as f32, 0.0]);
+    plan.next();
+    let [_, x, y, z, tx, ty, tz, fov, _] = timeline::sample(plan.stack().as_chunks().0, 0.1 * hour).map(|n| 10.0 * n);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     let camera = shot.camera(camera);
-    let dome = Dome::new(Sky::new(season.midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
+    plan.next();
+    let season = plan.stack().first_chunk().unwrap();
+    // Days from J2000, Central European Time.
+    let midnight = 9671.5 - HOUR + (20.0 * season[0]) as f64;
+    let dome = Dome::new(Sky::new(midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
     let now = dome.lighting();
     let (still, aeroplane) = bodies();
     let mut bodies = still.clone();

@@ -6,6 +6,7 @@ pub mod intro;
 pub mod lumen;
 #[cfg(feature = "day")]
 pub mod models;
+mod script;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
 #[cfg(feature = "bench-scenes")]
@@ -107,8 +108,8 @@ pub const ALL: &[Scene] = &[
 pub const INTRO: Scene = ALL[0];
 
 /// Every scene.
-pub fn all() -> Vec<Scene> {
-    ALL.to_vec()
+pub fn all() -> &'static [Scene] {
+    ALL
 }
 
 /// The scene of that name.

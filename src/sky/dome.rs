@@ -5,9 +5,9 @@ use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
 use super::time::{sane, turned};
-use crate::lanes::{F, Lane, V3};
+use crate::lanes::{F, Lane, V3, best};
 use crate::quality::Quality;
-use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3, vec3};
 
@@ -195,9 +195,4 @@ pub(super) fn power(x: f32, n: u32) -> f32 {
 #[inline(always)]
 fn first<S: Simd>(v: V3<S>) -> Vec3 {
     vec3(v.x.as_slice()[0], v.y.as_slice()[0], v.z.as_slice()[0])
-}
-
-/// The best SIMD level: any gives the same bits.
-fn best() -> Level {
-    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }

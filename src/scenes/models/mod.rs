@@ -5,7 +5,10 @@ pub mod land;
 pub mod mustang;
 pub mod tree;
 
-use crate::raster::mesh::Paint;
+use super::script::{Script, VARIABLES, operations};
+use crate::hash::rnd;
+use crate::raster::form::Body;
+use crate::raster::mesh::{Mesh, Paint};
 use crate::texture::{Palette, Pattern, Texture};
 use glam::{Mat3, Vec3, vec3};
 
@@ -77,4 +80,49 @@ const fn layers(palette: Palette, steep: f32, warp: f32, scale: f32, middle: f32
     let turn = Mat3::from_cols(vec3(0.0, steep, 0.0), vec3(steep, 0.0, 0.0), vec3(0.0, 0.0, steep));
     let pattern = Pattern::Marble { warp, scale, octaves: 5 };
     Texture { pattern, palette, turn, origin: vec3(0.0, middle, 0.0) }
+}
+
+operations! {
+    /// Columns of a matrix that the next bodies are multiplied by.
+    TURN = 40;
+    /// Or they are turned around x, then y, by two angles, y first, and moved along what is z then.
+    ROTATE = 41;
+    /// Their foot is on the ground where they have moved to.
+    GROUND = 42;
+    /// Variable 4 becomes a random number of a number.
+    RANDOM = 43;
+    /// A body in the paint of variable 0: where, units; how large, tenths of units; its index.
+    BODY = 44;
+    /// The last word.
+    END = 45;
+}
+
+/// Stream of random numbers.
+const STREAM: u32 = 5;
+
+/// Adds what a script builds of `bodies` on a `foot`: `unit` metres are its unit, `seed` is what its random numbers come
+/// from.
+#[inline(never)]
+fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Body], mut foot: Vec3, unit: f32, seed: u32) {
+    let (mut turn, mut out) = (Mat3::IDENTITY, Vec3::ZERO);
+    loop {
+        let operation = script.next();
+        let n: &[f32; 9] = script.numbers[VARIABLES..].first_chunk().unwrap();
+        match operation {
+            byte::TURN => turn = Mat3::from_cols_array(n),
+            byte::ROTATE => {
+                turn = Mat3::from_rotation_y(n[0]) * Mat3::from_rotation_x(n[1]);
+                out = turn.z_axis * n[2];
+            }
+            byte::GROUND => foot.y = land::height(out.x, out.z),
+            byte::RANDOM => script.numbers[4] = rnd(STREAM, seed, n[0] as u32),
+            byte::BODY => {
+                let [x, y, z, a, b, c, index, ..] = *n;
+                let size = turn * Mat3::from_diagonal(vec3(a, b, c) * (0.1 * unit));
+                let at = foot + (vec3(x, y, z) + out) * unit;
+                mesh.body(&bodies[index as usize], &size, at, script.numbers[0] as u16);
+            }
+            _ => return,
+        }
+    }
 }
