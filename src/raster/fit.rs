@@ -26,19 +26,14 @@ pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size:
             // Lookups keep off the border.
             let width = 2.0 * radius * size as f32 / (size as f32 - 8.0);
             let ball = camera.eye + camera.forward * along;
-            snapped(towards, ball, width, size)
+            let mut projection = Projection::parallel(towards, ball, width, size);
+            // Moved until the world's origin lies on a corner of texels.
+            for row in &mut projection.rows[..2] {
+                row.w = row.w.round();
+            }
+            projection
         })
         .collect()
-}
-
-/// A parallel projection whose middle is moved to a whole texel.
-fn snapped(towards: Vec3, middle: Vec3, width: f32, size: u32) -> Projection {
-    let mut projection = Projection::parallel(towards, middle, width, size);
-    // The world's origin, too, is to lie on a corner of texels.
-    let origin = projection.matrix.w_axis;
-    projection.matrix.w_axis.x = origin.x.round();
-    projection.matrix.w_axis.y = origin.y.round();
-    projection
 }
 
 /// The six faces of the cube around a lamp.
