@@ -50,7 +50,8 @@ impl Bins {
                             *start = start.wrapping_sub(1);
                             // While they are counted there is no list yet.
                             if let Some(id) = list.get_mut(*start as usize) {
-                                *id = (triangle.texture << BITS | p as u32) << BITS | t as u32;
+                                let texture = triangle.paint.texture.map_or(PLAIN, u32::from);
+                                *id = (texture << BITS | p as u32) << BITS | t as u32;
                             }
                         }
                     }

@@ -213,7 +213,7 @@ impl Layer for Drawn {
         let bodies = &world.bodies;
         let raster = |projection, back_faces, shaded| Raster {
             setup: Setup { projection, back_faces, shaded },
-            pieces: bodies.iter().map(|_| Piece::default()).collect(),
+            pieces: Vec::new(),
             bins: Bins::default(),
         };
         rasters.push(raster(Projection::of_view(&self.view, self.size), false, true));
@@ -221,12 +221,18 @@ impl Layer for Drawn {
         for (slot, light) in world.lights.iter().enumerate() {
             let mut sight = Sight { map: None, first: rasters.len() };
             if let Some(&Plan { ref views, back_faces, traced, .. }) = light.plan() {
-                let casters = bodies.iter().filter(|body| light.reaches(body.bound.0, body.bound.1)).cloned();
-                let key = Key { slot, views: views.clone(), back_faces, casters: casters.collect() };
+                let mut key = Key { slot, views: views.clone(), back_faces, casters: Vec::new() };
+                for body in bodies {
+                    if light.reaches(body.bound.0, body.bound.1) {
+                        key.casters.push(body.clone());
+                    }
+                }
                 match shadow::recall(&key) {
                     Ok(map) => sight.map = Some(map),
                     Err(map) => {
-                        rasters.extend(views.iter().map(|view| raster(*view, back_faces, false)));
+                        for view in views {
+                            rasters.push(raster(*view, back_faces, false));
+                        }
                         if !traced {
                             missing.push((key, map));
                         }
@@ -237,6 +243,7 @@ impl Layer for Drawn {
         }
         let mut jobs = Vec::new();
         for Raster { setup, pieces, .. } in rasters.iter_mut() {
+            pieces.resize_with(bodies.len(), Piece::default);
             for (piece, body) in pieces.iter_mut().zip(bodies) {
                 if !setup.projection.misses(body.bound.0, body.bound.1) {
                     jobs.push((&*setup, piece, body));

@@ -3,7 +3,7 @@
 use super::bins::{Id, NOTHING, TEXTURE, parts};
 use super::fill::{STEPS, Sample, Visible};
 use super::light::Sight;
-use super::triangle::{Plane, SUB};
+use super::triangle::{SUB, Triangle};
 use super::{BENCH, Raster, World};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{Bits, F, Lane, U, V3};
@@ -41,11 +41,34 @@ pub struct Queue {
     /// 20 on along y; from bit 28 on the number of its samples, less one.
     place: [u32; BLOCK],
     id: [Id; BLOCK],
+    // What they show: here, and not on the stack, it need not be cleared.
+    point: Block3,
+    normal: Block3,
+    albedo: Block3,
+    light: Block3,
+    /// The length of the pixel on the surface, metres.
+    footprint: [f32; BLOCK],
+    gloss: [f32; BLOCK],
+    nearness: [f32; BLOCK],
+    /// Share of the pixel.
+    weight: [f32; BLOCK],
 }
 
 impl Queue {
     /// No fragments.
-    pub const EMPTY: Queue = Queue { count: 0, place: [0; BLOCK], id: [0; BLOCK] };
+    pub const EMPTY: Queue = Queue {
+        count: 0,
+        place: [0; BLOCK],
+        id: [0; BLOCK],
+        point: [[0.0; BLOCK]; 3],
+        normal: [[0.0; BLOCK]; 3],
+        albedo: [[0.0; BLOCK]; 3],
+        light: [[0.0; BLOCK]; 3],
+        footprint: [0.0; BLOCK],
+        gloss: [0.0; BLOCK],
+        nearness: [0.0; BLOCK],
+        weight: [0.0; BLOCK],
+    };
 }
 
 /// A fragment of that many samples at the mean of `sum`, which is the sum of their places, in pixel 0.
@@ -153,12 +176,6 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
     -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
 }
 
-/// A plane at offsets from its anchor, where `here`.
-#[inline(always)]
-fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
-    dx * plane.by[0] + dy * plane.by[1] + plane.at
-}
-
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
@@ -170,10 +187,6 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
     queue.place[count..].fill(place);
     queue.id[count..].fill(id);
     let texture = world.textures.get(texture);
-    let (mut point, mut normal, mut color, mut light) =
-        ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let (mut nearness, mut glosses, mut footprint) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-    let mut painted = [[1.0; BLOCK]; 3];
     let mut glossy = false;
     let one = F::<S>::splat(simd, 1.0);
     let eye = view.camera().eye;
@@ -194,15 +207,19 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             let here = ids.simd_eq(U::<S>::splat(simd, id));
             todo &= !here.to_bitmask();
             let (piece, number) = parts(id);
-            let (triangle, surface) = (&pieces[piece].triangles[number], &pieces[piece].surfaces[number]);
-            let (dx, dy) = (x - triangle.anchor[0], y - triangle.anchor[1]);
-            let [nx, ny, nz] = &surface.normal;
-            n = V3::select(here, V3 { x: at::<S>(nx, dx, dy), y: at::<S>(ny, dx, dy), z: at::<S>(nz, dx, dy) }, n);
-            albedo = V3::select(here, V3::splat(simd, surface.paint.albedo), albedo);
-            let z = at::<S>(&triangle.nearness, dx, dy).max(triangle.range[0]).min(triangle.range[1]);
+            let Triangle { anchor, at, by: [along, down], range, paint, .. } = &pieces[piece].triangles[number];
+            let (dx, dy) = (x - anchor[0], y - anchor[1]);
+            let normal = V3 {
+                x: dx * along.x + dy * down.x + at.x,
+                y: dx * along.y + dy * down.y + at.y,
+                z: dx * along.z + dy * down.z + at.z,
+            };
+            n = V3::select(here, normal, n);
+            albedo = V3::select(here, V3::splat(simd, paint.albedo), albedo);
+            let z = (dx * along.w + dy * down.w + at.w).max(range[0]).min(range[1]);
             near = here.select(z, near);
-            gloss = here.select(F::<S>::splat(simd, surface.paint.gloss), gloss);
-            glossy |= surface.paint.gloss > 0.0;
+            gloss = here.select(F::<S>::splat(simd, paint.gloss), gloss);
+            glossy |= paint.gloss > 0.0;
         }
         let far = one / near.max(F::<S>::splat(simd, FARTHEST));
         let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
@@ -214,35 +231,39 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             let cosine = way.dot(n).abs() / way.dot(way).sqrt();
             // Between the pixel's width and its length.
             let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
-            store(far * stretch * view.pixel(), &mut footprint, i);
+            store(far * stretch * view.pixel(), &mut queue.footprint, i);
         }
-        store3(p, &mut point, i);
-        store3(n, &mut normal, i);
-        store3(albedo, &mut color, i);
-        store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut light, i);
-        store(near, &mut nearness, i);
-        store(gloss, &mut glosses, i);
+        store3(p, &mut queue.point, i);
+        store3(n, &mut queue.normal, i);
+        store3(albedo, &mut queue.albedo, i);
+        store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut queue.light, i);
+        store(near, &mut queue.nearness, i);
+        store(gloss, &mut queue.gloss, i);
         i += 1;
     }
     if let Some(texture) = texture {
-        texture::shade(simd, texture, &point, Some(&footprint), &mut painted);
+        let mut painted = [[0.0; BLOCK]; 3];
+        texture::shade(simd, texture, &queue.point, Some(&queue.footprint), &mut painted);
+        let mut i = 0;
+        while i < BLOCK / lanes {
+            store3(load3(simd, &queue.albedo, i).mulv(load3(simd, &painted, i)), &mut queue.albedo, i);
+            i += 1;
+        }
     }
     for (source, sight) in world.lights.iter().zip(sights) {
         if source.meets(simd, low, high) {
             let mut i = 0;
             while i < BLOCK / lanes {
-                let (p, n) = (load3(simd, &point, i), load3(simd, &normal, i));
-                store3(load3(simd, &light, i) + source.at(simd, sight, rasters, p, n), &mut light, i);
+                let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+                store3(load3(simd, &queue.light, i) + source.at(simd, sight, rasters, p, n), &mut queue.light, i);
                 i += 1;
             }
         }
     }
-    let mut weights = [0.0; BLOCK];
     let mut i = 0;
     while i < BLOCK / lanes {
-        let (p, n) = (load3(simd, &point, i), load3(simd, &normal, i));
-        let albedo = load3(simd, &color, i).mulv(load3(simd, &painted, i));
-        let mut color_here = albedo.mulv(load3(simd, &light, i));
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        let mut color = load3(simd, &queue.albedo, i).mulv(load3(simd, &queue.light, i));
         let haze = &world.haze;
         let way = p.sub1(eye);
         let distance = way.dot(way).sqrt();
@@ -257,19 +278,19 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             let rest = one - cosine.abs().min(one);
             let grazing = rest * rest;
             let grazing = grazing * grazing * rest;
-            let gloss = load::<S, F<S>>(simd, &glosses, i) * (grazing * 0.95 + 0.05);
-            color_here = color_here + (sky - color_here) * Lane(gloss);
+            let gloss = load::<S, F<S>>(simd, &queue.gloss, i) * (grazing * 0.95 + 0.05);
+            color = color + (sky - color) * Lane(gloss);
         }
         if world.film || !BENCH {
-            color_here = V3 { x: film(simd, color_here.x), y: film(simd, color_here.y), z: film(simd, color_here.z) };
+            color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
         let before = haze.at(simd, way).0;
-        let seen = before + (color_here - before) * Lane(clear);
+        let seen = before + (color - before) * Lane(clear);
         let samples: U<S> = (load::<S, U<S>>(simd, &queue.place, i) >> 28) + 1;
         let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
-        store3(seen * Lane(weight), &mut color, i);
-        store(weight, &mut weights, i);
+        store3(seen * Lane(weight), &mut queue.light, i);
+        store(weight, &mut queue.weight, i);
         i += 1;
     }
     // To the pixels, as many at a time as follow each other.
@@ -285,7 +306,8 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             }
         }
         let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.coverage];
-        for (plane, light) in planes.into_iter().zip([&color[0], &color[1], &color[2], &weights]) {
+        for (plane, light) in planes.into_iter().zip([&queue.light[0], &queue.light[1], &queue.light[2], &queue.weight])
+        {
             if run > 1 {
                 let sum = F::<S>::from_slice(simd, &plane[first..first + lanes])
                     + F::<S>::from_slice(simd, &light[i..i + lanes]);
@@ -294,7 +316,7 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
                 plane[first] += light[i];
             }
         }
-        for (near, at) in tile.closeness[first..].iter_mut().zip(&nearness[i..i + run]) {
+        for (near, at) in tile.closeness[first..].iter_mut().zip(&queue.nearness[i..i + run]) {
             *near = near.max(*at);
         }
         i += run;

@@ -1,6 +1,6 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
-use super::bins::{MOST, PLAIN};
+use super::bins::MOST;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
 use glam::{Affine3A, Vec3, Vec4};
@@ -12,15 +12,6 @@ const GUARD: f32 = 16384.0;
 /// How far clipped corners may lie beyond that: edges still fit.
 const SLACK: f32 = GUARD / 128.0;
 
-/// A value that is affine over the raster.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Plane {
-    /// At the triangle's anchor.
-    pub at: f32,
-    /// Change a pixel along x and along y.
-    pub by: [f32; 2],
-}
-
 /// A triangle that faces the eye.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
@@ -30,21 +21,23 @@ pub struct Triangle {
     pub bound: [i32; 4],
     /// Where planes have their values, pixels.
     pub anchor: [f32; 2],
-    /// Nearness.
-    pub nearness: Plane,
-    /// Index of the world's texture, or [`PLAIN`].
-    pub texture: u32,
+    /// There, the components of the normal in the world, of any length, and nearness. Normals are 0 where nothing is
+    /// shaded.
+    pub at: Vec4,
+    /// Their change a pixel along x and along y: they are affine over the raster.
+    pub by: [Vec4; 2],
     /// Nearness of the farthest and of the nearest corner: on slivers the plane leaves them.
     pub range: [f32; 2],
-}
-
-/// What the shading of a triangle needs.
-#[derive(Clone, Copy, Debug)]
-pub struct Surface {
-    /// Components of the normal in the world, of any length.
-    pub normal: [Plane; 3],
     /// What it is painted with.
     pub paint: Paint,
+}
+
+impl Triangle {
+    /// Nearness at a point of the raster, pixels.
+    pub fn nearness(&self, x: f32, y: f32) -> f32 {
+        let near = self.at.w + self.by[0].w * (x - self.anchor[0]) + self.by[1].w * (y - self.anchor[1]);
+        near.clamp(self.range[0], self.range[1])
+    }
 }
 
 /// One body in one raster.
@@ -52,8 +45,6 @@ pub struct Surface {
 pub struct Piece {
     /// Its visible triangles.
     pub triangles: Vec<Triangle>,
-    /// Their surfaces; none in depth maps.
-    pub surfaces: Vec<Surface>,
 }
 
 /// A corner of a triangle.
@@ -206,23 +197,17 @@ impl Setup {
         // In f64, as slivers cancel all digits of f32. The edges are the differences of corners.
         let [(ay, ax, _), _, (by, bx, _)] = edges.map(|(x, y, c)| (x as f64, y as f64, c));
         let inverse = SUB as f64 / twice as f64;
-        let mut planes = [Plane::default(); 4];
-        for (k, plane) in planes.iter_mut().enumerate().take(if self.shaded { 4 } else { 1 }) {
-            let [a, b, c] = corners.map(|corner| match k {
-                0 => corner.nearness,
-                _ => corner.normal[k - 1] * corner.inverse,
-            });
-            let (b, c) = ((b - a) as f64, (c - a) as f64);
-            let by = [(b * by + c * ay) * inverse, (c * ax + b * bx) * inverse];
-            *plane = Plane { at: a, by: by.map(|slope| slope as f32) };
-        }
-        let [nearness, x, y, z] = planes;
-        let anchor = [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32];
-        let texture = paint.texture.map_or(PLAIN, u32::from);
-        piece.triangles.push(Triangle { edges, bound, anchor, nearness, texture, range });
-        if self.shaded {
-            piece.surfaces.push(Surface { normal: [x, y, z], paint });
-        }
+        let [a, b, c] = corners.map(|corner| (corner.normal * corner.inverse).extend(corner.nearness));
+        let (b, c) = ((b - a).as_dvec4(), (c - a).as_dvec4());
+        piece.triangles.push(Triangle {
+            edges,
+            bound,
+            anchor: [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32],
+            at: a,
+            by: [((b * by + c * ay) * inverse).as_vec4(), ((b * bx + c * ax) * inverse).as_vec4()],
+            range,
+            paint,
+        });
     }
 }
 
