@@ -250,7 +250,7 @@ impl Layer for Drawn {
                 }
             }
         }
-        crew.each(jobs.into_iter(), |(setup, piece, body)| *piece = setup.piece(&body.mesh, &body.place));
+        crew.each(jobs.iter_mut(), |(setup, piece, body)| **piece = setup.piece(&body.mesh, &body.place));
         crew.each(rasters.iter_mut(), |raster| {
             raster.bins = Bins::new(&raster.pieces, raster.setup.projection.size);
         });

@@ -2,7 +2,7 @@
 
 use super::bins::{Id, NOTHING, TEXTURE, parts};
 use super::fill::{STEPS, Sample, Visible};
-use super::light::Sight;
+use super::light::{Light, Sight};
 use super::triangle::{SUB, Triangle};
 use super::{BENCH, Raster, World};
 use crate::block::{BLOCK, load, store};
@@ -176,6 +176,17 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
     -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
 }
 
+/// Adds what a light gives to a queue.
+#[simd]
+fn shine<S: Simd>(simd: S, light: &Light, sight: &Sight, rasters: &[Raster], queue: &mut Queue) {
+    let mut i = 0;
+    while i < BLOCK / F::<S>::LEN {
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        store3(load3(simd, &queue.light, i) + light.at(simd, sight, rasters, p, n), &mut queue.light, i);
+        i += 1;
+    }
+}
+
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
@@ -252,12 +263,7 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
     }
     for (source, sight) in world.lights.iter().zip(sights) {
         if source.meets(simd, low, high) {
-            let mut i = 0;
-            while i < BLOCK / lanes {
-                let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
-                store3(load3(simd, &queue.light, i) + source.at(simd, sight, rasters, p, n), &mut queue.light, i);
-                i += 1;
-            }
+            shine(simd, source, sight, rasters, queue);
         }
     }
     let mut i = 0;

@@ -3,7 +3,7 @@
 use super::bins::MOST;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
-use glam::{Affine3A, Vec3, Vec4};
+use glam::{Affine3A, Vec3A, Vec4};
 
 /// Steps of a pixel to which corners are snapped, in each direction.
 pub const SUB: i32 = 256;
@@ -53,15 +53,14 @@ struct Corner {
     /// Homogeneous pixels.
     h: Vec4,
     /// Normal in the world, of any length.
-    normal: Vec3,
-    /// A bit for each of the planes that it does not lie inside of.
+    normal: Vec3A,
+    /// From the planes that must be clipped at, signed, in homogeneous pixels: near, and the guard band's sides.
+    distances: [f32; 5],
+    /// A bit for each of those that it does not lie inside of.
     outside: u32,
     /// On the raster, in steps of [`SUB`].
     x: i32,
     y: i32,
-    nearness: f32,
-    /// 1 / w.
-    inverse: f32,
 }
 
 /// How bodies become pieces.
@@ -81,39 +80,37 @@ impl Setup {
         let matrix = self.projection.of_body(place);
         let mut corners = Vec::with_capacity(mesh.points.len());
         for (i, p) in mesh.points.iter().enumerate() {
-            let mut normal = Vec3::ZERO;
+            let mut normal = Vec3A::ZERO;
             if self.shaded && i < mesh.normals.len() {
-                normal = (place.matrix3 * mesh.normals[i]).normalize_or_zero();
+                normal = (place.matrix3 * Vec3A::from(mesh.normals[i])).normalize_or_zero();
             }
             corners.push(self.corner(matrix * p.extend(1.0), normal));
         }
         let mut piece = Piece::default();
+        let mut polygon = Vec::new();
         for face in &mesh.faces {
             let index = face.corners.map(usize::from);
-            let [a, b, c] = index.map(|i| corners[i]);
-            if a.outside & b.outside & c.outside != 0 {
+            let [a, b, c] = index.map(|i| corners[i].outside);
+            if a & b & c != 0 {
                 continue;
             }
-            let polygon;
-            let mut fan: &[Corner] = &[a, b, c];
-            if a.outside | b.outside | c.outside != 0 {
-                polygon = self.clip(fan);
-                fan = &polygon;
+            polygon.clear();
+            polygon.extend_from_slice(&index);
+            if a | b | c != 0 {
+                self.clip(&mut polygon, &mut corners);
             }
-            for i in 2..fan.len() {
-                let mut corners = [fan[0], fan[i - 1], fan[i]];
+            for i in 2..polygon.len() {
                 // Clockwise on the screen, where y points down, is positive: then edges are so inside.
-                if !self.back_faces {
-                    corners.swap(1, 2);
-                }
-                let twice = twice_area(&corners);
+                let [second, third] = if self.back_faces { [i - 1, i] } else { [i, i - 1] };
+                let fan = [0, second, third].map(|i| &corners[polygon[i]]);
+                let twice = twice_area(fan);
                 if twice > 0 {
+                    let mut normals = fan.map(|corner| corner.normal);
                     if self.shaded && mesh.normals.is_empty() {
-                        let [a, b, c] = index.map(|i| mesh.points[i]);
-                        let normal = (place.matrix3 * (b - a).cross(c - a)).normalize_or_zero();
-                        corners = corners.map(|corner| Corner { normal, ..corner });
+                        let [a, b, c] = index.map(|i| Vec3A::from(mesh.points[i]));
+                        normals = [(place.matrix3 * (b - a).cross(c - a)).normalize_or_zero(); 3];
                     }
-                    self.push(&mut piece, &corners, twice, mesh.paints[face.paint as usize]);
+                    self.push(&mut piece, fan, normals, twice, &mesh.paints[face.paint as usize]);
                 }
             }
         }
@@ -121,65 +118,67 @@ impl Setup {
     }
 
     /// To the raster.
-    fn corner(&self, h: Vec4, normal: Vec3) -> Corner {
-        let inverse = 1.0 / h.w;
-        let [x, y] = [h.x, h.y].map(|x| (x * inverse * SUB as f32).round() as i32);
+    fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
+        let [x, y] = [0, 1].map(|axis| h[axis] - 0.5 * self.projection.size[axis] as f32 * h.w);
+        let guard = GUARD * h.w;
+        let distances = [h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
         let mut outside = 0;
-        for (k, distance) in self.distances(h).into_iter().enumerate() {
+        for (k, distance) in distances.into_iter().enumerate() {
             // What is not a number is inside of none.
             outside |= u32::from(!(distance >= 0.0)) << k;
         }
-        Corner { h, normal, outside, x, y, nearness: h.z * inverse, inverse }
+        let inverse = 1.0 / h.w;
+        let [x, y] = [h.x, h.y].map(|x| (x * inverse * SUB as f32).round() as i32);
+        Corner { h, normal, distances, outside, x, y }
     }
 
-    /// The planes that must be clipped at, as signed distances of homogeneous pixels: near, and the guard band's sides.
-    fn distances(&self, h: Vec4) -> [f32; 5] {
-        let [x, y] = [(h.x, 0), (h.y, 1)].map(|(x, axis)| x - 0.5 * self.projection.size[axis] as f32 * h.w);
-        let guard = GUARD * h.w;
-        [h.w - NEAR, guard + x, guard - x, guard + y, guard - y]
-    }
-
-    /// The part of a triangle before the near plane and within the guard band: Sutherland and Hodgman, "Reentrant
-    /// polygon clipping", 1974.
-    fn clip(&self, triangle: &[Corner]) -> Vec<Corner> {
-        let mut polygon = triangle.to_vec();
+    /// The part of a triangle before the near plane and within the guard band, with new corners after the others:
+    /// Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
+    fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
         for plane in 0..5 {
             let mut rest = Vec::new();
-            for (i, this) in polygon.iter().enumerate() {
-                let next = &polygon[(i + 1) % polygon.len()];
-                let [d0, d1] = [this, next].map(|corner| self.distances(corner.h)[plane]);
+            for (i, &this) in polygon.iter().enumerate() {
+                let next = polygon[(i + 1) % polygon.len()];
+                let [d0, d1] = [this, next].map(|i| corners[i].distances[plane]);
                 if d0 >= 0.0 {
-                    rest.push(*this);
+                    rest.push(this);
                 }
                 if (d0 >= 0.0) != (d1 >= 0.0) {
                     // From the nearer to the farther, whose digits do not reach here; and so both faces of an edge get
                     // the same point. Of two that are as near from the one inside.
                     let nearer = (d0 + d1 > 0.0) != (d0 >= 0.0);
-                    let (a, da, b, db) = if nearer { (this, d0, next, d1) } else { (next, d1, this, d0) };
-                    let k = da / (da - db);
-                    rest.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
+                    let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
+                    let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
+                    rest.push(corners.len());
+                    corners.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
                 }
             }
-            polygon = rest;
+            *polygon = rest;
         }
         // What is not a number, or has lost all its digits beside another, is where nothing can be.
-        let sound = |corner: &Corner| {
-            let [near, sides @ ..] = self.distances(corner.h);
-            near >= -0.5 * NEAR && sides.into_iter().all(|side| side >= -SLACK * corner.h.w)
+        let sound = |&i: &usize| {
+            let Corner { h, distances: [near, sides @ ..], .. } = corners[i];
+            near >= -0.5 * NEAR && sides.into_iter().all(|side| side >= -SLACK * h.w)
         };
-        if polygon.iter().all(sound) { polygon } else { Vec::new() }
+        if !polygon.iter().all(sound) {
+            polygon.clear();
+        }
     }
 
     /// Adds a triangle of that area, twice over.
-    fn push(&self, piece: &mut Piece, corners: &[Corner; 3], twice: i64, paint: Paint) {
-        let first = &corners[0];
+    fn push(&self, piece: &mut Piece, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
+        let first = corners[0];
         let mut edges = [(0, 0, 0); 3];
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
+        let mut values = [Vec4::ZERO; 3];
         // First and last column and row, turned around while they are sought.
         let mut bound = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
         let mut range = [f32::INFINITY, f32::NEG_INFINITY];
-        for (k, a) in corners.iter().enumerate() {
-            let b = &corners[(k + 1) % 3];
+        for (k, a) in corners.into_iter().enumerate() {
+            let b = corners[(k + 1) % 3];
+            let inverse = 1.0 / a.h.w;
+            let nearness = a.h.z * inverse;
+            values[k] = (normals[k] * inverse).extend(nearness);
             let (ex, ey) = (a.y - b.y, b.x - a.x);
             // The top-left rule: a sample on an edge belongs to the triangle on its right or below it.
             let own = ex > 0 || (ex == 0 && ey > 0);
@@ -187,7 +186,7 @@ impl Setup {
             // A sample may lie anywhere in its pixel.
             let (x, y) = (a.x >> SUB.ilog2(), a.y >> SUB.ilog2());
             bound = [bound[0].min(x), bound[1].max(x), bound[2].min(y), bound[3].max(y)];
-            range = [range[0].min(a.nearness), range[1].max(a.nearness)];
+            range = [range[0].min(nearness), range[1].max(nearness)];
         }
         bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
         // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
@@ -197,7 +196,7 @@ impl Setup {
         // In f64, as slivers cancel all digits of f32. The edges are the differences of corners.
         let [(ay, ax, _), _, (by, bx, _)] = edges.map(|(x, y, c)| (x as f64, y as f64, c));
         let inverse = SUB as f64 / twice as f64;
-        let [a, b, c] = corners.map(|corner| (corner.normal * corner.inverse).extend(corner.nearness));
+        let [a, b, c] = values;
         let (b, c) = ((b - a).as_dvec4(), (c - a).as_dvec4());
         piece.triangles.push(Triangle {
             edges,
@@ -206,13 +205,13 @@ impl Setup {
             at: a,
             by: [((b * by + c * ay) * inverse).as_vec4(), ((b * bx + c * ax) * inverse).as_vec4()],
             range,
-            paint,
+            paint: *paint,
         });
     }
 }
 
 /// Twice the area, in steps of [`SUB`] squared; positive where the corners turn clockwise on the screen.
-fn twice_area([a, b, c]: &[Corner; 3]) -> i64 {
+fn twice_area([a, b, c]: [&Corner; 3]) -> i64 {
     let (bx, by) = ((b.x - a.x) as i64, (b.y - a.y) as i64);
     let (cx, cy) = ((c.x - a.x) as i64, (c.y - a.y) as i64);
     bx * cy - cx * by
