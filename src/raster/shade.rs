@@ -176,83 +176,18 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
     -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
 }
 
-/// Adds what a light gives to a queue.
-#[simd]
-fn shine<S: Simd>(simd: S, light: &Light, sight: &Sight, rasters: &[Raster], queue: &mut Queue) {
-    let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
-        store3(load3(simd, &queue.light, i) + light.at(simd, sight, rasters, p, n), &mut queue.light, i);
-        i += 1;
-    }
-}
-
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
-    let Context { world, sights, rasters, view, share } = *context;
-    let pieces = &rasters[0].pieces;
+    let Context { world, sights, rasters, .. } = *context;
     let count = std::mem::take(&mut queue.count);
     // What stands behind the last is left over from others.
     let (place, id) = (queue.place[0], queue.id[0]);
     queue.place[count..].fill(place);
     queue.id[count..].fill(id);
-    let texture = world.textures.get(texture);
-    let mut glossy = false;
-    let one = F::<S>::splat(simd, 1.0);
-    let eye = view.camera().eye;
-    let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
+    find(simd, context, [tile.x, tile.y], queue);
     let lanes = F::<S>::LEN;
-    let mut i = 0;
-    while i < BLOCK / lanes {
-        let ids: U<S> = load(simd, &queue.id, i);
-        let places: U<S> = load(simd, &queue.place, i);
-        let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + tile.x as u32 as f32;
-        let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + tile.y as u32 as f32;
-        let mut n = V3::splat(simd, Vec3::ZERO);
-        let mut albedo = n;
-        let (mut near, mut gloss) = (one, one);
-        let mut todo = ids.simd_eq(ids).to_bitmask();
-        while todo != 0 {
-            let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
-            let here = ids.simd_eq(U::<S>::splat(simd, id));
-            todo &= !here.to_bitmask();
-            let (piece, number) = parts(id);
-            let Triangle { anchor, at, by: [along, down], range, paint, .. } = &pieces[piece].triangles[number];
-            let (dx, dy) = (x - anchor[0], y - anchor[1]);
-            let normal = V3 {
-                x: dx * along.x + dy * down.x + at.x,
-                y: dx * along.y + dy * down.y + at.y,
-                z: dx * along.z + dy * down.z + at.z,
-            };
-            n = V3::select(here, normal, n);
-            albedo = V3::select(here, V3::splat(simd, paint.albedo), albedo);
-            let z = (dx * along.w + dy * down.w + at.w).max(range[0]).min(range[1]);
-            near = here.select(z, near);
-            gloss = here.select(F::<S>::splat(simd, paint.gloss), gloss);
-            glossy |= paint.gloss > 0.0;
-        }
-        let far = one / near.max(F::<S>::splat(simd, FARTHEST));
-        let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
-        low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
-        high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };
-        let n = n * Lane(one / n.dot(n).max(F::<S>::splat(simd, 1e-30)).sqrt());
-        if texture.is_some() {
-            let way = p.sub1(eye);
-            let cosine = way.dot(n).abs() / way.dot(way).sqrt();
-            // Between the pixel's width and its length.
-            let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
-            store(far * stretch * view.pixel(), &mut queue.footprint, i);
-        }
-        store3(p, &mut queue.point, i);
-        store3(n, &mut queue.normal, i);
-        store3(albedo, &mut queue.albedo, i);
-        store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut queue.light, i);
-        store(near, &mut queue.nearness, i);
-        store(gloss, &mut queue.gloss, i);
-        i += 1;
-    }
-    if let Some(texture) = texture {
+    if let Some(texture) = world.textures.get(texture) {
         let mut painted = [[0.0; BLOCK]; 3];
         texture::shade(simd, texture, &queue.point, Some(&queue.footprint), &mut painted);
         let mut i = 0;
@@ -261,44 +196,20 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             i += 1;
         }
     }
-    for (source, sight) in world.lights.iter().zip(sights) {
-        if source.meets(simd, low, high) {
-            shine(simd, source, sight, rasters, queue);
-        }
-    }
+    let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
     let mut i = 0;
     while i < BLOCK / lanes {
-        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
-        let mut color = load3(simd, &queue.albedo, i).mulv(load3(simd, &queue.light, i));
-        let haze = &world.haze;
-        let way = p.sub1(eye);
-        let distance = way.dot(way).sqrt();
-        let way = way * Lane(one / distance);
-        if glossy {
-            let cosine = way.dot(n);
-            let mirrored = way - n * Lane(cosine + cosine);
-            let (horizon, sun) = haze.at(simd, mirrored);
-            let height = one - math::exp2(simd, mirrored.y.max(F::<S>::splat(simd, 0.0)) * -RISE);
-            let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
-            // Schlick's approximation.
-            let rest = one - cosine.abs().min(one);
-            let grazing = rest * rest;
-            let grazing = grazing * grazing * rest;
-            let gloss = load::<S, F<S>>(simd, &queue.gloss, i) * (grazing * 0.95 + 0.05);
-            color = color + (sky - color) * Lane(gloss);
-        }
-        if world.film || !BENCH {
-            color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
-        }
-        let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
-        let before = haze.at(simd, way).0;
-        let seen = before + (color - before) * Lane(clear);
-        let samples: U<S> = (load::<S, U<S>>(simd, &queue.place, i) >> 28) + 1;
-        let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
-        store3(seen * Lane(weight), &mut queue.light, i);
-        store(weight, &mut queue.weight, i);
+        let p = load3(simd, &queue.point, i);
+        low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
+        high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };
         i += 1;
     }
+    for (light, sight) in world.lights.iter().zip(sights) {
+        if light.meets(simd, low, high) {
+            shine(simd, light, sight, rasters, queue);
+        }
+    }
+    finish(simd, context, queue);
     // To the pixels, as many at a time as follow each other.
     let mut i = 0;
     while i < count {
@@ -326,6 +237,113 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             *near = near.max(*at);
         }
         i += run;
+    }
+}
+
+/// Finds the surfaces of a queue's fragments, in the tile with that corner.
+#[simd]
+#[inline(never)] // Apart, it and the next two have fewer numbers to keep at a time.
+fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Queue) {
+    let Context { world, rasters, view, .. } = *context;
+    let pieces = &rasters[0].pieces;
+    let one = F::<S>::splat(simd, 1.0);
+    let eye = view.camera().eye;
+    let lanes = F::<S>::LEN;
+    let mut i = 0;
+    while i < BLOCK / lanes {
+        let ids: U<S> = load(simd, &queue.id, i);
+        let places: U<S> = load(simd, &queue.place, i);
+        let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + corner[0] as u32 as f32;
+        let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + corner[1] as u32 as f32;
+        let mut n = V3::splat(simd, Vec3::ZERO);
+        let mut albedo = n;
+        let (mut near, mut gloss) = (one, one);
+        let mut todo = ids.simd_eq(ids).to_bitmask();
+        while todo != 0 {
+            let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
+            let here = ids.simd_eq(U::<S>::splat(simd, id));
+            todo &= !here.to_bitmask();
+            let (piece, number) = parts(id);
+            let Triangle { anchor, at, by: [along, down], range, paint, .. } = &pieces[piece].triangles[number];
+            let (dx, dy) = (x - anchor[0], y - anchor[1]);
+            let normal = V3 {
+                x: dx * along.x + dy * down.x + at.x,
+                y: dx * along.y + dy * down.y + at.y,
+                z: dx * along.z + dy * down.z + at.z,
+            };
+            n = V3::select(here, normal, n);
+            albedo = V3::select(here, V3::splat(simd, paint.albedo), albedo);
+            let z = (dx * along.w + dy * down.w + at.w).max(range[0]).min(range[1]);
+            near = here.select(z, near);
+            gloss = here.select(F::<S>::splat(simd, paint.gloss), gloss);
+        }
+        let far = one / near.max(F::<S>::splat(simd, FARTHEST));
+        let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
+        let n = n * Lane(one / n.dot(n).max(F::<S>::splat(simd, 1e-30)).sqrt());
+        let way = p.sub1(eye);
+        let cosine = way.dot(n).abs() / way.dot(way).sqrt();
+        // Between the pixel's width and its length.
+        let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
+        store(far * stretch * view.pixel(), &mut queue.footprint, i);
+        store3(p, &mut queue.point, i);
+        store3(n, &mut queue.normal, i);
+        store3(albedo, &mut queue.albedo, i);
+        store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut queue.light, i);
+        store(near, &mut queue.nearness, i);
+        store(gloss, &mut queue.gloss, i);
+        i += 1;
+    }
+}
+
+/// Adds what a light gives to a queue.
+#[simd]
+#[inline(never)]
+fn shine<S: Simd>(simd: S, light: &Light, sight: &Sight, rasters: &[Raster], queue: &mut Queue) {
+    let mut i = 0;
+    while i < BLOCK / F::<S>::LEN {
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        store3(load3(simd, &queue.light, i) + light.at(simd, sight, rasters, p, n), &mut queue.light, i);
+        i += 1;
+    }
+}
+
+/// From light on surfaces to light that is seen, by what their pixels have of it.
+#[simd]
+#[inline(never)]
+fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
+    let Context { world, view, share, .. } = *context;
+    let haze = &world.haze;
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let mut i = 0;
+    while i < BLOCK / F::<S>::LEN {
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        let mut color = load3(simd, &queue.albedo, i).mulv(load3(simd, &queue.light, i));
+        let way = p.sub1(view.camera().eye);
+        let distance = way.dot(way).sqrt();
+        let way = way * Lane(one / distance);
+        let gloss: F<S> = load(simd, &queue.gloss, i);
+        if gloss.simd_gt(zero).any_true() {
+            let cosine = way.dot(n);
+            let mirrored = way - n * Lane(cosine + cosine);
+            let (horizon, sun) = haze.at(simd, mirrored);
+            let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
+            let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
+            // Schlick's approximation.
+            let rest = one - cosine.abs().min(one);
+            let grazing = rest * rest;
+            let grazing = grazing * grazing * rest;
+            color = color + (sky - color) * Lane(gloss * (grazing * 0.95 + 0.05));
+        }
+        if world.film || !BENCH {
+            color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
+        }
+        let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
+        let before = haze.at(simd, way).0;
+        let samples = (load::<S, U<S>>(simd, &queue.place, i) >> 28) + 1;
+        let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
+        store3((before + (color - before) * Lane(clear)) * Lane(weight), &mut queue.light, i);
+        store(weight, &mut queue.weight, i);
+        i += 1;
     }
 }
 
