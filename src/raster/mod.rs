@@ -117,31 +117,28 @@ impl Drawn {
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let Drawn { world, view, rasters, sights, quality, .. } = self;
-        let grid = quality.grid;
+        let grid = quality.grid as u32;
         let count = if grid > 1 { 1 } else { quality.coverage };
-        let Scratch { visible, queues } = scratch;
-        visible.resize_with(count.max(visible.len()), Visible::new);
-        queues.resize(PLAIN as usize + 1, Queue::EMPTY);
-        let visible = &mut visible[..count];
+        let Scratch { planes, queues } = scratch;
+        let planes = &mut planes[..count];
         let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
         tile.clear();
         tile.coverage.fill(0.0);
         tile.closeness.fill(0.0);
-        let share = 1.0 / (grid * grid * count) as u32 as f32;
+        let share = 1.0 / (grid * grid * count as u32) as f32;
         let context = Context { world, sights, rasters, view, share };
         let mut fragments = 0;
         if !ids.is_empty() {
             for pass in 0..grid * grid {
-                let mut places = [CENTER; 16];
-                for (k, (plane, place)) in visible.iter_mut().zip(&mut places).enumerate() {
+                for (k, (visible, place)) in planes.iter_mut().enumerate() {
                     *place = match grid {
-                        1 => spread(k, count),
-                        _ => [pass % grid, pass / grid].map(|n| ((2 * n + 1) * SUB as usize / (2 * grid)) as i32),
+                        1 => spread(k as u32, count as u32),
+                        _ => cell([pass % grid, pass / grid], grid),
                     };
-                    plane.clear(0.0);
-                    fill(simd, &rasters[0].pieces, ids, tile.x as i32, tile.y as i32, *place, plane);
+                    visible.clear(0.0);
+                    fill(simd, &rasters[0].pieces, ids, tile.x as i32, tile.y as i32, *place, visible);
                 }
-                fragments += collect(simd, &context, visible, &places[..count], queues, tile);
+                fragments += collect(simd, &context, planes, queues, tile);
             }
             for (texture, queue) in queues.iter_mut().enumerate() {
                 if queue.count > 0 {
@@ -174,16 +171,20 @@ fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
 }
 
 /// Where sample `k` of `n` lies in a pixel: one in each row and column of an `n` x `n` grid, spread like a lattice.
-fn spread(k: usize, n: usize) -> Sample {
-    let step = SUB as usize / n;
+fn spread(k: u32, n: u32) -> Sample {
     let multiplier = if n == 4 { 2 } else { 5 };
-    let row = multiplier * (k + 1) % (n + 1) - 1;
-    [k, row].map(|cell| (cell * step + step / 2) as i32)
+    cell([k, multiplier * (k + 1) % (n + 1) - 1], n)
+}
+
+/// The middle of a cell in a grid of `n` x `n`.
+fn cell(at: [u32; 2], n: u32) -> Sample {
+    at.map(|at| ((2 * at + 1) * (SUB as u32 / 2) / n) as i32)
 }
 
 impl Visible {
+    /// To be cleared: what is not used takes no memory.
     fn new() -> Visible {
-        Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) }
+        Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
     }
 
     /// Nothing is visible, at that nearness.
@@ -194,10 +195,20 @@ impl Visible {
 }
 
 /// Memory that a tile needs.
-#[derive(Default)]
 struct Scratch {
-    visible: Vec<Visible>,
+    /// What is visible at each sample, and where that lies in a pixel.
+    planes: Vec<(Visible, Sample)>,
+    /// By texture.
     queues: Vec<Queue>,
+}
+
+impl Scratch {
+    fn new() -> Scratch {
+        Scratch {
+            planes: (0..16).map(|_| (Visible::new(), CENTER)).collect(),
+            queues: vec![Queue::EMPTY; PLAIN as usize + 1],
+        }
+    }
 }
 
 /// Memory that tiles leave to the next ones, as much as threads have needed at a time.
@@ -211,12 +222,7 @@ impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
         let Drawn { world, rasters, sights, .. } = self;
         let bodies = &world.bodies;
-        let raster = |projection, back_faces, shaded| Raster {
-            setup: Setup { projection, back_faces, shaded },
-            pieces: Vec::new(),
-            bins: Bins::default(),
-        };
-        rasters.push(raster(Projection::of_view(&self.view, self.size), false, true));
+        add(rasters, &Projection::of_view(&self.view, self.size), false, true);
         let mut missing = Vec::new();
         for (slot, light) in world.lights.iter().enumerate() {
             let mut sight = Sight { map: None, first: rasters.len() };
@@ -231,7 +237,7 @@ impl Layer for Drawn {
                     Ok(map) => sight.map = Some(map),
                     Err(map) => {
                         for view in views {
-                            rasters.push(raster(*view, back_faces, false));
+                            add(rasters, view, back_faces, false);
                         }
                         if !traced {
                             missing.push((key, map));
@@ -254,7 +260,7 @@ impl Layer for Drawn {
         crew.each(rasters.iter_mut(), |raster| {
             raster.bins = Bins::new(&raster.pieces, raster.setup.projection.size);
         });
-        for (key, mut map) in missing {
+        while let Some((key, mut map)) = missing.pop() {
             let sight = &mut sights[key.slot];
             map.resize(key.views[0].size[0] as usize, key.views.len());
             draw_map(crew, &mut map, &rasters[sight.first..]);
@@ -263,19 +269,26 @@ impl Layer for Drawn {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let mut scratch = spare().pop().unwrap_or_default();
+        let mut scratch = spare().pop().unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
         spare().push(scratch);
         Stats { samples }
     }
 }
 
+/// Adds a raster, still empty.
+fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool) {
+    let setup = Setup { projection: *projection, back_faces, shaded };
+    rasters.push(Raster { setup, pieces: Vec::new(), bins: Bins::default() });
+}
+
 /// Draws the depths of triangles, a row of tiles at a time.
 fn draw_map(crew: &Crew, map: &mut DepthMap, rasters: &[Raster]) {
     let (size, level) = (map.size, crew.level());
     crew.each(map.bands().enumerate(), |(index, texels)| {
-        let (view, band) = (index * Tile::SIZE / size, index % (size / Tile::SIZE));
-        let Raster { pieces, bins, .. } = &rasters[view];
+        // In 32 bits, as division of more takes several times the code.
+        let (index, bands) = (index as u32, (size / Tile::SIZE) as u32);
+        let (Raster { pieces, bins, .. }, band) = (&rasters[(index / bands) as usize], (index % bands) as usize);
         let mut visible = Visible::new();
         for x in (0..size).step_by(Tile::SIZE) {
             let ids = bins.of(x / Tile::SIZE, band);

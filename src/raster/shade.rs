@@ -76,36 +76,36 @@ fn fragment(samples: i32, [x, y]: Sample) -> u32 {
     ((samples - 1) << 28 | (y / samples) << 20 | (x / samples) << 12) as u32
 }
 
-/// Adds what the samples of a tile's pixels show, at those places in a pixel, to the queues by the texture in their
-/// [`Id`]s; returns the number of fragments.
+/// Adds what the samples of a tile's pixels show, each sample at its place in a pixel, to the queues by the texture in
+/// their [`Id`]s; returns the number of fragments.
 #[inline(always)]
 pub fn collect<S: Simd>(
     simd: S,
     context: &Context,
-    visible: &[Visible],
-    places: &[Sample],
+    planes: &[(Visible, Sample)],
     queues: &mut [Queue],
     tile: &mut Tile,
 ) -> u64 {
     let lanes = F::<S>::LEN;
     let mut sum = [0, 0];
-    for place in places {
+    for (_, place) in planes {
         sum = [sum[0] + place[0], sum[1] + place[1]];
     }
     // Where all samples show the same.
-    let whole = S::u32s::from_slice(simd, &STEPS[..lanes]) + fragment(places.len() as i32, sum);
+    let whole = S::u32s::from_slice(simd, &STEPS[..lanes]) + fragment(planes.len() as i32, sum);
     let mut fragments = 0;
     for row in 0..tile.height {
         let mut column = 0;
         while column < tile.width {
             let at = row * Tile::SIZE + column;
-            let ids = U::<S>::from_slice(simd, &visible[0].id[at..at + lanes]);
+            let first = &planes[0].0.id[at..at + lanes];
+            let ids = U::<S>::from_slice(simd, first);
             let mut same = ids.simd_eq(ids);
-            for other in &visible[1..] {
+            for (other, _) in &planes[1..] {
                 same &= ids.simd_eq(U::<S>::from_slice(simd, &other.id[at..at + lanes]));
             }
             let empty = ids.simd_eq(NOTHING);
-            let texture = visible[0].id[at] >> TEXTURE;
+            let texture = first[0] >> TEXTURE;
             let alike = same & !empty & (ids >> TEXTURE).simd_eq(texture);
             let queue = &mut queues[texture as usize];
             let end = queue.count..queue.count + lanes;
@@ -123,7 +123,7 @@ pub fn collect<S: Simd>(
             }
             let in_use = (1 << lanes.min(left)) - 1;
             for lane in Bits(!(same & empty).to_bitmask() & in_use) {
-                fragments += several(simd, context, visible, places, at + lane, queues, tile);
+                fragments += several(simd, context, planes, at + lane, queues, tile);
             }
         }
     }
@@ -135,20 +135,19 @@ pub fn collect<S: Simd>(
 fn several<S: Simd>(
     simd: S,
     context: &Context,
-    visible: &[Visible],
-    places: &[Sample],
+    planes: &[(Visible, Sample)],
     pixel: usize,
     queues: &mut [Queue],
     tile: &mut Tile,
 ) -> u64 {
     let mut fragments = 0;
-    for (first, plane) in visible.iter().enumerate() {
+    for (first, (plane, _)) in planes.iter().enumerate() {
         let id = plane.id[pixel];
-        if id == NOTHING || visible[..first].iter().any(|earlier| earlier.id[pixel] == id) {
+        if id == NOTHING || planes[..first].iter().any(|(earlier, _)| earlier.id[pixel] == id) {
             continue;
         }
         let (mut samples, mut sum) = (0, [0, 0]);
-        for (plane, place) in visible.iter().zip(places).skip(first) {
+        for (plane, place) in &planes[first..] {
             if plane.id[pixel] == id {
                 (samples, sum) = (samples + 1, [sum[0] + place[0], sum[1] + place[1]]);
             }

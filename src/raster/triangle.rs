@@ -138,7 +138,7 @@ impl Setup {
         for plane in 0..5 {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
-                let next = polygon[(i + 1) % polygon.len()];
+                let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
                 let [d0, d1] = [this, next].map(|i| corners[i].distances[plane]);
                 if d0 >= 0.0 {
                     rest.push(this);
