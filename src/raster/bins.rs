@@ -63,7 +63,7 @@ impl Bins {
                     sum = sum.wrapping_sub(*start);
                     *start = sum;
                 }
-                list = vec![NOTHING; sum as usize];
+                list = vec![0; sum as usize];
             }
         }
         Bins { columns, starts, list }

@@ -222,7 +222,7 @@ impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
         let Drawn { world, rasters, sights, .. } = self;
         let bodies = &world.bodies;
-        add(rasters, &Projection::of_view(&self.view, self.size), false, true);
+        add(rasters, &Projection::of_view(&self.view, self.size), false, true, bodies.len());
         let mut missing = Vec::new();
         for (slot, light) in world.lights.iter().enumerate() {
             let mut sight = Sight { map: None, first: rasters.len() };
@@ -237,7 +237,7 @@ impl Layer for Drawn {
                     Ok(map) => sight.map = Some(map),
                     Err(map) => {
                         for view in views {
-                            add(rasters, view, back_faces, false);
+                            add(rasters, view, back_faces, false, bodies.len());
                         }
                         if !traced {
                             missing.push((key, map));
@@ -249,7 +249,6 @@ impl Layer for Drawn {
         }
         let mut jobs = Vec::new();
         for Raster { setup, pieces, .. } in rasters.iter_mut() {
-            pieces.resize_with(bodies.len(), Piece::default);
             for (piece, body) in pieces.iter_mut().zip(bodies) {
                 if !setup.projection.misses(body.bound.0, body.bound.1) {
                     jobs.push((&*setup, piece, body));
@@ -276,10 +275,11 @@ impl Layer for Drawn {
     }
 }
 
-/// Adds a raster, still empty.
-fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool) {
+/// Adds a raster, still empty, for that many bodies.
+fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool, bodies: usize) {
     let setup = Setup { projection: *projection, back_faces, shaded };
-    rasters.push(Raster { setup, pieces: Vec::new(), bins: Bins::default() });
+    let pieces = (0..bodies).map(|_| Piece::default()).collect();
+    rasters.push(Raster { setup, pieces, bins: Bins::default() });
 }
 
 /// Draws the depths of triangles, a row of tiles at a time.

@@ -64,7 +64,10 @@ impl DepthMap {
     pub fn resize(&mut self, size: usize, views: usize) {
         assert!(size.is_multiple_of(Tile::SIZE));
         self.size = size;
-        self.texels.resize((views * size + 1) * size + SLACK, 0.0);
+        let texels = (views * size + 1) * size + SLACK;
+        if self.texels.len() != texels {
+            self.texels = vec![0.0; texels];
+        }
     }
 
     /// All views cut into rows of tiles, one view after the other.

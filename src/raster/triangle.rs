@@ -3,7 +3,7 @@
 use super::bins::MOST;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
-use glam::{Affine3A, Vec3A, Vec4};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 /// Steps of a pixel to which corners are snapped, in each direction.
 pub const SUB: i32 = 256;
@@ -82,7 +82,7 @@ impl Setup {
         for (i, p) in mesh.points.iter().enumerate() {
             let mut normal = Vec3A::ZERO;
             if self.shaded && i < mesh.normals.len() {
-                normal = (place.matrix3 * Vec3A::from(mesh.normals[i])).normalize_or_zero();
+                normal = turned(place, mesh.normals[i]);
             }
             corners.push(self.corner(matrix * p.extend(1.0), normal));
         }
@@ -107,8 +107,8 @@ impl Setup {
                 if twice > 0 {
                     let mut normals = fan.map(|corner| corner.normal);
                     if self.shaded && mesh.normals.is_empty() {
-                        let [a, b, c] = index.map(|i| Vec3A::from(mesh.points[i]));
-                        normals = [(place.matrix3 * (b - a).cross(c - a)).normalize_or_zero(); 3];
+                        let [a, b, c] = index.map(|i| mesh.points[i]);
+                        normals = [turned(place, (b - a).cross(c - a)); 3];
                     }
                     self.push(&mut piece, fan, normals, twice, &mesh.paints[face.paint as usize]);
                 }
@@ -208,6 +208,11 @@ impl Setup {
             paint: *paint,
         });
     }
+}
+
+/// A normal of a body in the world, of length 1 if any.
+fn turned(place: &Affine3A, normal: Vec3) -> Vec3A {
+    (place.matrix3 * Vec3A::from(normal)).normalize_or_zero()
 }
 
 /// Twice the area, in steps of [`SUB`] squared; positive where the corners turn clockwise on the screen.
