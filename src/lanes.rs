@@ -2,7 +2,7 @@
 //!
 //! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
 
-use fearless_simd::prelude::*;
+use fearless_simd::{Level, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -61,6 +61,12 @@ impl<S: Simd> V3<S> {
         self.x.max(self.y).max(self.z)
     }
 
+    /// The vector of the first lane.
+    #[inline(always)]
+    pub fn first(self) -> Vec3 {
+        Vec3::new(self.x[0], self.y[0], self.z[0])
+    }
+
     /// `a` where the mask holds, else `b`.
     #[inline(always)]
     pub fn select(mask: M<S>, a: V3<S>, b: V3<S>) -> V3<S> {
@@ -111,6 +117,11 @@ impl<S: Simd> Mul<Lane<S>> for V3<S> {
 /// One number a lane, for `V3 * Lane`.
 #[derive(Clone, Copy)]
 pub struct Lane<S: Simd>(pub F<S>);
+
+/// The best level for what stands outside of tiles: any gives the same bits.
+pub fn best() -> Level {
+    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
+}
 
 /// The lanes for which a mask holds, lowest first.
 pub struct Bits(pub u64);

@@ -11,7 +11,7 @@ use crate::tile::Tile;
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
-/// Adds `share` of a sample to a pixel, its textures averaged over their `footprint`s.
+/// Adds `share` of a sample to the pixel that a square is, its textures averaged over their `footprint`s.
 #[simd]
 #[allow(clippy::too_many_arguments)]
 pub fn add<S: Simd>(
@@ -19,14 +19,15 @@ pub fn add<S: Simd>(
     job: &Job,
     tile: &mut Tile,
     deferred: &mut Deferred,
-    pixel: usize,
+    square: Square,
     sample: &Sample,
     share: f32,
     footprint: &[f32; REMEMBERED],
 ) {
     let [red, green, blue, closeness, ..] = sample.numbers;
+    let unit = job.unit();
     // Inside, and now the compiler knows.
-    let pixel = pixel & (Tile::AREA - 1);
+    let pixel = (square.y / unit * Tile::SIZE + square.x / unit) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;

@@ -9,10 +9,13 @@
 //!
 //! Not guarded: images in the sides of blocks and cylinders, and images of images.
 
-use super::scalar;
+use super::packet::{Ray, nearest};
 use super::shape::Shape;
 use super::world::{Light, Object, Source, World};
+use crate::lanes::{self, Lane, M, U, V3};
 use crate::view::View;
+use fearless_simd::{dispatch, prelude::*};
+use fearless_simd_macros::simd;
 use glam::Vec3;
 
 /// Edge of the blocks that the guard distinguishes, pixels.
@@ -38,8 +41,8 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard of a view of `world`, for a picture of that many pixels.
-    pub fn new(world: &World, view: &View, width: usize, height: usize) -> Guard {
+    /// The guard of a view of `world`, of `all` its objects, for a picture of that many pixels.
+    pub fn new(world: &World, all: &[u32], view: &View, width: usize, height: usize) -> Guard {
         let (columns, rows) = (width.div_ceil(BLOCK), height.div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
         for (index, body) in world.objects.iter().enumerate() {
@@ -58,7 +61,7 @@ impl Guard {
                 }
                 if body.casts_shadow {
                     for light in &world.lights {
-                        guard.shadow(world, view, index, light, center, radius);
+                        guard.shadow(world, all, view, index, light, center, radius);
                     }
                 }
             }
@@ -73,7 +76,8 @@ impl Guard {
     }
 
     /// Cuts the squares under the shadow of a ball that is part of the body `caster`.
-    fn shadow(&mut self, world: &World, view: &View, caster: usize, light: &Light, center: Vec3, radius: f32) {
+    #[allow(clippy::too_many_arguments)]
+    fn shadow(&mut self, world: &World, all: &[u32], view: &View, caster: usize, light: &Light, center: Vec3, radius: f32) {
         let aim = match light.source {
             Source::Point(p) => (center - p).normalize_or(Vec3::NEG_Y),
             Source::Directional(d) => -d,
@@ -90,14 +94,14 @@ impl Guard {
                 Source::Point(p) => (through - p).normalize_or(aim),
                 Source::Directional(_) => aim,
             };
-            let Some((index, t)) = scalar::nearest(world, through, direction, |i| i != caster) else { continue };
-            let point = through + direction * t;
+            let landing = dispatch!(lanes::best(), simd => landing(simd, world, all, caster, through, direction));
+            let Some((point, normal)) = landing else { continue };
             let grown = match light.source {
                 Source::Point(p) => (point - p).length() / (through - p).length().max(1e-6),
                 Source::Directional(_) => 1.0,
             };
             // How much longer than wide it is there, at most 8.
-            let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
+            let slope = normal.dot(direction).abs();
             small = self.protect(view, point, radius * grown / slope.max(0.125), Rim::Exact);
         }
     }
@@ -145,6 +149,24 @@ impl Guard {
         }
         small
     }
+}
+
+/// Where a ray from the body `from` first meets another one, and the normal there.
+#[simd]
+fn landing<S: Simd>(
+    simd: S,
+    world: &World,
+    all: &[u32],
+    from: usize,
+    origin: Vec3,
+    direction: Vec3,
+) -> Option<(Vec3, Vec3)> {
+    let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
+    let ray = Ray { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
+    let (object, t) = nearest(simd, world, all, &ray);
+    let body = world.objects.get(object[0] as usize)?;
+    let point = ray.origin + ray.direction * Lane(t);
+    Some((point.first(), body.shape.normal(simd, point).first()))
 }
 
 /// The blocks, up to `end`, that a ball's picture may touch along one axis.

@@ -44,9 +44,9 @@ impl Traced {
     /// Prepares a picture of `width` x `height` pixels.
     pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> Traced {
         let view = View::new(camera, width, height);
-        let guard = Guard::new(&world, &view, width, height);
+        let all: Vec<u32> = (0..world.objects.len() as u32).collect();
+        let guard = Guard::new(&world, &all, &view, width, height);
         let surfaces = world.objects.iter().map(|o| o.material.numbers()).collect();
-        let all = (0..world.objects.len() as u32).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         Traced { world, surfaces, all, variation, view, guard, quality }
     }

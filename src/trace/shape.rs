@@ -6,6 +6,7 @@
 
 use crate::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
 
 /// A convex body.
@@ -74,32 +75,24 @@ impl Shape {
     ///
     /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
     /// nearest point does not cancel as `b^2 - 4ac` does far away.
-    #[inline(always)]
+    #[simd]
     pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
         let zero = F::<S>::splat(simd, 0.0);
-        match *self {
+        let far = F::<S>::splat(simd, FAR);
+        let (t0, t1, hit) = match *self {
             Shape::Sphere { center, radius } => {
                 let (q, b, apart) = past(o, d, center);
                 let disc = F::<S>::splat(simd, radius * radius) - apart;
-                let s = disc.max(zero).sqrt();
-                let hit = disc.simd_gt(zero);
-                // The root on the far side of the nearest point is exact; the other follows from their product.
-                let far = b + s.copysign(b);
-                let near = (q.dot(q) - radius * radius) / far;
-                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+                let (t0, t1) = roots::<S>(b, disc.max(zero), q.dot(q) - radius * radius);
+                (t0, t1, disc.simd_gt(zero))
             }
             Shape::Plane { normal, offset } => {
                 let speed = d.dot1(normal);
                 let height = o.dot1(normal) - offset;
                 let t = -height / speed;
-                let enters = speed.simd_lt(zero);
-                let leaves = speed.simd_gt(zero);
-                let below = height.simd_le(zero);
-                let far = F::<S>::splat(simd, FAR);
+                let (enters, leaves) = (speed.simd_lt(zero), speed.simd_gt(zero));
                 // Parallel to the plane a ray is inside all along or never.
-                let t0 = enters.select(t, (leaves | below).select(-far, far));
-                let t1 = leaves.select(t, (enters | below).select(far, zero));
-                (t0, t1)
+                (enters.select(t, -far), leaves.select(t, far), enters | leaves | height.simd_le(zero))
             }
             Shape::Globe { touch, normal, radius } => {
                 // With q = o - touch and the centre at touch - R n: |o - c|^2 - R^2 = |q|^2 + 2 R q.n, and R^2 - |m|^2
@@ -110,12 +103,9 @@ impl Shape {
                 let m = q - d * Lane(along);
                 let across = m.dot1(normal);
                 let disc = slope * slope * radius - across * 2.0 - m.dot(m) * (1.0 / radius);
-                let s = (disc.max(zero) * radius).sqrt();
-                let b = -(along + slope * radius);
-                let hit = disc.simd_gt(zero);
-                let far = b + s.copysign(b);
-                let near = (q.dot(q) + q.dot1(normal) * (2.0 * radius)) / far;
-                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+                let product = q.dot(q) + q.dot1(normal) * (2.0 * radius);
+                let (t0, t1) = roots::<S>(-(along + slope * radius), disc.max(zero) * radius, product);
+                (t0, t1, disc.simd_gt(zero))
             }
             Shape::Block { center, half, turn } => {
                 let (o, d) = (turned(turn, o.sub1(center)), turned(turn, d));
@@ -123,8 +113,7 @@ impl Shape {
                 let (y0, y1) = slab(simd, o.y, d.y, half.y);
                 let (z0, z1) = slab(simd, o.z, d.z, half.z);
                 let (t0, t1) = (x0.max(y0).max(z0), x1.min(y1).min(z1));
-                let hit = t0.simd_le(t1);
-                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
+                (t0, t1, t0.simd_le(t1))
             }
             Shape::Cylinder { center, axis, half, radius } => {
                 let q = o.sub1(center);
@@ -139,10 +128,10 @@ impl Shape {
                 let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
                 let s = (disc.max(zero) / a).sqrt();
                 let (t0, t1) = (c0.max(b - s), c1.min(b + s));
-                let hit = disc.simd_gt(zero) & t0.simd_le(t1);
-                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
+                (t0, t1, disc.simd_gt(zero) & t0.simd_le(t1))
             }
-        }
+        };
+        (hit.select(t0, far), hit.select(t1, zero))
     }
 
     /// [`Shape::span`] with an absolute error of a few ulps of the distance to the centre: enough to tell which body is
@@ -173,7 +162,7 @@ impl Shape {
     }
 
     /// Unit outward normal at a point of the surface.
-    #[inline(always)]
+    #[simd]
     pub fn normal<S: Simd>(&self, simd: S, p: V3<S>) -> V3<S> {
         match *self {
             Shape::Sphere { center, .. } => unit(simd, p.sub1(center)),
@@ -206,6 +195,15 @@ impl Shape {
             }
         }
     }
+}
+
+/// The roots `b - sqrt(disc)` and `b + sqrt(disc)`, whose product is known.
+#[inline(always)]
+fn roots<S: Simd>(b: F<S>, disc: F<S>, product: F<S>) -> (F<S>, F<S>) {
+    // The root on the far side of the nearest point is exact; the other follows from their product.
+    let far = b + disc.sqrt().copysign(b);
+    let near = product / far;
+    (far.min(near), far.max(near))
 }
 
 /// How a line passes a point: from the point to the line's origin, how far along the line it is nearest, and the square of
