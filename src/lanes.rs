@@ -2,6 +2,7 @@
 //!
 //! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
 
+use crate::block::{BLOCK, load, store};
 use fearless_simd::{Level, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -29,6 +30,20 @@ impl<S: Simd> V3<S> {
     #[inline(always)]
     pub fn splat(simd: S, v: Vec3) -> V3<S> {
         V3 { x: F::<S>::splat(simd, v.x), y: F::<S>::splat(simd, v.y), z: F::<S>::splat(simd, v.z) }
+    }
+
+    /// Vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn load(simd: S, blocks: &[[f32; BLOCK]; 3], i: usize) -> V3<S> {
+        V3 { x: load(simd, &blocks[0], i), y: load(simd, &blocks[1], i), z: load(simd, &blocks[2], i) }
+    }
+
+    /// Writes vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn store(self, blocks: &mut [[f32; BLOCK]; 3], i: usize) {
+        store(self.x, &mut blocks[0], i);
+        store(self.y, &mut blocks[1], i);
+        store(self.z, &mut blocks[2], i);
     }
 
     /// Inner product.

@@ -173,7 +173,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let zoom = texture.turn.x_axis.length() * pre;
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let p = load3(simd, points, i).sub1(texture.origin);
+        let p = V3::load(simd, points, i).sub1(texture.origin);
         for (axis, local) in local.iter_mut().enumerate() {
             store(p.dot1(texture.turn.row(axis)) * pre, local, i);
         }
@@ -192,7 +192,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let (spread, radians) = if wood { (1.0 / 24.0, TAU * TAU) } else { (1.0 / 36.0, 1.0) };
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let p = load3(simd, &local, i);
+        let p = V3::load(simd, &local, i);
         let n = load::<S, F<S>>(simd, &field, i);
         let w = load::<S, F<S>>(simd, &foot, i);
         let lost = load::<S, F<S>>(simd, &lost, i);
@@ -247,10 +247,4 @@ fn checks<S: Simd>(simd: S, x: F<S>, w: F<S>) -> F<S> {
     let (a, b) = ((x - w * 0.5) * 0.5, (x + w * 0.5) * 0.5);
     let half = F::<S>::splat(simd, 0.5);
     ((a - a.floor() - half).abs() - (b - b.floor() - half).abs()) * 2.0 / w
-}
-
-/// Vector `i` of a block.
-#[inline(always)]
-fn load3<S: Simd>(simd: S, block: &Block3, i: usize) -> V3<S> {
-    V3 { x: load(simd, &block[0], i), y: load(simd, &block[1], i), z: load(simd, &block[2], i) }
 }

@@ -10,10 +10,11 @@ mod oracle;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use oracle::{ULP, random::Random, span::Crossing, span::span as exact_span};
-use paprsek::lanes::{F, V3};
+use paprsek::lanes::{F, M, U, V3};
 use paprsek::texture::Texture;
+use paprsek::trace::packet::{self, NOWHERE, nearest};
 use paprsek::trace::scalar::{self, Ray};
-use paprsek::trace::shape::{FAR, Shape};
+use paprsek::trace::shape::{Ball, FAR, Shape};
 use paprsek::trace::world::{Material, Object, Sky, World};
 use proptest::prelude::*;
 
@@ -36,14 +37,18 @@ struct Case {
 #[inline(always)]
 fn wide<S: Simd>(simd: S, case: &Case, roughly: bool) -> (f32, f32) {
     let (o, d) = (V3::splat(simd, case.o), V3::splat(simd, case.d));
-    let (t0, t1) = if roughly { case.shape.span_roughly(simd, o, d) } else { case.shape.span(simd, o, d) };
+    let (t0, t1) = case.shape.span(simd, o, d, if roughly { Ball::Rough } else { Ball::Exact });
     (t0[0], t1[0])
 }
 
 #[inline(always)]
 fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let (o, d) = (V3::splat(simd, case.o), V3::splat(simd, case.d));
-    case.shape.blocks(simd, o, d, F::<S>::splat(simd, reach)).any_true()
+    let world = alone(case.shape, Material::matt(Texture::plain(Vec3::ONE)), 1);
+    let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
+    let ray = packet::Ray { origin: o, direction: d, from, inward };
+    let (object, _) = nearest(simd, &world, &[0], &ray, !inward, F::<S>::splat(simd, reach), true);
+    object[0] != NOWHERE
 }
 
 #[inline(always)]

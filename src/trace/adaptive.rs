@@ -92,6 +92,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
 
 impl Scratch {
     /// Where the samples of the tile drawn last lie, pixels of the picture.
+    #[cfg(feature = "bench-scenes")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.grid.positions()
     }

@@ -50,7 +50,9 @@ impl Grid {
     pub fn begin(&mut self, job: &Job, tile: &Tile, dx: f32, dy: f32) {
         self.first = (tile.x as u32 as f32 + dx, tile.y as u32 as f32 + dy);
         self.step = 1.0 / job.unit() as u32 as f32;
-        self.lattice.resize(LATTICE * LATTICE, (0, 0));
+        if self.lattice.is_empty() {
+            self.lattice = vec![(0, 0); LATTICE * LATTICE];
+        }
         self.generation = self.generation.wrapping_add(1).max(1);
         self.count = 0;
         self.xs.clear();
@@ -78,6 +80,7 @@ impl Grid {
     }
 
     /// Where the samples are, pixels of the picture.
+    #[cfg(feature = "bench-scenes")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
@@ -101,8 +104,8 @@ impl Grid {
     #[inline(always)]
     pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
         let (first, end) = (self.count, self.xs.len());
-        if self.samples.len() < end {
-            self.samples.resize(end.next_power_of_two(), Sample::default());
+        while self.samples.len() < end {
+            self.samples.push(Sample::default());
         }
         packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
         self.count = end;

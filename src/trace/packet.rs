@@ -5,9 +5,9 @@
 
 use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
-use super::shape::{FAR, Shape};
+use super::shape::{Ball, FAR, Shape};
 use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
-use crate::block::{BLOCK, store};
+use crate::block::BLOCK;
 use crate::lanes::{Bits, F, Lane, M, U, V3};
 use crate::math;
 use crate::texture;
@@ -159,9 +159,11 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         };
         let Node { active, weight, length, level, path, .. } = node;
         let direction = node.ray.direction;
-        let mut object = U::<S>::splat(simd, NOWHERE);
+        let far = F::<S>::splat(simd, FAR);
+        let (mut object, mut t) = (U::<S>::splat(simd, NOWHERE), far);
         if active.any_true() {
-            object = nearest(simd, world, if level == 1 { context.visible } else { context.all }, &node.ray).0;
+            let list = if level == 1 { context.visible } else { context.all };
+            (object, t) = nearest(simd, world, list, &node.ray, active, far, false);
         }
         // Beside much light little is seen (Weber), in the dark it is.
         let detailed = weight.max_element().simd_gt((seen + DARK) * limits.min_detail);
@@ -172,7 +174,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         }
         let mut state = U::<S>::splat(simd, 0);
         if hit.any_true() {
-            let (t, point, surface) = resolve(simd, context, &node.ray, object, hit);
+            let (t, point, surface) = resolve(simd, context, &node.ray, object, t, hit);
             let length = length + t;
             let closeness = step / length;
             if level == 1 {
@@ -205,7 +207,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     if !front.any_true() {
                         continue;
                     }
-                    let seen = visibility(simd, world, samples, source, point, to_light, reach, object, front);
+                    let seen = visibility(simd, context, samples, source, point, to_light, reach, object, front);
                     let lit = front & seen.simd_gt(zero);
                     let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
                     let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
@@ -289,30 +291,61 @@ fn strength<S: Simd>(simd: S, wanted: M<S>, weight: V3<S>, least: F<S>) -> (M<S>
 }
 
 /// The nearest of the bodies in `list` for every lane, or [`NOWHERE`], and its distance but for a few ulps.
+///
+/// For the `shadow` of a light at the distance `reach`: any body before it that casts shadows, whose distance does not matter. The search ends
+/// when all `active` lanes are dark.
 #[simd]
-pub fn nearest<S: Simd>(simd: S, world: &World, list: &[u32], ray: &Ray<S>) -> (U<S>, F<S>) {
+#[allow(clippy::too_many_arguments)]
+pub fn nearest<S: Simd>(
+    simd: S,
+    world: &World,
+    list: &[u32],
+    ray: &Ray<S>,
+    active: M<S>,
+    reach: F<S>,
+    shadow: bool,
+) -> (U<S>, F<S>) {
     let zero = F::<S>::splat(simd, 0.0);
-    let mut best = F::<S>::splat(simd, FAR);
-    let mut object = U::<S>::splat(simd, NOWHERE);
+    let nowhere = U::<S>::splat(simd, NOWHERE);
+    let (mut best, mut object) = (reach, nowhere);
+    let ball = if shadow { Ball::Middle } else { Ball::Rough };
     for &index in list {
+        let body = &world.objects[index as usize];
+        if shadow && !body.casts_shadow {
+            continue;
+        }
         let id = U::<S>::splat(simd, index);
-        let same = ray.from.simd_eq(id);
-        let (t0, t1) = world.objects[index as usize].shape.span_roughly(simd, ray.origin, ray.direction);
-        // Outwards the body that the ray leaves does not count; inwards only its far side does.
-        let t = (t0.simd_gt(zero) & !same).select(t0, t1);
-        let meets = t.simd_gt(zero) & t.simd_lt(best) & (!same | ray.inward);
-        best = meets.select(t, best);
-        object = meets.select(id, object);
+        let other = !ray.from.simd_eq(id);
+        let (t0, t1) = body.shape.span(simd, ray.origin, ray.direction, ball);
+        if shadow {
+            object = (other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+            if !(active & object.simd_eq(nowhere)).any_true() {
+                break;
+            }
+        } else {
+            // Outwards the body that the ray leaves does not count; inwards only its far side does.
+            let t = (t0.simd_gt(zero) & other).select(t0, t1);
+            let meets = t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+            best = meets.select(t, best);
+            object = meets.select(id, object);
+        }
     }
     (object, best)
 }
 
-/// Distance, point and surface of every lane's hit: once for each of the few bodies that a packet meets.
+/// Distance, point and surface of every lane's hit, from what [`nearest`] found: once for each of the few bodies that a
+/// packet meets.
 #[inline(always)]
-fn resolve<S: Simd>(simd: S, context: &Context, ray: &Ray<S>, object: U<S>, hit: M<S>) -> (F<S>, V3<S>, Surface<S>) {
+fn resolve<S: Simd>(
+    simd: S,
+    context: &Context,
+    ray: &Ray<S>,
+    object: U<S>,
+    mut t: F<S>,
+    hit: M<S>,
+) -> (F<S>, V3<S>, Surface<S>) {
     let zero = F::<S>::splat(simd, 0.0);
     let black = V3::splat(simd, Vec3::ZERO);
-    let mut t = zero;
     let mut point = black;
     let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();
@@ -321,9 +354,11 @@ fn resolve<S: Simd>(simd: S, context: &Context, ray: &Ray<S>, object: U<S>, hit:
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
         let body = &context.world.objects[id as usize];
-        let (t0, t1) = body.shape.span(simd, ray.origin, ray.direction);
-        let outside = t0.simd_gt(zero) & !ray.from.simd_eq(U::<S>::splat(simd, id));
-        t = here.select(outside.select(t0, t1).max(zero), t);
+        if let Shape::Sphere { .. } = body.shape {
+            let (t0, t1) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
+            let outside = t0.simd_gt(zero) & !ray.from.simd_eq(U::<S>::splat(simd, id));
+            t = here.select(outside.select(t0, t1).max(zero), t);
+        }
         let mut at = ray.origin + ray.direction * Lane(t);
         if let Shape::Plane { normal, offset } = body.shape {
             // Back onto the plane, so that its texture is a slice at one height.
@@ -388,9 +423,7 @@ fn remember<S: Simd>(
         let here = late & object.simd_eq(U::<S>::splat(simd, id)).to_bitmask();
         late &= !here;
         let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-        store(point.x, &mut points[0], 0);
-        store(point.y, &mut points[1], 0);
-        store(point.z, &mut points[2], 0);
+        point.store(&mut points, 0);
         texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
         for lane in Bits(here) {
             let numbers = &mut out[lane].numbers;

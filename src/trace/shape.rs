@@ -4,7 +4,7 @@
 //! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
 //! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
 
-use crate::lanes::{F, Lane, M, V3};
+use crate::lanes::{F, Lane, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
@@ -57,6 +57,18 @@ pub enum Shape {
     },
 }
 
+/// How exact the entry into a ball has to be, and the exit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ball {
+    /// To a few ulps of themselves.
+    Exact,
+    /// To a few ulps of the distance to the centre: enough to tell which body is nearest, at half the price.
+    Rough,
+    /// Both are where the line is nearest to the centre, without a root: enough to tell whether the ball lies between two
+    /// points outside of it.
+    Middle,
+}
+
 /// Beyond this a ray has left the scene.
 pub const FAR: f32 = 1e30;
 
@@ -75,15 +87,22 @@ impl Shape {
     ///
     /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
     /// nearest point does not cancel as `b^2 - 4ac` does far away.
-    #[simd]
-    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
+    #[inline(always)]
+    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>) {
         let zero = F::<S>::splat(simd, 0.0);
         let far = F::<S>::splat(simd, FAR);
         let (t0, t1, hit) = match *self {
             Shape::Sphere { center, radius } => {
                 let (q, b, apart) = past(o, d, center);
                 let disc = F::<S>::splat(simd, radius * radius) - apart;
-                let (t0, t1) = roots::<S>(b, disc.max(zero), q.dot(q) - radius * radius);
+                let (t0, t1) = match ball {
+                    Ball::Exact => roots::<S>(b, disc.max(zero), q.dot(q) - radius * radius),
+                    Ball::Rough => {
+                        let s = disc.max(zero).sqrt();
+                        (b - s, b + s)
+                    }
+                    Ball::Middle => (b, b),
+                };
                 (t0, t1, disc.simd_gt(zero))
             }
             Shape::Plane { normal, offset } => {
@@ -132,33 +151,6 @@ impl Shape {
             }
         };
         (hit.select(t0, far), hit.select(t1, zero))
-    }
-
-    /// [`Shape::span`] with an absolute error of a few ulps of the distance to the centre: enough to tell which body is
-    /// nearest, at half the price for a ball.
-    #[inline(always)]
-    pub fn span_roughly<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
-        let Shape::Sphere { center, radius } = *self else { return self.span(simd, o, d) };
-        let zero = F::<S>::splat(simd, 0.0);
-        let (_, b, apart) = past(o, d, center);
-        let disc = F::<S>::splat(simd, radius * radius) - apart;
-        let s = disc.max(zero).sqrt();
-        let hit = disc.simd_gt(zero);
-        (hit.select(b - s, F::<S>::splat(simd, FAR)), hit.select(b + s, zero))
-    }
-
-    /// Does the body meet the open segment from `o` along `d` to distance `reach`? Both ends lie outside of it.
-    ///
-    /// For a ball that needs no root: its nearest point to the line lies between the ends and inside the ball.
-    #[inline(always)]
-    pub fn blocks<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, reach: F<S>) -> M<S> {
-        let zero = F::<S>::splat(simd, 0.0);
-        if let Shape::Sphere { center, radius } = *self {
-            let (_, b, apart) = past(o, d, center);
-            return apart.simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
-        }
-        let (t0, t1) = self.span(simd, o, d);
-        t1.simd_gt(zero) & t0.simd_lt(reach)
     }
 
     /// Unit outward normal at a point of the surface.
