@@ -51,6 +51,12 @@ impl Job<'_> {
     pub fn unit(&self) -> usize {
         1 << self.quality.subpixel
     }
+
+    /// Whole pixels of so many lattice steps.
+    #[inline(always)]
+    pub fn pixels(&self, steps: usize) -> usize {
+        steps >> self.quality.subpixel
+    }
 }
 
 /// What a thread keeps from tile to tile; only memory, never values.
@@ -144,13 +150,13 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
                     }
                     continue;
                 }
-                let finest = job.guard.finest(tile.x + x / unit, tile.y + y / unit);
+                let finest = job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y));
                 // A pixel is the mean of its corners, whatever they differ in but their chain.
                 let agree = same
                     && if size == unit {
                         finest > 1
                     } else {
-                        size <= unit * finest && agree(simd, job, size / unit, corners, grid.centre(square))
+                        size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
                     };
                 if agree {
                     whole.push(square);

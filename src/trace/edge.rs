@@ -35,8 +35,8 @@ impl Groups {
             weigh(grid, part, 0.25, pixel, &mut weights);
         }
         self.count = 0;
-        for (row, weights) in weights.iter().enumerate() {
-            for (column, &weight) in weights.iter().enumerate() {
+        for (row, weights) in weights[..=pixel.size].iter().enumerate() {
+            for (column, &weight) in weights[..=pixel.size].iter().enumerate() {
                 if weight > 0.0 {
                     self.add(simd, grid.at(pixel.x + column, pixel.y + row), weight);
                 }

@@ -25,9 +25,8 @@ pub fn add<S: Simd>(
     footprint: &[f32; REMEMBERED],
 ) {
     let [red, green, blue, closeness, ..] = sample.numbers;
-    let unit = job.unit();
     // Inside, and now the compiler knows.
-    let pixel = (square.y / unit * Tile::SIZE + square.x / unit) & (Tile::AREA - 1);
+    let pixel = (job.pixels(square.y) * Tile::SIZE + job.pixels(square.x)) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
@@ -204,9 +203,8 @@ pub fn interpolate<S: Simd>(
 ) {
     let corners = grid.corners(square);
     let patch = Patch::new(simd, corners);
-    let unit = job.unit();
-    let size = square.size / unit;
-    let first = (square.y / unit) * Tile::SIZE + square.x / unit;
+    let size = job.pixels(square.size);
+    let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
     let filter = job.quality.subpixel > 0;
     let solid = if corners[0].closeness() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {

@@ -69,8 +69,9 @@ impl Traced {
             let way = center - eye;
             let along = way.dot(middle);
             let across = way.distance(middle * along);
-            // How far the centre lies outside of the cone around the tile, or less.
-            if across * cosine - along * sine <= radius * 1.001 + way.length() * 1e-3 {
+            // How far the centre lies outside of the cone around the tile, unless it is behind the eye.
+            let outside = across * cosine - along * sine;
+            if along >= -radius && outside <= radius * 1.001 + way.length() * 1e-3 {
                 visible.push(index as u32);
             }
         }

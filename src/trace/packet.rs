@@ -314,18 +314,21 @@ pub fn nearest<S: Simd>(
         if shadow && !body.casts_shadow {
             continue;
         }
+        let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
+        if !(hit & active).any_true() {
+            continue;
+        }
         let id = U::<S>::splat(simd, index);
         let other = !ray.from.simd_eq(id);
-        let (t0, t1) = body.shape.span(simd, ray.origin, ray.direction, ball);
         if shadow {
-            object = (other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+            object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
             if !(active & object.simd_eq(nowhere)).any_true() {
                 break;
             }
         } else {
             // Outwards the body that the ray leaves does not count; inwards only its far side does.
             let t = (t0.simd_gt(zero) & other).select(t0, t1);
-            let meets = t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+            let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
             best = meets.select(t, best);
             object = meets.select(id, object);
         }
@@ -355,7 +358,7 @@ fn resolve<S: Simd>(
         todo &= !here.to_bitmask();
         let body = &context.world.objects[id as usize];
         if let Shape::Sphere { .. } = body.shape {
-            let (t0, t1) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
+            let (t0, t1, _) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
             let outside = t0.simd_gt(zero) & !ray.from.simd_eq(U::<S>::splat(simd, id));
             t = here.select(outside.select(t0, t1).max(zero), t);
         }

@@ -4,7 +4,7 @@
 //! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
 //! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
 
-use crate::lanes::{F, Lane, V3};
+use crate::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
@@ -83,15 +83,14 @@ impl Shape {
         }
     }
 
-    /// Where the line `o + t d`, `|d| = 1`, is inside the body: `t0 <= t1`, or `(FAR, 0)` where it never is.
+    /// Where the line `o + t d`, `|d| = 1`, is inside the body, from `t0` to `t1 >= t0`, and whether it ever is.
     ///
     /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
     /// nearest point does not cancel as `b^2 - 4ac` does far away.
     #[inline(always)]
-    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>) {
+    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>, M<S>) {
         let zero = F::<S>::splat(simd, 0.0);
-        let far = F::<S>::splat(simd, FAR);
-        let (t0, t1, hit) = match *self {
+        match *self {
             Shape::Sphere { center, radius } => {
                 let (q, b, apart) = past(o, d, center);
                 let disc = F::<S>::splat(simd, radius * radius) - apart;
@@ -111,6 +110,7 @@ impl Shape {
                 let t = -height / speed;
                 let (enters, leaves) = (speed.simd_lt(zero), speed.simd_gt(zero));
                 // Parallel to the plane a ray is inside all along or never.
+                let far = F::<S>::splat(simd, FAR);
                 (enters.select(t, -far), leaves.select(t, far), enters | leaves | height.simd_le(zero))
             }
             Shape::Globe { touch, normal, radius } => {
@@ -149,8 +149,7 @@ impl Shape {
                 let (t0, t1) = (c0.max(b - s), c1.min(b + s));
                 (t0, t1, disc.simd_gt(zero) & t0.simd_le(t1))
             }
-        };
-        (hit.select(t0, far), hit.select(t1, zero))
+        }
     }
 
     /// Unit outward normal at a point of the surface.
