@@ -2,10 +2,11 @@
 
 use crate::args::{Args, When};
 use crate::canvas;
-use crate::number::fixed;
+use crate::number::{digits, fixed};
+use crate::output::print;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
-use std::io::{self, Write};
+use std::slice;
 use std::time::{Duration, Instant};
 
 /// First instant, seconds: the one that the other renderers are measured from.
@@ -26,49 +27,71 @@ struct Times {
     samples: u64,
 }
 
-impl Times {
-    /// Milliseconds of the frame slower than `share` of all.
-    fn quantile(&self, share: f64) -> f64 {
-        let index = (share * self.ms.len() as f64) as usize;
-        self.ms.get(index.min(self.ms.len() - 1)).copied().unwrap_or(0.0)
-    }
-
-    /// Of an even number of frames the mean of the middle two.
-    fn median(&self) -> f64 {
-        let half = self.ms.len() / 2;
-        if self.ms.len().is_multiple_of(2) { 0.5 * (self.ms[half - 1] + self.ms[half]) } else { self.ms[half] }
-    }
-}
+/// A figure and what it is called.
+type Field<'a> = (&'static str, &'a [u8]);
 
 /// Times the scene of `args`, or every scene, and prints each result when it is known.
-pub fn run(args: &Args, json: bool) -> Result<(), String> {
+pub fn run(args: &Args, json: bool) -> Result<(), Vec<u8>> {
     let mut renderer = Renderer::new(args.threads)?;
     let mut frame = canvas::frame(args.size)?;
     let (width, height) = args.size;
-    let (threads, simd, quality) = (renderer.threads(), renderer.simd(), args.quality_name);
-    if !json {
-        print(&format!(
-            "{width}x{height}, {threads} threads, {simd}, quality {quality}\n\
-             {:<16} {:>6} {:>12} {:>12} {:>12} {:>12}\n",
-            "scene", "frames", "fps median", "slowest 1 %", "ms median", "samples"
-        ))?;
-    }
-    for scene in args.scene.map_or_else(scenes::all, |scene| vec![scene]) {
-        let times = time(&mut renderer, &scene, args, &mut frame);
-        let (name, frames) = (scene.name, times.ms.len());
-        let (median, slow) = (times.median(), times.quantile(0.99));
-        let (fps_median, fps_p1, ms) = (fixed(1000.0 / median), fixed(1000.0 / slow), fixed(median));
-        let samples = fixed(times.samples as f64 / (frames * width * height) as f64);
-        print(&match json {
-            true => format!(
-                "{{\"scene\":\"{name}\",\"width\":{width},\"height\":{height},\"threads\":{threads},\
-                 \"frames\":{frames},\"fps_median\":{fps_median},\"fps_p1\":{fps_p1},\"ms_median\":{ms},\
-                 \"simd\":\"{simd}\",\"quality\":\"{quality}\",\"samples\":{samples}}}\n"
-            ),
-            false => format!("{name:<16} {frames:>6} {fps_median:>12} {fps_p1:>12} {ms:>12} {samples:>12}\n"),
-        })?;
+    let setting: [Field<'_>; 5] = [
+        ("width", &digits(width)),
+        ("height", &digits(height)),
+        ("threads", &digits(renderer.threads())),
+        ("simd", renderer.simd().as_bytes()),
+        ("quality", args.quality_name.as_bytes()),
+    ];
+    let mut first = !json;
+    for scene in args.scene.map_or(scenes::ALL, slice::from_ref) {
+        let times = time(&mut renderer, scene, args, &mut frame);
+        let count = times.ms.len();
+        // Of an even number of frames the mean of the middle two.
+        let median = 0.5 * (times.ms[(count - 1) / 2] + times.ms[count / 2]);
+        // Slower than 99 % of all.
+        let slow = times.ms[count * 99 / 100];
+        let found: [Field<'_>; 6] = [
+            ("scene", scene.name.as_bytes()),
+            ("frames", &digits(count)),
+            ("fps_median", &fixed(1000.0 / median)),
+            ("fps_p1", &fixed(1000.0 / slow)),
+            ("ms_median", &fixed(median)),
+            ("samples", &fixed(times.samples as f64 / (count * width * height) as f64)),
+        ];
+        let mut text = Vec::new();
+        if json {
+            for (name, value) in found.iter().chain(&setting) {
+                let quote: &[u8] = if value[0].is_ascii_digit() { b"" } else { b"\"" };
+                let before: &[u8] = if text.is_empty() { b"{\"" } else { b",\"" };
+                text.extend([before, name.as_bytes(), b"\":", quote, value, quote].concat());
+            }
+            text.push(b'}');
+        } else {
+            if std::mem::take(&mut first) {
+                for (name, value) in setting {
+                    text.extend([name.as_bytes(), b" ", value, b"  "].concat());
+                }
+                text.push(b'\n');
+                row(&mut text, found.map(|field| field.0.as_bytes()));
+                text.push(b'\n');
+            }
+            row(&mut text, found.map(|field| field.1));
+        }
+        text.push(b'\n');
+        print(&text)?;
     }
     Ok(())
+}
+
+/// Adds a row of the table: a name at the left, the others in columns that they end.
+fn row(text: &mut Vec<u8>, [name, cells @ ..]: [&[u8]; 6]) {
+    let mut end = text.len() + 10;
+    text.extend_from_slice(name);
+    for cell in cells {
+        end += 13;
+        text.resize(text.len().max(end - cell.len()), b' ');
+        text.extend_from_slice(cell);
+    }
 }
 
 fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) -> Times {
@@ -90,11 +113,16 @@ fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) 
         let instant = instant(start, end, times.ms.len());
         let frame_began = Instant::now();
         let stats = renderer.render_eyes(scene, instant, &args.quality, args.stereo, frame);
+        times.samples += stats.samples;
         // Never zero, since its inverse is printed: a microsecond is below what a frame can take.
         times.ms.push((frame_began.elapsed().as_secs_f64() * 1000.0).max(1e-3));
-        times.samples += stats.samples;
+        // To its place among those before it.
+        let mut place = times.ms.len() - 1;
+        while place > 0 && times.ms[place - 1] > times.ms[place] {
+            times.ms.swap(place - 1, place);
+            place -= 1;
+        }
     }
-    times.ms.sort_unstable_by(f64::total_cmp);
     times
 }
 
@@ -103,11 +131,4 @@ fn instant(start: f64, end: f64, number: usize) -> f64 {
     // Counted in steps: the remainder of a float is long division in software.
     let steps = ((end - start) / STEP).ceil().max(1.0) as usize;
     start + (number % steps) as f64 * STEP
-}
-
-fn print(text: &str) -> Result<(), String> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| format!("cannot write to stdout: {error}"))
 }
