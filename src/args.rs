@@ -3,6 +3,7 @@
 //! Words are bytes, as a directory need not be Unicode.
 
 use crate::number::{decimal, whole};
+use crate::output::add;
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
@@ -39,6 +40,18 @@ const OPTIONS: usize = 16;
 const THREADS: usize = 6;
 const SIZE: usize = 7;
 const QUALITY: usize = 8;
+
+/// What goes against what, in the order in which [`Args::read`] looks.
+const CLASHES: &str = "\
+--at is one instant: leave out --from and --to
+--from lies after --to
+--from lies after the end of the scene: give --to as well
+--bench and --capture: choose one
+--json goes with --bench
+--eye-distance and --convergence go with --stereo
+--stereo needs a width of 2 or more
+a capture has at most 1000000 frames
+";
 
 /// The least, the largest and the usual value of each option that takes a decimal number: the first ones.
 ///
@@ -121,8 +134,10 @@ impl Args {
 
     /// Reads the command line of this process; the error is one line without the program's name.
     pub fn from_env() -> Result<Args, Vec<u8>> {
-        let mut words = std::env::args_os().skip(1).map(OsString::into_encoded_bytes);
+        let mut words = std::env::args_os().map(OsString::into_encoded_bytes);
         let (mut scene, mut values) = (None, [const { None }; OPTIONS]);
+        // The first is the program's own name.
+        words.next();
         while let Some(word) = words.next() {
             if !word.starts_with(b"-") {
                 if scene.is_some() {
@@ -132,13 +147,13 @@ impl Args {
                 continue;
             }
             let (name, given) = cut(&word, b'=');
-            let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(line(at).0, b' '))).find(|o| o.1.0 == name)
+            let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
             else {
                 return Err(quote("there is no option ", name, "; see --help"));
             };
             let value = match given {
                 None if what.is_some() => words.next().unwrap_or_default(),
-                _ => given.unwrap_or_default().to_vec(),
+                _ => [given.unwrap_or_default()].concat(),
             };
             // Another option in its place is a forgotten value, not a strange one.
             let lacks = what.is_some() && (value.is_empty() || value.starts_with(b"--"));
@@ -151,21 +166,8 @@ impl Args {
     }
 
     fn read(scene: Option<&'static Scene>, values: [Option<Vec<u8>>; OPTIONS]) -> Result<Args, Vec<u8>> {
-        let mut numbers = [0.0; RANGES.len()];
-        for (option, (least, most, usual)) in RANGES.into_iter().enumerate() {
-            numbers[option] =
-                check(&values, option, usual, |value| decimal(value).filter(|n| (least..=most).contains(n)))?;
-        }
-        let side = |text: &[u8]| whole(text).filter(|n| (1..=MAX_SIDE).contains(n));
-        let size = check(&values, SIZE, (1280, 720), |value| {
-            let (width, height) = cut(value, b'x');
-            side(width).zip(height.and_then(side)).filter(|(width, height)| width * height <= MAX_PIXELS)
-        })?;
-        let threads = check(&values, THREADS, 0, |value| whole(value).filter(|n| (1..=MAX_THREADS).contains(n)))?;
-        let (quality_name, quality) = check(&values, QUALITY, ("default", Quality::DEFAULT), |value| {
-            Quality::NAMED.into_iter().find(|(name, _)| name.as_bytes() == value)
-        })?;
-
+        let refused = |option| refuse(option, values[option].as_deref().unwrap_or_default());
+        let (numbers, threads, size, &(quality_name, quality)) = understood(&values).map_err(refused)?;
         let [start, from, end, fps, eye_distance, convergence] = numbers;
         let is = values.each_ref().map(Option::is_some);
         let [at, since, to, _, apart, agree, _, _, _, capture, bench, json, two, list, help, version] = is;
@@ -188,17 +190,17 @@ impl Args {
         // A benchmark of all scenes has no one end; it times single instants past an end without harm.
         let endless = to || bench && scene.is_none();
         let clashes = [
-            (at && (since || to), "--at is one instant: leave out --from and --to"),
-            (from > end, "--from lies after --to"),
-            (!endless && from >= args.scene().duration, "--from lies after the end of the scene: give --to as well"),
-            (bench && capture, "--bench and --capture: choose one"),
-            (json && !bench, "--json goes with --bench"),
-            ((apart || agree) && !two, "--eye-distance and --convergence go with --stereo"),
-            (two && size.0 < 2, "--stereo needs a width of 2 or more"),
-            (capture && args.frames() > MAX_FRAMES, "a capture has at most 1000000 frames"),
+            at && (since || to),
+            from > end,
+            !endless && from >= args.scene().duration,
+            bench && capture,
+            json && !bench,
+            (apart || agree) && !two,
+            two && size.0 < 2,
+            capture && args.frames() > MAX_FRAMES,
         ];
-        match clashes.into_iter().find(|clash| clash.0) {
-            Some((_, why)) => Err(why.into()),
+        match clashes.into_iter().position(|clash| clash) {
+            Some(clash) => Err(line(CLASHES, clash).to_vec()),
             None => Ok(args),
         }
     }
@@ -224,10 +226,46 @@ impl Args {
     }
 }
 
-/// The line of [`HELP`] about an option: its name and what its value is, then what it does.
-fn line(option: usize) -> (&'static [u8], &'static [u8]) {
-    let line = HELP.as_bytes().split(|&byte| byte == b'\n').nth(option + 1).unwrap_or_default();
-    (line[..ABOUT].trim_ascii(), &line[ABOUT..])
+/// The values of the options that have one: decimal numbers, threads, size, quality. Those that were not given are the
+/// usual ones; the error is the option whose value will not do.
+#[allow(clippy::type_complexity)]
+fn understood(
+    values: &[Option<Vec<u8>>],
+) -> Result<([f64; RANGES.len()], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
+    let mut numbers = [0.0; RANGES.len()];
+    for (option, (least, most, usual)) in RANGES.iter().enumerate() {
+        numbers[option] = match &values[option] {
+            Some(value) => decimal(value).filter(|number| number >= least && number <= most).ok_or(option)?,
+            None => *usual,
+        };
+    }
+    let within = |text: &[u8], most| whole(text).filter(|number| (1..=most).contains(number));
+    let threads = match &values[THREADS] {
+        Some(value) => within(value, MAX_THREADS).ok_or(THREADS)?,
+        None => 0,
+    };
+    let size = match &values[SIZE] {
+        Some(value) => {
+            let (width, height) = cut(value, b'x');
+            let sides = within(width, MAX_SIDE).zip(within(height.unwrap_or_default(), MAX_SIDE));
+            sides.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or(SIZE)?
+        }
+        None => (1280, 720),
+    };
+    let name = values[QUALITY].as_deref().unwrap_or(b"default");
+    let quality = Quality::NAMED.iter().find(|named| named.0.as_bytes() == name).ok_or(QUALITY)?;
+    Ok((numbers, threads, size, quality))
+}
+
+/// A line of a text.
+fn line(text: &'static str, number: usize) -> &'static [u8] {
+    text.as_bytes().split(|&byte| byte == b'\n').nth(number).unwrap_or_default()
+}
+
+/// What [`HELP`] has about an option: its name and what its value is, then what it does.
+fn help(option: usize) -> (&'static [u8], &'static [u8]) {
+    let (head, about) = line(HELP, option + 1).split_at(ABOUT);
+    (head.trim_ascii(), about)
 }
 
 /// What is before the first such byte, and what is after it.
@@ -238,19 +276,6 @@ fn cut(text: &[u8], at: u8) -> (&[u8], Option<&[u8]>) {
     }
 }
 
-/// The value of an option, as `read` understands it: the usual one where none was given.
-fn check<T>(
-    values: &[Option<Vec<u8>>],
-    option: usize,
-    usual: T,
-    read: impl Fn(&[u8]) -> Option<T>,
-) -> Result<T, Vec<u8>> {
-    match &values[option] {
-        Some(value) => read(value).ok_or_else(|| refuse(option, value)),
-        None => Ok(usual),
-    }
-}
-
 /// A message about a word.
 fn quote(before: &str, word: &[u8], after: &str) -> Vec<u8> {
     [before.as_bytes(), b"'", word, b"'", after.as_bytes()].concat()
@@ -258,7 +283,7 @@ fn quote(before: &str, word: &[u8], after: &str) -> Vec<u8> {
 
 /// The message about a value that will not do.
 fn refuse(option: usize, value: &[u8]) -> Vec<u8> {
-    let (head, about) = line(option);
+    let (head, about) = help(option);
     [head, b" does not take '", value, b"': ", about].concat()
 }
 
@@ -266,8 +291,7 @@ fn named(name: &[u8]) -> Result<&'static Scene, Vec<u8>> {
     scenes::ALL.iter().find(|scene| scene.name.as_bytes() == name).ok_or_else(|| {
         let mut why = quote("there is no scene ", name, "; the scenes are");
         for scene in scenes::ALL {
-            why.push(b' ');
-            why.extend_from_slice(scene.name.as_bytes());
+            add(&mut why, &[b" ", scene.name.as_bytes()]);
         }
         why
     })

@@ -37,7 +37,7 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
 /// A binary PPM (P6).
 fn encode(frame: &Frame, bytes: &mut Vec<u8>) {
     bytes.clear();
-    bytes.extend([b"P6\n", &*digits(frame.width), b" ", &digits(frame.height), b"\n255\n"].concat());
+    bytes.extend_from_slice(&[b"P6\n", &*digits(frame.width), b" ", &digits(frame.height), b"\n255\n"].concat());
     for pixel in &frame.pixels {
         bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
     }

@@ -14,7 +14,7 @@ mod present;
 mod terminal;
 
 use args::{Args, Mode};
-use output::{complain, print};
+use output::{SPACES, complain, print};
 use paprsek::scenes;
 use std::process::ExitCode;
 
@@ -57,9 +57,8 @@ fn play(args: &Args) -> Result<(), Vec<u8>> {
 
 fn list() -> Result<(), Vec<u8>> {
     for scene in scenes::ALL {
-        let mut line = scene.name.as_bytes().to_vec();
-        line.resize(17, b' ');
-        print(&[&line, scene.about.as_bytes(), b"\n"].concat())?;
+        let name = scene.name.as_bytes();
+        print(&[name, &SPACES[name.len()..], b" ", scene.about.as_bytes(), b"\n"].concat())?;
     }
     Ok(())
 }

@@ -3,6 +3,8 @@
 //! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and
 //! code for it. A time on a command line and a figure in a table need neither.
 
+use crate::output::add;
+
 /// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
 ///
 /// Up to 18 digits and 22 places the result is the nearest `f64` but for one case in billions: digits and power of
@@ -72,13 +74,14 @@ pub fn digits(number: usize) -> Vec<u8> {
     text
 }
 
-/// A figure with three decimals; negative values print as zero.
-pub fn fixed(value: f64) -> Vec<u8> {
+/// A figure with three decimals, or none where they are zeros; negative values print as zero.
+pub fn figure(value: f64) -> Vec<u8> {
     let thousandths = (value * 1000.0 + 0.5) as usize;
     let mut text = digits(thousandths / 1000);
-    text.push(b'.');
-    // The one before them keeps their zeros.
-    text.extend_from_slice(&digits(1000 + thousandths % 1000)[1..]);
+    if thousandths % 1000 > 0 {
+        // The one before them keeps their zeros.
+        add(&mut text, &[b".", &digits(1000 + thousandths % 1000)[1..]]);
+    }
     text
 }
 
@@ -154,10 +157,11 @@ mod tests {
     }
 
     #[test]
-    fn figures_have_three_decimals() {
-        assert_eq!(fixed(0.0), b"0.000");
-        assert_eq!(fixed(1.0005), b"1.001");
-        assert_eq!(fixed(59.9999), b"60.000");
-        assert_eq!(fixed(-3.0), b"0.000");
+    fn figures_have_three_decimals_or_none() {
+        assert_eq!(figure(0.0), b"0");
+        assert_eq!(figure(1.0005), b"1.001");
+        assert_eq!(figure(7.04), b"7.040");
+        assert_eq!(figure(59.9999), b"60");
+        assert_eq!(figure(-3.0), b"0");
     }
 }

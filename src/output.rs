@@ -5,6 +5,9 @@
 
 use crate::number::digits;
 
+/// What the first column of a table is filled up with.
+pub const SPACES: &[u8] = &[b' '; 16];
+
 #[cfg(unix)]
 mod system {
     use rustix::fs::{self, Mode, OFlags};
@@ -89,6 +92,13 @@ mod system {
 /// Makes a directory where there is none yet and it can be made.
 pub use system::make_directory;
 
+/// Adds the parts of a text.
+pub fn add(text: &mut Vec<u8>, parts: &[&[u8]]) {
+    for part in parts {
+        text.extend_from_slice(part);
+    }
+}
+
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
     system::write_out(bytes).map_err(|error| failed(b"to stdout", error))
@@ -101,8 +111,12 @@ pub fn save(part: &[u8], name: &[u8], bytes: &[u8]) -> Result<(), Vec<u8>> {
 
 /// One line on stderr, whatever the message quotes. Where that fails there is no place left to say so.
 pub fn complain(why: &[u8]) {
-    let mut line = b"paprsek: ".to_vec();
-    line.extend(why.iter().map(|&byte| if byte.is_ascii_control() { b'?' } else { byte }));
+    let mut line = [b"paprsek: ", why].concat();
+    for byte in &mut line {
+        if byte.is_ascii_control() {
+            *byte = b'?';
+        }
+    }
     line.push(b'\n');
     system::write_error(&line);
 }
