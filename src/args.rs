@@ -3,7 +3,7 @@
 //! Words are bytes, as a directory need not be Unicode.
 
 use crate::number::{decimal, whole};
-use crate::output::add;
+use crate::output::fill;
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
@@ -93,17 +93,6 @@ pub enum Mode {
     List,
 }
 
-/// The instants to show, seconds of scene time.
-#[derive(Clone, Copy)]
-pub enum When {
-    /// One instant (`--at`).
-    At(f64),
-    /// From an instant to an end; without `--to` the end is `None`.
-    Range(f64, Option<f64>),
-    /// The scene as it comes.
-    Whole,
-}
-
 /// A command line, checked.
 pub struct Args {
     /// What to do.
@@ -114,8 +103,12 @@ pub struct Args {
     pub size: (usize, usize),
     /// Threads; 0 is all cores.
     pub threads: usize,
-    /// Which instants.
-    pub when: When,
+    /// The first instant to show, seconds of scene time; none shows the scene as it comes.
+    pub start: Option<f64>,
+    /// Where a range ends (`--to`).
+    pub end: Option<f64>,
+    /// The first instant alone (`--at`).
+    pub still: bool,
     /// Frames per second of a capture.
     pub fps: f64,
     /// Two eyes instead of one.
@@ -141,7 +134,7 @@ impl Args {
         while let Some(word) = words.next() {
             if !word.starts_with(b"-") {
                 if scene.is_some() {
-                    return Err(quote("one scene at a time: ", &word, " is too many"));
+                    return Err(fill("one scene at a time: '%' is too many", &[&word]));
                 }
                 scene = Some(named(&word)?);
                 continue;
@@ -149,7 +142,7 @@ impl Args {
             let (name, given) = cut(&word, b'=');
             let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
             else {
-                return Err(quote("there is no option ", name, "; see --help"));
+                return Err(fill("there is no option '%'; see --help", &[name]));
             };
             let value = match given {
                 None if what.is_some() => words.next().unwrap_or_default(),
@@ -168,7 +161,7 @@ impl Args {
     fn read(scene: Option<&'static Scene>, values: [Option<Vec<u8>>; OPTIONS]) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].as_deref().unwrap_or_default());
         let (numbers, threads, size, &(quality_name, quality)) = understood(&values).map_err(refused)?;
-        let [start, from, end, fps, eye_distance, convergence] = numbers;
+        let [instant, from, until, fps, eye_distance, convergence] = numbers;
         let is = values.each_ref().map(Option::is_some);
         let [at, since, to, _, apart, agree, _, _, _, capture, bench, json, two, list, help, version] = is;
         let [.., target, _, _, _, _, _, _] = values;
@@ -180,18 +173,15 @@ impl Args {
             None if bench => Mode::Bench { json },
             None => Mode::Play,
         };
-        let when = match (at, since || to) {
-            (true, _) => When::At(start),
-            (_, true) => When::Range(from, to.then_some(end)),
-            _ => When::Whole,
-        };
         let stereo = two.then_some(Stereo { eye_distance: eye_distance as f32, convergence: convergence as f32 });
-        let args = Args { mode, scene, size, threads, when, fps, stereo, quality, quality_name };
+        let start = (at || since || to).then_some(if at { instant } else { from });
+        let end = to.then_some(until);
+        let args = Args { mode, scene, size, threads, start, end, still: at, fps, stereo, quality, quality_name };
         // A benchmark of all scenes has no one end; it times single instants past an end without harm.
         let endless = to || bench && scene.is_none();
         let clashes = [
             at && (since || to),
-            from > end,
+            from > until,
             !endless && from >= args.scene().duration,
             bench && capture,
             json && !bench,
@@ -205,24 +195,16 @@ impl Args {
         }
     }
 
-    /// The first instant to show.
-    pub fn start(&self) -> f64 {
-        match self.when {
-            When::At(at) => at,
-            When::Range(from, _) => from,
-            When::Whole => 0.0,
-        }
+    /// Where what is shown of a scene ends, seconds.
+    pub fn end(&self, scene: &Scene) -> f64 {
+        if self.still { self.start } else { self.end }.unwrap_or(scene.duration)
     }
 
     /// How many frames a capture has: those before the end of its range, but at least one.
     pub fn frames(&self) -> usize {
-        let end = match self.when {
-            When::At(at) => at,
-            When::Range(_, Some(to)) => to,
-            When::Range(_, None) | When::Whole => self.scene().duration,
-        };
+        let length = self.end(self.scene()) - self.start.unwrap_or(0.0);
         // A millionth of a frame is rounding of the product, not one frame more.
-        (((end - self.start()) * self.fps - 1e-6).ceil() as usize).max(1)
+        ((length * self.fps - 1e-6).ceil() as usize).max(1)
     }
 }
 
@@ -276,22 +258,17 @@ fn cut(text: &[u8], at: u8) -> (&[u8], Option<&[u8]>) {
     }
 }
 
-/// A message about a word.
-fn quote(before: &str, word: &[u8], after: &str) -> Vec<u8> {
-    [before.as_bytes(), b"'", word, b"'", after.as_bytes()].concat()
-}
-
 /// The message about a value that will not do.
 fn refuse(option: usize, value: &[u8]) -> Vec<u8> {
     let (head, about) = help(option);
-    [head, b" does not take '", value, b"': ", about].concat()
+    fill("% does not take '%': %", &[head, value, about])
 }
 
 fn named(name: &[u8]) -> Result<&'static Scene, Vec<u8>> {
     scenes::ALL.iter().find(|scene| scene.name.as_bytes() == name).ok_or_else(|| {
-        let mut why = quote("there is no scene ", name, "; the scenes are");
+        let mut why = fill("there is no scene '%'; the scenes are", &[name]);
         for scene in scenes::ALL {
-            add(&mut why, &[b" ", scene.name.as_bytes()]);
+            why = fill("% %", &[&why, scene.name.as_bytes()]);
         }
         why
     })

@@ -1,9 +1,9 @@
 //! Frames per second on N threads.
 
-use crate::args::{Args, When};
+use crate::args::Args;
 use crate::canvas;
-use crate::number::figure;
-use crate::output::{SPACES, add, print};
+use crate::number::{digits, figure};
+use crate::output::{SPACES, fill, print};
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 use std::slice;
@@ -19,12 +19,14 @@ const LIMIT: f64 = 4000.0;
 /// Frames before the clock counts: caches, and clocks of the processor.
 const WARM_UP: usize = 2;
 
-/// The figures of a scene.
-const NAMES: [&[u8]; 8] =
-    [b"frames", b"fps_median", b"fps_p1", b"ms_median", b"samples", b"width", b"height", b"threads"];
-/// Those that the table has a column for, and the head of the table.
-const COLUMNS: usize = 5;
-const HEAD: &[u8] = b"\nscene                  frames  fps_median      fps_p1   ms_median     samples\n";
+/// What is printed about a scene as JSON, and as a row of the table; what is printed before the table.
+const JSON: &str = r#"{"scene":"%%","frames":%,"fps_median":%,"fps_p1":%,"ms_median":%,"samples":%,"width":%,"height":%,"threads":%,"simd":"%","quality":"%"}
+"#;
+const ROW: &str = "%%       #             #             #             #             #\n";
+const HEAD: &str = "\
+%x%, % threads, %, quality %
+scene            frames   fps median       fps p1    ms median      samples
+";
 
 /// What the frames of one scene took.
 struct Times {
@@ -36,11 +38,12 @@ struct Times {
 
 /// Times the scene of `args`, or every scene, and prints each result when it is known.
 pub fn run(args: &Args, json: bool) -> Result<(), Vec<u8>> {
-    let mut renderer = Renderer::new(args.threads)?;
-    let mut frame = canvas::frame(args.size)?;
-    let (width, height) = args.size;
+    let (mut renderer, mut frame) = canvas::open(args)?;
+    let [width, height, threads] = &[args.size.0, args.size.1, renderer.threads()].map(digits);
     let (simd, quality) = (renderer.simd().as_bytes(), args.quality_name.as_bytes());
-    let mut headed = false;
+    if !json {
+        print(&fill(HEAD, &[width, height, threads, simd, quality]))?;
+    }
     for scene in args.scene.map_or(scenes::ALL, slice::from_ref) {
         let times = time(&mut renderer, scene, args, &mut frame);
         let count = times.ms.len();
@@ -48,43 +51,20 @@ pub fn run(args: &Args, json: bool) -> Result<(), Vec<u8>> {
         let median = 0.5 * (times.ms[(count - 1) / 2] + times.ms[count / 2]);
         // Slower than 99 % of all.
         let slow = times.ms[count * 99 / 100];
-        let samples = times.samples as f64 / (count * width * height) as f64;
-        let (threads, name) = (renderer.threads(), scene.name.as_bytes());
-        let [count, width, height, threads] = [count, width, height, threads].map(|number| number as f64);
-        let figures = [count, 1000.0 / median, 1000.0 / slow, median, samples, width, height, threads].map(figure);
-        let mut text = Vec::new();
-        if json {
-            add(&mut text, &[b"{\"scene\":\"", name, b"\",\"simd\":\"", simd, b"\",\"quality\":\"", quality, b"\""]);
-            for (name, figure) in NAMES.iter().zip(&figures) {
-                add(&mut text, &[b",\"", name, b"\":", figure]);
-            }
-            add(&mut text, &[b"}\n"]);
-        } else {
-            let [.., width, height, threads] = &figures;
-            if !headed {
-                add(
-                    &mut text,
-                    &[width, b"x", height, b", ", threads, b" threads, ", simd, b", quality ", quality, HEAD],
-                );
-                headed = true;
-            }
-            add(&mut text, &[name, &SPACES[name.len()..]]);
-            for figure in &figures[..COLUMNS] {
-                add(&mut text, &[&SPACES[figure.len() + 4..], figure]);
-            }
-            add(&mut text, &[b"\n"]);
-        }
-        print(&text)?;
+        let samples = times.samples as f64 / (count * frame.pixels.len()) as f64;
+        let [frames, fps, p1, ms, samples] =
+            &[count as f64, 1000.0 / median, 1000.0 / slow, median, samples].map(figure);
+        let name = scene.name.as_bytes();
+        let (template, gap) = if json { (JSON, &[][..]) } else { (ROW, &SPACES[name.len()..]) };
+        let words = [name, gap, frames, fps, p1, ms, samples, width, height, threads, simd, quality];
+        print(&fill(template, &words))?;
     }
     Ok(())
 }
 
 fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) -> Times {
-    let (start, end) = match args.when {
-        When::At(at) => (at, at),
-        When::Range(from, to) => (from, to.unwrap_or(scene.duration)),
-        When::Whole => (if scene.duration > START { START } else { 0.0 }, scene.duration),
-    };
+    let usual = if scene.duration > START { START } else { 0.0 };
+    let (start, end) = (args.start.unwrap_or(usual), args.end(scene));
     // Counted in steps: the remainder of a float is long division in software.
     let steps = ((end - start) / STEP).ceil().max(1.0) as usize;
     let mut render = |number: usize| {

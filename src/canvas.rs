@@ -1,6 +1,12 @@
 //! Memory for frames, refused with a word where there is not enough.
 
-use paprsek::tile::Frame;
+use crate::args::Args;
+use paprsek::tile::{Frame, Renderer};
+
+/// What draws, and what it draws on.
+pub fn open(args: &Args) -> Result<(Renderer, Frame), Vec<u8>> {
+    Ok((Renderer::new(args.threads)?, frame(args.size)?))
+}
 
 /// A black frame; an error where there is no memory for it.
 pub fn frame(size: (usize, usize)) -> Result<Frame, &'static str> {

@@ -3,8 +3,7 @@
 use crate::args::Args;
 use crate::canvas;
 use crate::number::digits;
-use crate::output::{make_directory, print, save};
-use paprsek::tile::{Frame, Renderer};
+use crate::output::{fill, make_directory, print, save};
 
 /// Writes the frames that `args` ask for into the directory `target`, or to stdout where it is `-`.
 pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
@@ -15,30 +14,25 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
             make_directory(&target[..end]);
         }
     }
-    let mut renderer = Renderer::new(args.threads)?;
-    let mut frame = canvas::frame(args.size)?;
-    let part = [target, b"/", &digits(std::process::id() as usize), b".part"].concat();
+    let (mut renderer, mut frame) = canvas::open(args)?;
+    let part = fill("%/%.part", &[target, &digits(std::process::id() as usize)]);
     let mut bytes = Vec::new();
     for number in 0..args.frames() {
         // Divided, not accumulated: frame k is the same instant whatever was captured before it.
-        let time = args.start() + number as f64 / args.fps;
+        let time = args.start.unwrap_or(0.0) + number as f64 / args.fps;
         renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
-        encode(&frame, &mut bytes);
+        // A binary PPM (P6).
+        bytes.clear();
+        bytes.extend_from_slice(&fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]));
+        for pixel in &frame.pixels {
+            bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
+        }
         if stream {
             print(&bytes)?;
         } else {
             // The one before the six digits keeps their zeros.
-            save(&part, &[target, b"/frame-", &digits(1_000_000 + number)[1..], b".ppm"].concat(), &bytes)?;
+            save(&part, &fill("%/frame-%.ppm", &[target, &digits(1_000_000 + number)[1..]]), &bytes)?;
         }
     }
     Ok(())
-}
-
-/// A binary PPM (P6).
-fn encode(frame: &Frame, bytes: &mut Vec<u8>) {
-    bytes.clear();
-    bytes.extend_from_slice(&[b"P6\n", &*digits(frame.width), b" ", &digits(frame.height), b"\n255\n"].concat());
-    for pixel in &frame.pixels {
-        bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
-    }
 }

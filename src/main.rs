@@ -14,7 +14,7 @@ mod present;
 mod terminal;
 
 use args::{Args, Mode};
-use output::{SPACES, complain, print};
+use output::{SPACES, complain, fill, print};
 use paprsek::scenes;
 use std::process::ExitCode;
 
@@ -51,14 +51,14 @@ fn play(args: &Args) -> Result<(), Vec<u8>> {
     if terminal::shows_colour() {
         return Ok(terminal::play(args)?);
     }
-    complain(&[b"no display (", why.as_bytes(), b"): running the benchmark"].concat());
+    complain(&fill("no display (%): running the benchmark", &[why.as_bytes()]));
     bench::run(args, false)
 }
 
 fn list() -> Result<(), Vec<u8>> {
     for scene in scenes::ALL {
         let name = scene.name.as_bytes();
-        print(&[name, &SPACES[name.len()..], b" ", scene.about.as_bytes(), b"\n"].concat())?;
+        print(&fill("%% %\n", &[name, &SPACES[name.len()..], scene.about.as_bytes()]))?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 //! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and
 //! code for it. A time on a command line and a figure in a table need neither.
 
-use crate::output::add;
+use crate::output::fill;
 
 /// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
 ///
@@ -77,12 +77,10 @@ pub fn digits(number: usize) -> Vec<u8> {
 /// A figure with three decimals, or none where they are zeros; negative values print as zero.
 pub fn figure(value: f64) -> Vec<u8> {
     let thousandths = (value * 1000.0 + 0.5) as usize;
-    let mut text = digits(thousandths / 1000);
-    if thousandths % 1000 > 0 {
-        // The one before them keeps their zeros.
-        add(&mut text, &[b".", &digits(1000 + thousandths % 1000)[1..]]);
-    }
-    text
+    let whole = digits(thousandths / 1000);
+    // The one before them keeps the zeros of the decimals.
+    let decimals = &digits(1000 + thousandths % 1000)[1..];
+    if decimals == b"000" { whole } else { fill("%.%", &[&whole, decimals]) }
 }
 
 #[cfg(test)]

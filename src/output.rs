@@ -92,11 +92,21 @@ mod system {
 /// Makes a directory where there is none yet and it can be made.
 pub use system::make_directory;
 
-/// Adds the parts of a text.
-pub fn add(text: &mut Vec<u8>, parts: &[&[u8]]) {
-    for part in parts {
-        text.extend_from_slice(part);
+/// The template with a word for each `%`, and for each `#` one that ends where it stands, over the spaces before it.
+pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
+    let (mut text, mut words) = (Vec::new(), words.iter());
+    for byte in template.bytes() {
+        if byte == b'%' || byte == b'#' {
+            let word = words.next().copied().unwrap_or_default();
+            if byte == b'#' {
+                text.truncate(text.len() - word.len());
+            }
+            text.extend_from_slice(word);
+        } else {
+            text.push(byte);
+        }
     }
+    text
 }
 
 /// Writes to stdout.
@@ -111,7 +121,7 @@ pub fn save(part: &[u8], name: &[u8], bytes: &[u8]) -> Result<(), Vec<u8>> {
 
 /// One line on stderr, whatever the message quotes. Where that fails there is no place left to say so.
 pub fn complain(why: &[u8]) {
-    let mut line = [b"paprsek: ", why].concat();
+    let mut line = fill("paprsek: %", &[why]);
     for byte in &mut line {
         if byte.is_ascii_control() {
             *byte = b'?';
@@ -122,5 +132,5 @@ pub fn complain(why: &[u8]) {
 }
 
 fn failed(place: &[u8], error: i32) -> Vec<u8> {
-    [b"cannot write ", place, b" (os error ", &digits(error as usize), b")"].concat()
+    fill("cannot write % (os error %)", &[place, &digits(error as usize)])
 }
