@@ -7,7 +7,6 @@ use crate::output::fill;
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
-use std::ffi::OsString;
 
 /// The text of `--help`, which is the table of options too. From its second line on each has an option and what its
 /// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
@@ -86,7 +85,7 @@ pub enum Mode {
         json: bool,
     },
     /// Writes PPM files into a directory, or a stream of them to stdout where it is `-`.
-    Capture(Vec<u8>),
+    Capture(&'static [u8]),
     /// Prints a text.
     Print(&'static str),
     /// Prints the scenes.
@@ -126,43 +125,46 @@ impl Args {
     }
 
     /// Reads the command line of this process; the error is one line without the program's name.
+    #[inline(never)]
     pub fn from_env() -> Result<Args, Vec<u8>> {
-        let mut words = std::env::args_os().map(OsString::into_encoded_bytes);
-        let (mut scene, mut values) = (None, [const { None }; OPTIONS]);
+        // They stay for the whole run.
+        let mut words = std::env::args_os().map(|word| &*word.into_encoded_bytes().leak());
+        let (mut scene, mut values) = (None, [None; OPTIONS]);
         // The first is the program's own name.
         words.next();
         while let Some(word) = words.next() {
             if !word.starts_with(b"-") {
                 if scene.is_some() {
-                    return Err(fill("one scene at a time: '%' is too many", &[&word]));
+                    return Err(fill("one scene at a time: '%' is too many", &[word]));
                 }
-                scene = Some(named(&word)?);
+                scene = Some(named(word)?);
                 continue;
             }
-            let (name, given) = cut(&word, b'=');
+            let (name, given) = cut(word, b'=');
             let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
             else {
                 return Err(fill("there is no option '%'; see --help", &[name]));
             };
             let value = match given {
                 None if what.is_some() => words.next().unwrap_or_default(),
-                _ => [given.unwrap_or_default()].concat(),
+                _ => given.unwrap_or_default(),
             };
             // Another option in its place is a forgotten value, not a strange one.
             let lacks = what.is_some() && (value.is_empty() || value.starts_with(b"--"));
             if lacks || what.is_none() && given.is_some() {
-                return Err(refuse(option, &value));
+                return Err(refuse(option, value));
             }
             values[option] = Some(value);
         }
         Args::read(scene, values)
     }
 
-    fn read(scene: Option<&'static Scene>, values: [Option<Vec<u8>>; OPTIONS]) -> Result<Args, Vec<u8>> {
-        let refused = |option| refuse(option, values[option].as_deref().unwrap_or_default());
+    #[inline(never)]
+    fn read(scene: Option<&'static Scene>, values: [Option<&'static [u8]>; OPTIONS]) -> Result<Args, Vec<u8>> {
+        let refused = |option| refuse(option, values[option].unwrap_or_default());
         let (numbers, threads, size, &(quality_name, quality)) = understood(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
-        let is = values.each_ref().map(Option::is_some);
+        let is = values.map(|value| value.is_some());
         let [at, since, to, _, apart, agree, _, _, _, capture, bench, json, two, list, help, version] = is;
         let [.., target, _, _, _, _, _, _] = values;
         let mode = match target {
@@ -211,22 +213,23 @@ impl Args {
 /// The values of the options that have one: decimal numbers, threads, size, quality. Those that were not given are the
 /// usual ones; the error is the option whose value will not do.
 #[allow(clippy::type_complexity)]
+#[inline(never)]
 fn understood(
-    values: &[Option<Vec<u8>>],
+    values: &[Option<&[u8]>],
 ) -> Result<([f64; RANGES.len()], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
     let mut numbers = [0.0; RANGES.len()];
     for (option, (least, most, usual)) in RANGES.iter().enumerate() {
-        numbers[option] = match &values[option] {
+        numbers[option] = match values[option] {
             Some(value) => decimal(value).filter(|number| number >= least && number <= most).ok_or(option)?,
             None => *usual,
         };
     }
     let within = |text: &[u8], most| whole(text).filter(|number| (1..=most).contains(number));
-    let threads = match &values[THREADS] {
+    let threads = match values[THREADS] {
         Some(value) => within(value, MAX_THREADS).ok_or(THREADS)?,
         None => 0,
     };
-    let size = match &values[SIZE] {
+    let size = match values[SIZE] {
         Some(value) => {
             let (width, height) = cut(value, b'x');
             let sides = within(width, MAX_SIDE).zip(within(height.unwrap_or_default(), MAX_SIDE));
@@ -234,7 +237,7 @@ fn understood(
         }
         None => (1280, 720),
     };
-    let name = values[QUALITY].as_deref().unwrap_or(b"default");
+    let name = values[QUALITY].unwrap_or(b"default");
     let quality = Quality::NAMED.iter().find(|named| named.0.as_bytes() == name).ok_or(QUALITY)?;
     Ok((numbers, threads, size, quality))
 }

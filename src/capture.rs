@@ -6,6 +6,7 @@ use crate::number::digits;
 use crate::output::{fill, make_directory, print, save};
 
 /// Writes the frames that `args` ask for into the directory `target`, or to stdout where it is `-`.
+#[inline(never)]
 pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
     let stream = target == b"-";
     // The directory and those above it. Most exist; what fails is said by the first file that cannot be written.

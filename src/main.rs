@@ -42,6 +42,7 @@ fn run(args: &Args) -> Result<(), Vec<u8>> {
 }
 
 /// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens anywhere.
+#[inline(never)]
 fn play(args: &Args) -> Result<(), Vec<u8>> {
     let why = match present::Screen::open(args.size) {
         Ok(screen) => return Ok(screen.play(args)?),
@@ -55,6 +56,7 @@ fn play(args: &Args) -> Result<(), Vec<u8>> {
     bench::run(args, false)
 }
 
+#[inline(never)]
 fn list() -> Result<(), Vec<u8>> {
     for scene in scenes::ALL {
         let name = scene.name.as_bytes();
