@@ -133,8 +133,6 @@ impl<S: Simd> Mul<Lane<S>> for V3<S> {
 #[derive(Clone, Copy)]
 pub struct Lane<S: Simd>(pub F<S>);
 
-}
-
 /// The lanes for which a mask holds, lowest first.
 pub struct Bits(pub u64);
 
