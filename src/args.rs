@@ -12,25 +12,23 @@ use paprsek::scenes::{self, Scene};
 /// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
 pub const HELP: &str = "\
 paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
-  --at SECONDS                one instant: in a window a still
+  --at SECONDS                one instant
   --from SECONDS              start there
   --to SECONDS                end there
   --fps N                     frames per second of a capture: above 0, up to 1000; default 30
-  --eye-distance METRES       between the eyes of --stereo: 0 to 100; default 0.065
-  --convergence METRES        to what both see at the same place: 0.01 to 10000; default 5
+  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
+  --convergence METRES        with --stereo: 0.01 to 10000; default 5
   --threads N                 1 to 1024; default: all cores
   --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720
-  --quality NAME              fast, default, exact or reference, as below
-  --capture DIR               no window: PPM files frame-000000.ppm ... in DIR, or with - one stream of PPMs to stdout
-  --bench                     no window: time every scene, or SCENE
-  --json                      the times as JSON lines instead of a table
+  --quality NAME              fast: every shortcut; default: anti-aliased too; exact: no shortcut; reference: 64 samples a pixel
+  --capture DIR               no window: PPM files frame-000000.ppm ... in DIR, or a stream of them to stdout for -
+  --bench                     no window: time SCENE, or every scene
+  --json                      with --bench: JSON lines
   --stereo                    two eyes side by side
   --list                      print the scenes
   --help                      print this
   --version                   print name and version
-qualities                     fast: every shortcut, one sample a pixel; default: what the intro plays, anti-aliased;
-                              exact: no shortcut, one sample at each pixel centre; reference: the same with 64 samples
-keys                          Esc ends, Space pauses, Left and Right seek 5 s
+keys: Esc ends, Space pauses, Left and Right seek 5 s
 ";
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
