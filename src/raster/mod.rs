@@ -48,9 +48,16 @@ pub struct Body {
 impl Body {
     /// A mesh of at most 8,192 faces where `place` takes it: turned, moved, scaled alike in all directions.
     pub fn new(mesh: Arc<Mesh>, place: Affine3A) -> Body {
-        let (center, radius) = mesh.bound();
+        let mut body = Body { mesh, place, bound: (Vec3::ZERO, 0.0) };
+        body.put(place);
+        body
+    }
+
+    /// Takes it to another place.
+    pub fn put(&mut self, place: Affine3A) {
+        let (center, radius) = self.mesh.bound();
         let scale = place.matrix3.x_axis.length();
-        Body { bound: (place.transform_point3(center), radius * scale), mesh, place }
+        (self.bound, self.place) = ((place.transform_point3(center), radius * scale), place);
     }
 }
 

@@ -3,12 +3,12 @@
 //! Five shots, each with its own set, its own light and one camera move: each a script.
 
 use super::script::{
-    ABS, ADD, AGAIN, COS, COUNT, MUL, PICK, REPEAT, SIN, Script, VARIABLES, Word, get, operations, script, set,
+    ABS, ADD, AGAIN, CHECKER, CLOUDS, COS, COUNT, CREASES, MARBLE, MUL, PICK, PLAIN, REPEAT, SIN, Script, VARIABLES, VEINS,
+    WOOD, Word, get, kind, operations, script, set, texture,
 };
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
-use crate::texture::{Palette, Pattern, Texture};
 use crate::tile::Picture;
 use crate::timeline::{self, ease};
 use crate::trace::shape::Shape;
@@ -35,7 +35,7 @@ operations! {
     AWAY = 42;
     /// Columns of a matrix: how the next texture is turned (world to texture).
     TURN = 43;
-    /// A texture: two colours, scale, how far noise bends it, and its kind.
+    /// A texture, as [`texture`] takes it.
     TEXTURE = 44;
     /// What the next bodies have beside the last texture: mirror, weight and a tenth of the exponent of the highlight, what Fresnel
     /// adds, and 1 where they keep light from others.
@@ -113,7 +113,7 @@ impl Set {
     fn build(&mut self, script: &mut Script, time: f64) {
         loop {
             let operation = script.next();
-            let n: &[f32; 14] = script.numbers[VARIABLES..].first_chunk().unwrap();
+            let n: &[f32; 17] = script.numbers[VARIABLES..].first_chunk().unwrap();
             let vector = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
             let at = self.at;
             let material = &mut self.object.material;
@@ -126,21 +126,7 @@ impl Set {
                 byte::AWAY => self.at = at.normalize() * (100.0 * n[0]),
                 byte::TURN => self.turn = Mat3::from_cols(vector(0), vector(3), vector(6)),
                 byte::TEXTURE => {
-                    let (a, b, warp, kind) = (vector(0), vector(3), n[7], n[8] as u8);
-                    let pattern = match kind {
-                        PLAIN => Pattern::Plain,
-                        CHECKER => Pattern::Checker,
-                        CLOUDS => Pattern::Clouds { octaves: 4 },
-                        CREASES => Pattern::Turbulence { octaves: 4 },
-                        WOOD => Pattern::Wood { warp, octaves: 2 },
-                        _ => Pattern::Marble { warp, scale: 0.5 * warp, octaves: 3 },
-                    };
-                    let palette = match kind {
-                        VEINS => Palette::Ramp([a, b, b * 0.75, b]),
-                        WOOD => Palette::Ramp([a, b, a * 0.4 + b * 0.6, a]),
-                        _ => Palette::Mix(a, b),
-                    };
-                    material.albedo = Texture { pattern, palette, turn: self.turn * n[6], origin: at };
+                    material.albedo = texture(n, &self.turn, at);
                     self.turn = Mat3::IDENTITY;
                 }
                 byte::SURFACE => {
@@ -182,18 +168,6 @@ impl Set {
     }
 }
 
-// Kinds of textures: one colour, the first; squares; soft noise; noise with creases.
-const PLAIN: u8 = 0;
-const CHECKER: u8 = 1;
-const CLOUDS: u8 = 2;
-const CREASES: u8 = 3;
-/// Layers along x, folded.
-const MARBLE: u8 = 4;
-/// Shades of the second colour, with veins of the first.
-const VEINS: u8 = 5;
-/// Rings around y. The last year's wood is as dark as the next one's.
-const WOOD: u8 = 6;
-
 /// Of glass.
 const CLEAR: Object = Object {
     shape: Shape::Sphere { center: Vec3::ZERO, radius: 0.0 },
@@ -221,31 +195,17 @@ const fn surface(mirror: Word, specular: Word, exponent: Word, fresnel: Word, sh
     [mirror, mirror, mirror, specular, exponent, fresnel, shadow, SURFACE]
 }
 
-/// What [`TEXTURE`] takes.
-const fn kind(kind: u8, [r, g, b]: [Word; 3], [x, y, z]: [Word; 3], scale: Word, warp: Word) -> [Word; 9] {
-    [r, g, b, x, y, z, scale, warp, kind as Word]
-}
-
 const fn plain(color: [Word; 3]) -> [Word; 9] {
     kind(PLAIN, color, color, 1.0, 0.0)
-}
-
-const fn clouds(dark: [Word; 3], light: [Word; 3], scale: Word) -> [Word; 9] {
-    kind(CLOUDS, dark, light, scale, 0.0)
 }
 
 const fn marble(dark: [Word; 3], light: [Word; 3], scale: Word) -> [Word; 9] {
     kind(MARBLE, dark, light, scale, 7.0)
 }
 
-/// `scale` rings a metre, bent by `warp` rings.
-const fn wood(dark: [Word; 3], light: [Word; 3], scale: Word, warp: Word) -> [Word; 9] {
-    kind(WOOD, dark, light, scale, warp)
-}
-
-const RED: [Word; 9] = clouds([0.15, 0.0, 0.0], [0.9, 0.2, 0.08], 4.0);
+const RED: [Word; 9] = kind(CLOUDS, [0.15, 0.0, 0.0], [0.9, 0.2, 0.08], 4.0, 4.0);
 const GREEN: [Word; 9] = kind(MARBLE, [0.01, 0.08, 0.07], [0.2, 0.55, 0.42], 7.0, 6.0);
-const WHITE: [Word; 9] = kind(CREASES, [0.9, 0.86, 0.78], [0.1, 0.15, 0.4], 3.0, 0.0);
+const WHITE: [Word; 9] = kind(CREASES, [0.9, 0.86, 0.78], [0.1, 0.15, 0.4], 3.0, 4.0);
 
 /// Variables 4 and 5 become the cosine and the sine of the angle on the stack.
 const ANGLE: [Word; 7] = [set(5), get(5), COS, set(4), get(5), SIN, set(5)];
@@ -308,7 +268,7 @@ const TABLE: &[u8] = script![
         10.0, -1.1, 1.25, 3.4, 0.1, 0.95, 0.0, 3.8, 0.0, CAMERA,
     ],
     [0.0, -1.1, 0.4, AT, 0.0, 0.2, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, TURN],
-    wood([0.1, 0.04, 0.015], [0.34, 0.17, 0.065], 2.5, 1.0), [TEXTURE], polished(0.05, 0.3, 4.0),
+    kind(WOOD, [0.1, 0.04, 0.015], [0.34, 0.17, 0.065], 2.5, 1.0), [TEXTURE], polished(0.05, 0.3, 4.0),
     [0.0, -0.2, -1.0, AT, 7.0, 0.2, 5.6, BLOCK, GLASS, -0.4, 1.0, 0.0, AT, 1.0, BALL],
     [7.0, REPEAT, 1.6, COUNT, MUL, -4.6, ADD, 0.0, -5.4, AT, 0.3, COUNT, MUL], ANGLE, YAW, VEINED, COLUMN_POLISH,
     [COUNT, 0.7, MUL, 0.5, TIME, MUL, ADD, SIN, 1.2, MUL, 2.1, ADD, 0.45, COLUMN, AGAIN],
@@ -361,10 +321,10 @@ const DANCE: &[u8] = script![
     ],
     [0.12, TIME, MUL], ANGLE, [0.0, 0.0, 0.0, AT],
     YAW, marble([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0), [TEXTURE], inlay(0.0, -0.44, 5.4),
-    YAW, wood([0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3), [TEXTURE], inlay(0.14, -0.42, 4.0),
+    YAW, kind(WOOD, [0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3), [TEXTURE], inlay(0.14, -0.42, 4.0),
     YAW, kind(CHECKER, [0.06, 0.06, 0.07], [0.46, 0.42, 0.35], 1.4, 0.0), [TEXTURE], inlay(0.14, -0.4, 2.6),
     [GLASS, 0.0, 1.1, TIME, MUL, SIN, 0.12, MUL, 1.5, ADD, 0.0, AT, 0.9, BALL],
-    [0.0, 0.0, 0.0, AT], clouds([0.1, 0.15, 0.25], [0.75, 0.85, 1.0], 0.25), [TEXTURE], LUMINOUS,
+    [0.0, 0.0, 0.0, AT], kind(CLOUDS, [0.1, 0.15, 0.25], [0.75, 0.85, 1.0], 0.25, 4.0), [TEXTURE], LUMINOUS,
     MOON, [0.9, AWAY, 6.0, BALL],
     // Three by three, in rings: which of its ring; radius, speed and size.
     [9.0, REPEAT, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, COUNT, 1.0, PICK, set(6)],
@@ -396,12 +356,12 @@ const SUNSET: &[u8] = script![
         5.0, -0.8, 1.3, 5.4, 0.8, 1.3, 0.0, 4.0, 0.0,
         11.0, 0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 4.0, 0.0, CAMERA,
     ],
-    clouds([0.0, 0.01, 0.03], [0.05, 0.1, 0.14], 0.4),
+    kind(CLOUDS, [0.0, 0.01, 0.03], [0.05, 0.1, 0.14], 0.4, 4.0),
     [TEXTURE, 0.05, 0.05, 0.05, 0.0, 0.1, 1.0, 0.0, SURFACE, 2.2, GLOBE],
     // The clouds have no light but the ambient: theirs is painted on. Towards the horizon they mirror the sky.
     [0.0, 0.0, 1.5, TIME, MUL, AT, 0.6, DAY, MUL, 0.18, DAY, MUL, 0.15, DAY, MUL],
     [11.0, DAY, MUL, 0.6, ADD, 4.545, DAY, MUL, 0.545, ADD, 0.8, DAY, MUL, 0.7, ADD],
-    [0.05, 0.0, CLOUDS as Word, TEXTURE, 0.0, 0.0, 0.0, 0.0, 0.1, 1.0, 0.0, SURFACE, -1.0, -25.0, PLANE],
+    [0.05, 4.0, CLOUDS as Word, TEXTURE, 0.0, 0.0, 0.0, 0.0, 0.1, 1.0, 0.0, SURFACE, -1.0, -25.0, PLANE],
     [GLASS, -0.5, 0.9, 0.0, AT, 1.0, BALL],
     LOW, [0.2, 0.8, DAY, MUL, ADD, set(5)],
     [get(5), 1.2, MUL, get(5), 0.54, MUL, get(5), 0.145, MUL, 0.0, SUN],

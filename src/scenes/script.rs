@@ -4,6 +4,9 @@
 //! numbers from there. Arithmetic is done here, all other operations by whoever asks for the [`Script::next`] one: they
 //! take the whole stack. Below it are [`VARIABLES`], which stay.
 
+use crate::texture::{Palette, Pattern, Texture};
+use glam::{Mat3, Vec3, vec3};
+
 /// A word: a number from -4 to 11.9 in tenths, which is one byte; from -25.6 to 25.595 in steps of 1/200, which is two;
 /// or an operation, which is [`word`] of its byte.
 pub type Word = f32;
@@ -217,4 +220,54 @@ impl Script {
             top = at + 1;
         }
     }
+}
+
+// Kinds of textures: one colour, the first; squares; soft noise; noise with creases.
+pub const PLAIN: u8 = 0;
+pub const CHECKER: u8 = 1;
+pub const CLOUDS: u8 = 2;
+pub const CREASES: u8 = 3;
+/// Layers along x, folded.
+pub const MARBLE: u8 = 4;
+/// Shades of the second colour, with veins of the first.
+pub const VEINS: u8 = 5;
+/// Rings around y. The last year's wood is as dark as the next one's.
+pub const WOOD: u8 = 6;
+/// Layers of four colours one above the other. Beside what others have: how wide the noise is, two colours, and where
+/// the middle of a layer is, hundreds of metres.
+pub const LAYERS: u8 = 7;
+
+/// The words of most textures: two colours; units a metre; how far noise bends it, or how many octaves it has; the kind.
+pub const fn kind(kind: u8, [r, g, b]: [Word; 3], [x, y, z]: [Word; 3], scale: Word, warp: Word) -> [Word; 9] {
+    [r, g, b, x, y, z, scale, warp, kind as Word]
+}
+
+/// The texture of such numbers, turned by `turn` (world to texture) around `at`.
+#[inline(never)]
+pub fn texture(n: &[f32; 17], turn: &Mat3, at: Vec3) -> Texture {
+    let color = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
+    let (a, b, warp, kind) = (color(0), color(3), n[7], n[8] as u8);
+    let octaves = warp as u32;
+    let pattern = match kind {
+        PLAIN => Pattern::Plain,
+        CHECKER => Pattern::Checker,
+        CLOUDS => Pattern::Clouds { octaves },
+        CREASES => Pattern::Turbulence { octaves },
+        WOOD => Pattern::Wood { warp, octaves: 2 },
+        LAYERS => Pattern::Marble { warp, scale: n[9], octaves: 5 },
+        _ => Pattern::Marble { warp, scale: 0.5 * warp, octaves: 3 },
+    };
+    let palette = match kind {
+        VEINS => Palette::Ramp([a, b, b * 0.75, b]),
+        WOOD => Palette::Ramp([a, b, a * 0.4 + b * 0.6, a]),
+        LAYERS => Palette::Ramp([a, b, color(10), color(13)]),
+        _ => Palette::Mix(a, b),
+    };
+    let mut texture = Texture { pattern, palette, turn: *turn * n[6], origin: at };
+    if kind == LAYERS {
+        // What is x there is y here.
+        (texture.turn.x_axis, texture.turn.y_axis) = (texture.turn.y_axis, texture.turn.x_axis);
+        texture.origin.y = 100.0 * n[16];
+    }
+    texture
 }

@@ -9,7 +9,6 @@ use super::script::{Script, VARIABLES, operations};
 use crate::hash::rnd;
 use crate::raster::form::Body;
 use crate::raster::mesh::{Mesh, Paint};
-use crate::texture::{Palette, Pattern, Texture};
 use glam::{Mat3, Vec3, vec3};
 
 /// What the paints of the land and all that stands on it are named by, their place in [`PAINTS`].
@@ -47,39 +46,10 @@ pub static PAINTS: [Paint; 14] = [
 ];
 
 /// Grass in summer.
-pub const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
-
-/// The textures that they name: grass, heights, bark, needles, masonry, tiles, leaves. All but the second vary about 1.
-pub static TEXTURES: [Texture; 7] = [
-    clouds(vec3(-0.5, 0.0, 0.2), vec3(2.5, 2.0, 1.8), 0.09, 6),
-    // The sine rises from -50 m to 1250 m.
-    layers(
-        Palette::Ramp([MEADOW, vec3(0.045, 0.075, 0.025), vec3(0.2, 0.185, 0.17), vec3(0.8, 0.83, 0.88)]),
-        0.0024,
-        2.5,
-        0.7,
-        600.0,
-    ),
-    clouds(vec3(0.3, 0.3, 0.3), vec3(1.7, 1.7, 1.7), 3.0, 3),
-    clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
-    clouds(vec3(0.2, 0.2, 0.25), vec3(1.8, 1.8, 1.75), 0.9, 4),
-    layers(Palette::Mix(vec3(0.6, 0.6, 0.6), vec3(1.4, 1.4, 1.4)), 14.0, 5.0, 6.0, 0.0),
-    clouds(vec3(-0.8, -0.5, -0.2), vec3(2.8, 2.5, 2.2), 1.2, 4),
-];
+const MEADOW: Vec3 = vec3(0.115, 0.165, 0.035);
 
 const fn solid(albedo: Vec3, texture: u8) -> Paint {
     Paint { albedo, texture: Some(texture), gloss: 0.0 }
-}
-
-const fn clouds(dark: Vec3, light: Vec3, scale: f32, octaves: u32) -> Texture {
-    Texture::new(Pattern::Clouds { octaves }, Palette::Mix(dark, light), scale)
-}
-
-/// Layers one above the other, `steep` radians a metre, bent by `warp` radians, in the middle of one at `middle` metres.
-const fn layers(palette: Palette, steep: f32, warp: f32, scale: f32, middle: f32) -> Texture {
-    let turn = Mat3::from_cols(vec3(0.0, steep, 0.0), vec3(steep, 0.0, 0.0), vec3(0.0, 0.0, steep));
-    let pattern = Pattern::Marble { warp, scale, octaves: 5 };
-    Texture { pattern, palette, turn, origin: vec3(0.0, middle, 0.0) }
 }
 
 operations! {

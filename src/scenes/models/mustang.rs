@@ -3,8 +3,8 @@
 use super::{BODY, END, TURN, build};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::{Mesh, Paint};
-use crate::scenes::script::{MUL, Script, script};
-use glam::{Mat3, Vec3, vec3};
+use crate::scenes::script::{AGAIN, COS, COUNT, MUL, REPEAT, SIN, Script, get, script, set};
+use glam::{Vec3, vec3};
 
 /// Bare metal, olive drab, the canopy, yellow, white, black.
 pub static PAINTS: [Paint; 6] = [
@@ -179,7 +179,7 @@ const STICK: Body = Body {
     taper: 0.0,
 };
 
-static BODIES: [Body; 7] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK];
+static BODIES: [Body; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
 
 /// Decimetres.
 #[rustfmt::skip]
@@ -211,17 +211,18 @@ pub fn airframe() -> Mesh {
     mesh
 }
 
-/// Where the propeller turns, around z.
-pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
+/// Decimetres. Blades with a pitch of 35 degrees.
+#[rustfmt::skip]
+const BLADES: &[u8] = script![
+    [4.0, REPEAT, COUNT, 1.57, MUL, set(5), get(5), COS, set(4), get(5), SIN, set(5)],
+    [get(4), 0.57, MUL, get(5), -0.57, MUL, -0.82, get(5), 2.0, MUL, get(4), 2.0, MUL, 0.0],
+    [get(4), 0.82, MUL, get(5), -0.82, MUL, 0.57, TURN],
+    [0.0, 0.0, -3.15, 10.0, MUL, 1.0, 1.0, 1.0, 7.0, BODY, AGAIN, END],
+];
 
-/// Four blades around the origin, flat.
+/// Four blades around the z axis, where they turn, flat.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
-        let out = vec3(x, y, 0.0);
-        // A pitch of 35 degrees.
-        let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
-        mesh.body(&BLADE, &Mat3::from_cols(out.cross(wide) * 50.0, out, wide), Vec3::ZERO, 0);
-    }
+    build(&mut mesh, &mut Script::new(BLADES, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
     mesh
 }
