@@ -79,7 +79,7 @@ pub struct World {
     pub bodies: Vec<Body>,
     /// The textures that paints name: at most 15.
     pub textures: Vec<Texture>,
-    /// The lights: up to 32 reach one place.
+    /// The lights.
     pub lights: Vec<Light>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
@@ -88,8 +88,9 @@ pub struct World {
     /// The sky straight above, for gloss.
     pub zenith: Vec3,
     /// Is light squeezed by `1 - exp(-light)`, as on film? Haze and zenith are taken to be so already.
+    /// Always, in a build without the bench scenes.
     pub film: bool,
-    /// What is behind all, if the raster is to fill it.
+    /// What is behind all, if the raster is to fill it; never, in a build without the bench scenes.
     pub background: Option<Vec3>,
 }
 
@@ -240,7 +241,9 @@ impl Layer for Drawn {
                         key.casters.push(body.clone());
                     }
                 }
-                match shadow::recall(&key) {
+                // What is traced has no map, though another frame may have kept one of the same views.
+                let kept = if traced { Err(DepthMap::default()) } else { shadow::recall(&key) };
+                match kept {
                     Ok(map) => sight.map = Some(map),
                     Err(map) => {
                         for view in views {

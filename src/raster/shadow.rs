@@ -41,7 +41,8 @@ pub struct Plan {
     pub back_faces: bool,
     /// Are shadows traced, without a map? The views then only sort triangles, and the bias is a part of what it says.
     pub traced: bool,
-    /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike.
+    /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike,
+    /// which a build without the bench scenes leaves out.
     pub smooth: bool,
 }
 
