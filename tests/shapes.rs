@@ -38,7 +38,8 @@ struct Case {
 fn wide<S: Simd>(simd: S, case: &Case, roughly: bool) -> Option<(f32, f32)> {
     let (o, d) = (V3::splat(simd, case.o), V3::splat(simd, case.d));
     let (t0, t1, hit) = case.shape.span(simd, o, d, if roughly { Ball::Rough } else { Ball::Exact });
-    (hit.to_bitmask() & 1 != 0).then_some((t0[0], t1[0]))
+    let found = hit.to_bitmask() & 1 != 0 && t0[0] <= t1[0];
+    found.then_some((t0[0], t1[0]))
 }
 
 #[inline(always)]

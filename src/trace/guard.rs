@@ -62,7 +62,7 @@ impl Guard {
                 }
                 if body.casts_shadow {
                     for light in &world.lights {
-                        guard.shadow(world, all, view, index, position(light, eye), center, radius);
+                        guard.shadow(world, all, view, index, light, center, radius);
                     }
                 }
             }
@@ -76,7 +76,7 @@ impl Guard {
         self.finest[(y / BLOCK) * self.columns + x / BLOCK] as usize
     }
 
-    /// Cuts the squares under the shadow of a ball that is part of the body `caster`, for a light at `source`.
+    /// Cuts the squares under the shadow of a ball that is part of the body `caster`.
     #[allow(clippy::too_many_arguments)]
     fn shadow(
         &mut self,
@@ -84,11 +84,16 @@ impl Guard {
         all: &[u32],
         view: &View,
         caster: usize,
-        source: Vec3,
+        light: &Light,
         center: Vec3,
         radius: f32,
     ) {
-        let aim = (center - source).normalize_or(Vec3::NEG_Y);
+        let source = position(light, view.camera().eye);
+        let toward = |point: Vec3| match light.source {
+            Source::Point(_) => (point - source).normalize_or(Vec3::NEG_Y),
+            Source::Directional(direction) => -direction,
+        };
+        let aim = toward(center);
         // The middle of the shadow; and, where that is small, its rim, which may fall on something else.
         let (u, v) = aim.any_orthonormal_pair();
         let mut small = true;
@@ -97,7 +102,7 @@ impl Guard {
                 break;
             }
             let through = center + offset * radius;
-            let direction = (through - source).normalize_or(aim);
+            let direction = toward(through);
             let landing = dispatch!(lanes::best(), simd => landing(simd, world, all, caster, through, direction));
             let Some((point, normal)) = landing else { continue };
             let grown = point.distance(source) / through.distance(source).max(1e-6);
