@@ -1,6 +1,6 @@
 //! Bytes to stdout, stderr and files.
 //!
-//! Locks, buffers and names of errors, which the standard library brings for them, take 1 kB packed: so these are calls of
+//! Locks, buffers and names of errors, which the standard library brings for them, take 1 kB packed; so these are calls of
 //! the system, and an error is its number.
 
 use crate::number::digits;

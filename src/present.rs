@@ -45,7 +45,7 @@ pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
         let run = || {
             let (renderer, back) = (Renderer::new(threads)?, canvas::frame(size)?);
             render(renderer, back, desk, &here, |renderer, time, frame| {
-                renderer.render_eyes(&scene, time, &quality, stereo, frame);
+                renderer.render_eyes(scene, time, &quality, stereo, frame);
             });
             Ok(())
         };

@@ -39,7 +39,8 @@ pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
                 to = 2.0 * s - from;
             }
             // Hermite's cubic, written so that equal keys give their value exactly.
-            *value += h * (s * (x * x * (1.0 + 2.0 * y)) + (monotone(from, s0, s) * y - monotone(to, s, s1) * x) * (x * y));
+            *value +=
+                h * (s * (x * x * (1.0 + 2.0 * y)) + (monotone(from, s0, s) * y - monotone(to, s, s1) * x) * (x * y));
         }
     }
     line

@@ -125,7 +125,9 @@ impl Setup {
         let mut outside = 0;
         for (k, distance) in distances.into_iter().enumerate() {
             // What is not a number is inside of none.
-            outside |= u32::from(!(distance >= 0.0)) << k;
+            #[allow(clippy::neg_cmp_op_on_partial_ord)]
+            let beyond = !(distance >= 0.0);
+            outside |= u32::from(beyond) << k;
         }
         let inverse = 1.0 / h.w;
         let [x, y] = [h.x, h.y].map(|x| (x * inverse * SUB as f32).round() as i32);

@@ -3,8 +3,8 @@
 //! Five shots, each with its own set, its own light and one camera move: each a script.
 
 use super::script::{
-    ABS, ADD, AGAIN, CHECKER, CLOUDS, COS, COUNT, CREASES, MARBLE, MUL, PICK, PLAIN, REPEAT, SIN, Script, VARIABLES, VEINS,
-    WOOD, Word, get, kind, operations, script, set, texture,
+    ABS, ADD, AGAIN, CHECKER, CLOUDS, COS, COUNT, CREASES, MARBLE, MUL, PICK, PLAIN, REPEAT, SIN, Script, VARIABLES,
+    VEINS, WOOD, Word, get, kind, operations, script, set, texture,
 };
 use super::{Scene, Shot};
 use crate::camera::Camera;

@@ -1,9 +1,9 @@
 //! A chapel on the hill, half a ruin: an open arcade, rafters without tiles, a bell tower, broken walls.
 
 use super::{BODY, END, GROUND, PAINTS, ROTATE, build, paint};
-use crate::scenes::script::{ADD, AGAIN, COUNT, MUL, REPEAT, Script, Word, script, set};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::Mesh;
+use crate::scenes::script::{ADD, AGAIN, COUNT, MUL, REPEAT, Script, Word, script, set};
 use glam::Vec3;
 
 /// Where its middle is and its half size, metres, or for other bodies than the first the scale; which of [`BODIES`].

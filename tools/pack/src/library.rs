@@ -59,7 +59,7 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
         let (from, to) = (original.join(&place), copy.join(&place));
         match CUTS.iter().find(|(path, _)| Path::new(path).starts_with(&place)) {
             Some((path, cuts)) if Path::new(path) == place => {
-                let text = cuts.iter().fold(fs::read_to_string(&from)?, |text, cut| without(text, cut));
+                let text = cuts.iter().fold(fs::read_to_string(&from)?, without);
                 // Written anew, a file that is the same would have cargo build all that needs it once more.
                 if fs::read(&to).ok().as_deref() != Some(text.as_bytes()) {
                     fs::write(&to, text)?;
