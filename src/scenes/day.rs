@@ -43,7 +43,7 @@ operations! {
     CAMERA = 40;
     /// Days from 2026-06-25 on, in twenties.
     DATE = 41;
-    /// The land's next texture, as [`texture`] takes it.
+    /// The land's next texture, as `texture` takes it.
     TEXTURE = 42;
     /// The last word.
     END = 43;

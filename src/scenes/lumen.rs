@@ -27,7 +27,7 @@ pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, COLUMNS),
 
 operations! {
     /// The camera's keys, nine numbers each: seconds since the shot's start; eye, target, vertical field of view in
-    /// tens of degrees, and what [`NUMBER`] shall be.
+    /// tens of degrees, and what `NUMBER` shall be.
     CAMERA = 40;
     /// A place: the next texture's origin, the middle of the next body.
     AT = 41;
@@ -35,7 +35,7 @@ operations! {
     AWAY = 42;
     /// Columns of a matrix: how the next texture is turned (world to texture).
     TURN = 43;
-    /// A texture, as [`texture`] takes it.
+    /// A texture, as `texture` takes it.
     TEXTURE = 44;
     /// What the next bodies have beside the last texture: mirror, weight and a tenth of the exponent of the highlight, what Fresnel
     /// adds, and 1 where they keep light from others.
