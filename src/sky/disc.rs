@@ -23,6 +23,8 @@ pub struct Disc {
     reach: f32,
     /// Its light.
     color: Vec3,
+    /// What is seen of that on it: all of the moon, and of the sun so much that the eye can tell its colour.
+    seen: f32,
     /// The glare at its rim over its light; 0 for the moon.
     glare: f32,
     /// Where its light comes from, along right, up and towards the eye; the sun's own is not used.
@@ -52,6 +54,7 @@ impl Dome {
             radius,
             reach: 0.35 / radius,
             color,
+            seen: (3.0 / color.max_element()).min(1.0),
             glare: 0.12 * into * into * into * into,
             lamp: Vec3::ZERO,
             unlit: 0.0,
@@ -67,7 +70,7 @@ impl Dome {
         let color = self.through(sky.moon) * (1.4 * light / (1.0 + light));
         let lamp = vec3(sky.moon_to_sun.dot(axes[1]), sky.moon_to_sun.dot(axes[2]), -sky.moon_to_sun.dot(axes[0]));
         let radius = sky.moon_radius * scale;
-        Disc { axes, radius, reach: 1.1, color, glare: 0.0, lamp, unlit: 0.03 * (1.0 - sky.lit) }
+        Disc { axes, radius, reach: 1.1, color, seen: 1.0, glare: 0.0, lamp, unlit: 0.03 * (1.0 - sky.lit) }
     }
 }
 
@@ -115,7 +118,8 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
             let (a, b, c): (F<S>, F<S>, F<S>) = (load(simd, &x, i), load(simd, &y, i), load(simd, &z, i));
             let squared = a * a + b * b;
             let distance = squared.sqrt().max(1e-6);
-            let mut light = ((one - distance) * (disc.radius / view.pixel()) + 0.5).max(zero).min(one);
+            let covers = ((one - distance) * (disc.radius / view.pixel()) + 0.5).max(zero).min(one);
+            let mut light = covers * disc.seen;
             if shaded {
                 let sun = (a * disc.lamp.x + b * disc.lamp.y + c * disc.lamp.z).max(zero);
                 // Lommel and Seeliger's law: dust does not darken towards the rim.
@@ -140,8 +144,10 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
                 light += end * end * (rays / (squared + 1.0) + end * 0.05) * disc.glare;
             }
             // The shoulder of the dome, of both lights together.
-            let shown = exp3(simd, V3::splat(simd, disc.color) * Lane(light), -1.0);
-            put(simd, V3::splat(simd, Vec3::ONE) - shown, true, row, i, tile);
+            let shown = V3::splat(simd, Vec3::ONE) - exp3(simd, V3::splat(simd, disc.color) * Lane(light), -1.0);
+            // The dome's light is shown too bright beside the sun to leave the low disc its colour.
+            let hides = if shaded { zero } else { covers * shown.x * 0.6 };
+            put(simd, shown, Some(hides), row, i, tile);
             i += 1;
         }
     }

@@ -31,7 +31,7 @@ pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, tile: &mut Ti
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
             let (a, b) = (V3::load(simd, a, i), V3::load(simd, b, i));
-            put(simd, a + (b - a) * Lane(F::<S>::splat(simd, share)), false, y as usize, i, tile);
+            put(simd, a + (b - a) * Lane(F::<S>::splat(simd, share)), None, y as usize, i, tile);
             i += 1;
         }
     }
@@ -73,16 +73,21 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, left: f32, top: f
     }
 }
 
-/// Adds light to what solids have left of vector `i` of a row; `soft` is less where there is light already.
+/// Adds light to what solids have left of vector `i` of a row. With the share of the sky that it hides it is drawn on the
+/// sky, and less where there is light already.
 #[simd]
-pub fn put<S: Simd>(simd: S, light: V3<S>, soft: bool, row: usize, i: usize, tile: &mut Tile) {
+pub fn put<S: Simd>(simd: S, light: V3<S>, hides: Option<F<S>>, row: usize, i: usize, tile: &mut Tile) {
     let one = F::<S>::splat(simd, 1.0);
     let left = one - load::<S, F<S>>(simd, &tile.coverage.as_chunks::<BLOCK>().0[row], i);
     let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
     for (plane, light) in planes.into_iter().zip([light.x, light.y, light.z]) {
         let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
-        let there: F<S> = load(simd, plane, i);
-        let room = if soft { (one - there).max(0.0) } else { one };
-        store(there + light * room * left, plane, i);
+        let mut there: F<S> = load(simd, plane, i);
+        let mut room = left;
+        if let Some(hides) = hides {
+            there *= one - hides * left;
+            room *= (one - there).max(0.0);
+        }
+        store(there + light * room, plane, i);
     }
 }

@@ -369,6 +369,24 @@ fn the_moon_is_lit_where_the_sun_is() {
 }
 
 #[test]
+fn the_sun_reddens_towards_the_horizon() {
+    let mut last = 1.0;
+    for altitude in [60.0, 20.0, 10.0, 6.0, 3.0, 1.0] {
+        let sky = sky(altitude);
+        let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
+        let mut tile = Tile::at(0, 0, 64, 64);
+        let dome = Dome::new(sky, DomeQuality::new(&Quality::FAST));
+        Backdrop::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
+        let middle = 32 * Tile::SIZE + 32;
+        let (red, blue) = (tile.red[middle], tile.blue[middle]);
+        assert!(red > 0.9 && red <= 1.0, "{altitude}: {red}");
+        assert!(blue / red < last, "{altitude}: {blue} after {last}");
+        last = blue / red;
+    }
+    assert!(last < 0.2, "{last}");
+}
+
+#[test]
 fn the_light_is_handed_over_without_a_jump() {
     // The night after a full moon in June, minute by minute.
     let (mut last, mut turns) = (None::<(Vec3, Vec3)>, 0);
