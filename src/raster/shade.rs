@@ -35,12 +35,12 @@ const FARTHEST: f32 = 1e-18;
 /// Fragments that wait: parts of pixels that show one triangle each, all of one texture.
 #[derive(Clone)]
 pub struct Queue {
-    /// How many.
+    /// How many; a block is shaded, the second has room for the rest of a vector.
     pub count: usize,
     /// The pixel's index in its tile; from bit 12 on where in the pixel it is looked at along x, steps of 1/256, from bit
     /// 20 on along y; from bit 28 on the number of its samples, less one.
-    place: [u32; BLOCK],
-    id: [Id; BLOCK],
+    place: [[u32; BLOCK]; 2],
+    id: [[Id; BLOCK]; 2],
     // What they show: here, and not on the stack, it need not be cleared.
     point: Block3,
     normal: Block3,
@@ -58,8 +58,8 @@ impl Queue {
     /// No fragments.
     pub const EMPTY: Queue = Queue {
         count: 0,
-        place: [0; BLOCK],
-        id: [0; BLOCK],
+        place: [[0; BLOCK]; 2],
+        id: [[0; BLOCK]; 2],
         point: [[0.0; BLOCK]; 3],
         normal: [[0.0; BLOCK]; 3],
         albedo: [[0.0; BLOCK]; 3],
@@ -92,7 +92,8 @@ pub fn collect<S: Simd>(
         sum = [sum[0] + place[0], sum[1] + place[1]];
     }
     // Where all samples show the same.
-    let whole = S::u32s::from_slice(simd, &STEPS[..lanes]) + fragment(planes.len() as i32, sum);
+    let whole = fragment(planes.len() as i32, sum);
+    let wholes = S::u32s::from_slice(simd, &STEPS[..lanes]) + whole;
     let mut fragments = 0;
     for row in 0..tile.height {
         let mut column = 0;
@@ -111,26 +112,31 @@ pub fn collect<S: Simd>(
             let end = queue.count..queue.count + lanes;
             let left = tile.width - column;
             column += lanes;
-            if lanes <= left && end.end <= BLOCK && alike.all_true() {
-                (whole + at as u32).store_slice(&mut queue.place[end.clone()]);
-                ids.store_slice(&mut queue.id[end.clone()]);
+            if lanes <= left && alike.all_true() {
+                (wholes + at as u32).store_slice(&mut queue.place.as_flattened_mut()[end.clone()]);
+                ids.store_slice(&mut queue.id.as_flattened_mut()[end.clone()]);
                 queue.count = end.end;
                 fragments += lanes as u64;
-                if queue.count == BLOCK {
+                if queue.count >= BLOCK {
                     flush(simd, context, texture as usize, queue, tile);
                 }
                 continue;
             }
             let in_use = (1 << lanes.min(left)) - 1;
             for lane in Bits(!(same & empty).to_bitmask() & in_use) {
-                fragments += several(simd, context, planes, at + lane, queues, tile);
+                if same.to_bitmask() >> lane & 1 == 0 {
+                    fragments += several(simd, context, planes, at + lane, queues, tile);
+                } else {
+                    push(simd, context, whole + (at + lane) as u32, planes[0].0.id[at + lane], queues, tile);
+                    fragments += 1;
+                }
             }
         }
     }
     fragments
 }
 
-/// Adds the triangles that a pixel's samples show, each where its samples are on the mean.
+/// Adds the triangles that a pixel's samples show where they are several, each where its samples are on the mean.
 #[inline(never)]
 fn several<S: Simd>(
     simd: S,
@@ -152,18 +158,24 @@ fn several<S: Simd>(
                 (samples, sum) = (samples + 1, [sum[0] + place[0], sum[1] + place[1]]);
             }
         }
-        let texture = (id >> TEXTURE) as usize;
-        let queue = &mut queues[texture];
-        let at = queue.count & (BLOCK - 1);
-        queue.place[at] = fragment(samples, sum) + pixel as u32;
-        queue.id[at] = id;
-        queue.count = at + 1;
-        if queue.count == BLOCK {
-            flush(simd, context, texture, queue, tile);
-        }
+        push(simd, context, fragment(samples, sum) + pixel as u32, id, queues, tile);
         fragments += 1;
     }
     fragments
+}
+
+/// Adds a fragment.
+#[inline(always)]
+fn push<S: Simd>(simd: S, context: &Context, place: u32, id: Id, queues: &mut [Queue], tile: &mut Tile) {
+    let texture = (id >> TEXTURE) as usize;
+    let queue = &mut queues[texture];
+    let at = queue.count & (BLOCK - 1);
+    queue.place[0][at] = place;
+    queue.id[0][at] = id;
+    queue.count = at + 1;
+    if queue.count == BLOCK {
+        flush(simd, context, texture, queue, tile);
+    }
 }
 
 /// How fast the mirrored sky goes from the horizon's colour to the zenith's: half of it in 1 / this of the sine.
@@ -179,11 +191,12 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
 #[simd]
 pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
     let Context { world, sights, rasters, .. } = *context;
-    let count = std::mem::take(&mut queue.count);
+    let count = queue.count.min(BLOCK);
+    queue.count -= count;
     // What stands behind the last is left over from others.
-    let (place, id) = (queue.place[0], queue.id[0]);
-    queue.place[count..].fill(place);
-    queue.id[count..].fill(id);
+    let (place, id) = (queue.place[0][0], queue.id[0][0]);
+    queue.place[0][count..].fill(place);
+    queue.id[0][count..].fill(id);
     find(simd, context, [tile.x, tile.y], queue);
     let lanes = F::<S>::LEN;
     if let Some(texture) = world.textures.get(texture) {
@@ -212,10 +225,10 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
     // To the pixels, as many at a time as follow each other.
     let mut i = 0;
     while i < count {
-        let first = queue.place[i] as usize & (Tile::AREA - 1);
+        let first = queue.place[0][i] as usize & (Tile::AREA - 1);
         let mut run = 1;
         if i + lanes <= count {
-            let pixels = U::<S>::from_slice(simd, &queue.place[i..i + lanes]) & (Tile::AREA as u32 - 1);
+            let pixels = U::<S>::from_slice(simd, &queue.place[0][i..i + lanes]) & (Tile::AREA as u32 - 1);
             let row = U::<S>::from_slice(simd, &STEPS[..lanes]) + first as u32;
             if pixels.simd_eq(row).all_true() {
                 run = lanes;
@@ -237,6 +250,8 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
         }
         i += run;
     }
+    queue.place[0] = queue.place[1];
+    queue.id[0] = queue.id[1];
 }
 
 /// Finds the surfaces of a queue's fragments, in the tile with that corner.
@@ -250,8 +265,8 @@ fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Que
     let lanes = F::<S>::LEN;
     let mut i = 0;
     while i < BLOCK / lanes {
-        let ids: U<S> = load(simd, &queue.id, i);
-        let places: U<S> = load(simd, &queue.place, i);
+        let ids: U<S> = load(simd, &queue.id[0], i);
+        let places: U<S> = load(simd, &queue.place[0], i);
         let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + corner[0] as u32 as f32;
         let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + corner[1] as u32 as f32;
         let mut n = V3::splat(simd, Vec3::ZERO);
@@ -259,7 +274,7 @@ fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Que
         let (mut near, mut gloss) = (one, one);
         let mut todo = ids.simd_eq(ids).to_bitmask();
         while todo != 0 {
-            let id = queue.id[(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
+            let id = queue.id[0][(i * lanes + todo.trailing_zeros() as usize) & (BLOCK - 1)];
             let here = ids.simd_eq(U::<S>::splat(simd, id));
             todo &= !here.to_bitmask();
             let (piece, number) = parts(id);
@@ -338,7 +353,7 @@ fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
         let before = haze.at(simd, way).0;
-        let samples = (load::<S, U<S>>(simd, &queue.place, i) >> 28) + 1;
+        let samples = (load::<S, U<S>>(simd, &queue.place[0], i) >> 28) + 1;
         let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
         store3((before + (color - before) * Lane(clear)) * Lane(weight), &mut queue.light, i);
         store(weight, &mut queue.weight, i);

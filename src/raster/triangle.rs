@@ -47,6 +47,9 @@ pub struct Piece {
     pub triangles: Vec<Triangle>,
 }
 
+/// The first of the planes that must be clipped at.
+const CLIP: usize = 4;
+
 /// A corner of a triangle.
 #[derive(Clone, Copy)]
 struct Corner {
@@ -54,8 +57,9 @@ struct Corner {
     h: Vec4,
     /// Normal in the world, of any length.
     normal: Vec3A,
-    /// From the planes that must be clipped at, signed, in homogeneous pixels: near, and the guard band's sides.
-    distances: [f32; 5],
+    /// From the picture's sides, and from [`CLIP`] on from the planes that must be clipped at, signed, in homogeneous
+    /// pixels: near, and the guard band's sides.
+    distances: [f32; 9],
     /// A bit for each of those that it does not lie inside of.
     outside: u32,
     /// On the raster, in steps of [`SUB`].
@@ -96,7 +100,7 @@ impl Setup {
             }
             polygon.clear();
             polygon.extend_from_slice(&index);
-            if a | b | c != 0 {
+            if (a | b | c) >> CLIP != 0 {
                 self.clip(&mut polygon, &mut corners);
             }
             for i in 2..polygon.len() {
@@ -119,9 +123,9 @@ impl Setup {
 
     /// To the raster.
     fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
-        let [x, y] = [0, 1].map(|axis| h[axis] - 0.5 * self.projection.size[axis] as f32 * h.w);
-        let guard = GUARD * h.w;
-        let distances = [h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
+        let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
+        let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
+        let distances = [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
         let mut outside = 0;
         for (k, distance) in distances.into_iter().enumerate() {
             // What is not a number is inside of none.
@@ -137,7 +141,7 @@ impl Setup {
     /// The part of a triangle before the near plane and within the guard band, with new corners after the others:
     /// Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
     fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
-        for plane in 0..5 {
+        for plane in CLIP..9 {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
                 let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
@@ -159,8 +163,8 @@ impl Setup {
         }
         // What is not a number, or has lost all its digits beside another, is where nothing can be.
         let sound = |&i: &usize| {
-            let Corner { h, distances: [near, sides @ ..], .. } = corners[i];
-            near >= -0.5 * NEAR && sides.into_iter().all(|side| side >= -SLACK * h.w)
+            let Corner { h, distances: [.., near, a, b, c, d], .. } = corners[i];
+            near >= -0.5 * NEAR && [a, b, c, d].into_iter().all(|side| side >= -SLACK * h.w)
         };
         if !polygon.iter().all(sound) {
             polygon.clear();
