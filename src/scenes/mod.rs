@@ -2,6 +2,10 @@
 
 #[cfg(feature = "day")]
 pub mod day;
+#[cfg(feature = "bench-scenes")]
+pub mod cumulus;
+#[cfg(feature = "bench-scenes")]
+pub mod cumulus_set;
 pub mod intro;
 pub mod lumen;
 #[cfg(feature = "day")]
@@ -101,6 +105,12 @@ pub const ALL: &[Scene] = &[
     shadow::SHADOW_CUBE,
     #[cfg(feature = "bench-scenes")]
     sky::SKY,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::CUMULUS,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::CUMULUS_INSIDE,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::SKY_OF_CLOUDS,
 ];
 
 /// The intro's own show: what plays when no scene is named.
