@@ -146,7 +146,8 @@ fn see<S: Simd>(
 ) {
     let (haze, range) = clouds.haze;
     let eye = clouds.view.camera().eye;
-    let steps = clouds.quality.steps as f32;
+    let most = clouds.quality.steps as f32;
+    let detail: f32 = std::env::var("DETAIL").map_or(1e9, |s| s.parse().unwrap());
     let one = F::<S>::splat(simd, 1.0);
     let mut i = 0;
     while i * F::<S>::LEN < count {
@@ -156,8 +157,11 @@ fn see<S: Simd>(
         let mut light = V3::splat(simd, glam::Vec3::ZERO);
         let mut transmittance = one;
         for cloud in near {
+            let distance = cloud.centre.distance(eye);
+            let across = 2.0 * cloud.size / (distance * clouds.view.pixel());
+            let steps = most.min((across * detail).max(8.0).ceil());
             let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, steps);
-            let fades = (-cloud.centre.distance(eye) / range).exp();
+            let fades = (-distance / range).exp();
             let veil = V3::splat(simd, haze * (1.0 - fades)) * Lane(one - passes);
             light = light + (veil + color * Lane(F::<S>::splat(simd, fades))) * Lane(transmittance);
             transmittance *= passes;

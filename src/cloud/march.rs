@@ -62,6 +62,9 @@ pub fn march<S: Simd>(
     let (mut light, mut height, mut lit, mut transmittance) = (zero, zero, zero, one);
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
+    if missed.all_true() {
+        return (V3 { x: zero, y: zero, z: zero }, one);
+    }
     let mut step = missed.select(F::<S>::splat(simd, steps), zero);
     let most = (cloud.voxels.edge() - 1) as u32 as f32;
     let half = cloud.voxels.edge() as u32 as f32 * 0.5;

@@ -4,6 +4,8 @@
 
 mod cells;
 pub mod march;
+pub mod shape;
+pub mod sunlight;
 pub mod voxels;
 
 use crate::tile::{Layer, Stats, Tile};
