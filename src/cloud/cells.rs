@@ -1,12 +1,13 @@
 //! Clouds in a tile: rays at the corners of cells of pixels, interpolated between where that is as good.
 
-use super::Clouds;
-use super::march::{Cloud, OPAQUE, march};
+use super::march::{OPAQUE, march};
+use super::{Clouds, Seen};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+use glam::Vec3;
 
 /// Points of a tile along an edge, with the first ones of the next tile.
 const SIDE: usize = Tile::SIZE + 1;
@@ -35,13 +36,17 @@ impl Lattice {
 
 /// Draws clouds into a tile: adds their light and what they hide to what is covered.
 #[simd]
-pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Cloud], tile: &mut Tile) {
+pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) {
     let mut lattice =
         Lattice { values: vec![[0.0; 4]; SIDE * SIDE], known: vec![false; SIDE * SIDE], wanted: Vec::new() };
     let mut size = clouds.quality.cell;
     let mut cells = Vec::new();
     for y in (0..tile.height).step_by(size) {
         for x in (0..tile.width).step_by(size) {
+            let full = |row: usize| tile.coverage[row * Tile::SIZE + x..][..size].iter().all(|covered| *covered >= 1.0);
+            if (y..y + size).all(full) {
+                continue;
+            }
             cells.push((x, y));
             for (dx, dy) in [(0, 0), (size, 0), (0, size), (size, size)] {
                 if size > 1 || dx + dy == 0 {
@@ -78,6 +83,7 @@ pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Cloud], tile: &mut Tile)
         cast(simd, clouds, near, tile, &mut lattice);
         (cells, size) = (parts, half);
     }
+    cover(simd, clouds, near, tile);
     for y in 0..tile.height {
         for x in 0..tile.width {
             let at = y * Tile::SIZE + x;
@@ -87,6 +93,37 @@ pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Cloud], tile: &mut Tile)
             tile.green[at] += g * left;
             tile.blue[at] += b * left;
             tile.coverage[at] += left * (1.0 - transmittance);
+        }
+    }
+}
+
+/// Draws what of the clouds is before solids: a ray for each pixel that has one.
+#[simd]
+fn cover<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) {
+    let mut points = Vec::new();
+    for y in 0..tile.height {
+        for x in 0..tile.width {
+            let at = x + y * Tile::SIZE;
+            if tile.coverage[at] > 0.0 {
+                points.push(at as u16);
+            }
+        }
+    }
+    for points in points.chunks(BLOCK) {
+        let [mut x, mut y, mut depth] = [[0.0; BLOCK]; 3];
+        let mut sum = [[0.0; BLOCK]; 4];
+        for (i, point) in points.iter().enumerate() {
+            let at = *point as usize;
+            x[i] = (tile.x + at % Tile::SIZE) as u32 as f32 + 0.5;
+            y[i] = (tile.y + at / Tile::SIZE) as u32 as f32 + 0.5;
+            depth[i] = 1.0 / tile.closeness[at];
+        }
+        see(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
+        for (i, point) in points.iter().enumerate() {
+            let at = *point as usize;
+            for (plane, light) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().zip(&sum) {
+                plane[at] = plane[at] * sum[3][i] + light[i] * tile.coverage[at];
+            }
         }
     }
 }
@@ -112,7 +149,7 @@ fn interpolate(lattice: &mut Lattice, corners: [[f32; 4]; 4], x: usize, y: usize
 
 /// Casts the rays of the points that are wanted.
 #[simd]
-fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Cloud], tile: &Tile, lattice: &mut Lattice) {
+fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice: &mut Lattice) {
     let grid = clouds.quality.grid as u32;
     let step = 1.0 / grid as f32;
     let limit = [f32::INFINITY; BLOCK];
@@ -139,31 +176,25 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Cloud], tile: &Tile, lattice
 fn see<S: Simd>(
     simd: S,
     clouds: &Clouds,
-    near: &[&Cloud],
-    [x, y, limit]: [&[f32; BLOCK]; 3],
+    near: &[&Seen],
+    [x, y, depth]: [&[f32; BLOCK]; 3],
     count: usize,
     sum: &mut [[f32; BLOCK]; 4],
 ) {
-    let (haze, range) = clouds.haze;
     let eye = clouds.view.camera().eye;
-    let most = clouds.quality.steps as f32;
-    let detail: f32 = std::env::var("DETAIL").map_or(1e9, |s| s.parse().unwrap());
     let one = F::<S>::splat(simd, 1.0);
     let mut i = 0;
     while i * F::<S>::LEN < count {
         let ray = clouds.view.rays(simd, load(simd, x, i), load(simd, y, i));
-        let d = ray * Lane(one / ray.dot(ray).sqrt());
-        let limit: F<S> = load(simd, limit, i);
-        let mut light = V3::splat(simd, glam::Vec3::ZERO);
+        let length = ray.dot(ray).sqrt();
+        let d = ray * Lane(one / length);
+        let limit = load::<S, F<S>>(simd, depth, i) * length;
+        let mut light = V3::splat(simd, Vec3::ZERO);
         let mut transmittance = one;
-        for cloud in near {
-            let distance = cloud.centre.distance(eye);
-            let across = 2.0 * cloud.size / (distance * clouds.view.pixel());
-            let steps = most.min((across * detail).max(8.0).ceil());
-            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, steps);
-            let fades = (-distance / range).exp();
-            let veil = V3::splat(simd, haze * (1.0 - fades)) * Lane(one - passes);
-            light = light + (veil + color * Lane(F::<S>::splat(simd, fades))) * Lane(transmittance);
+        for Seen { cloud, steps, fades, veil, .. } in near {
+            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, *steps);
+            let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
+            light = light + color * Lane(transmittance);
             transmittance *= passes;
             if transmittance.simd_lt(OPAQUE).all_true() {
                 break;

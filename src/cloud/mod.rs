@@ -3,11 +3,14 @@
 //! A cloud is drawn after solids and before the sky: what it hides counts as covered, so the sky fills what is left.
 
 mod cells;
+pub mod field;
 pub mod march;
 pub mod shape;
 pub mod sunlight;
 pub mod voxels;
 
+use crate::camera::Camera;
+use crate::quality::Quality;
 use crate::tile::{Layer, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch};
@@ -19,6 +22,8 @@ use march::{Cloud, Look};
 pub struct CloudQuality {
     /// Steps through a cube.
     pub steps: u32,
+    /// The same by a cube's edge on the screen: steps a pixel, where that is less.
+    pub detail: f32,
     /// Edge of the coarsest cell of pixels whose corners are cast, a power of two up to 16; 1 casts a ray for every pixel.
     pub cell: usize,
     /// A cell is interpolated where its middle is off by at most this, linear light.
@@ -27,42 +32,86 @@ pub struct CloudQuality {
     pub grid: usize,
 }
 
+impl CloudQuality {
+    /// As the renderer's quality says.
+    pub fn new(quality: &Quality) -> CloudQuality {
+        let detail = if quality.cell > 1 { 0.25 } else { f32::INFINITY };
+        CloudQuality { steps: 100, detail, cell: quality.cell, threshold: quality.threshold, grid: quality.grid }
+    }
+}
+
 /// Clouds before a camera, as a layer of a picture.
 pub struct Clouds {
     /// Nearest first.
-    clouds: Vec<Cloud>,
+    clouds: Vec<Seen>,
     look: Look,
     view: View,
-    /// What the air between adds, and the distance at which 1/e of a cloud is left.
-    haze: (Vec3, f32),
     quality: CloudQuality,
 }
 
+/// A cloud as it is seen from where the eye is.
+struct Seen {
+    cloud: Cloud,
+    distance: f32,
+    /// Steps through the cube.
+    steps: f32,
+    /// The share of its light that comes through the air, and the light that air adds to what is hidden.
+    fades: f32,
+    veil: Vec3,
+}
+
 impl Clouds {
-    /// The layer for clouds in any order.
-    pub fn new(mut clouds: Vec<Cloud>, look: Look, haze: (Vec3, f32), view: View, quality: CloudQuality) -> Clouds {
-        let eye = view.camera().eye;
-        clouds.sort_by(|a, b| a.centre.distance_squared(eye).total_cmp(&b.centre.distance_squared(eye)));
-        Clouds { clouds, look, view, haze, quality }
+    /// The layer for clouds in any order. The air between has the light `haze` of a direction, and leaves 1/e of a
+    /// cloud's own at `range` metres.
+    pub fn new(
+        clouds: Vec<Cloud>,
+        look: Look,
+        haze: impl Fn(Vec3) -> Vec3,
+        range: f32,
+        view: View,
+        quality: CloudQuality,
+    ) -> Clouds {
+        let Camera { eye, forward, .. } = *view.camera();
+        let mut seen: Vec<Seen> = Vec::new();
+        for cloud in clouds {
+            let way = cloud.centre - eye;
+            if way.dot(forward) < -ROOT * cloud.size {
+                continue;
+            }
+            let distance = way.length();
+            let fades = (-distance / range).exp();
+            let veil = haze(way / distance.max(1e-3)) * (1.0 - fades);
+            let pixels = 2.0 * cloud.size / (distance * view.pixel());
+            let steps = (quality.steps as f32).min((pixels * quality.detail).max(8.0).ceil());
+            let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
+            seen.insert(at, Seen { cloud, distance, steps, fades, veil });
+        }
+        Clouds { clouds: seen, look, view, quality }
     }
 
     /// The clouds that rays through a tile may meet, nearest first.
-    fn near(&self, tile: &Tile) -> Vec<&Cloud> {
+    fn near(&self, tile: &Tile) -> Vec<&Seen> {
         let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
-        let size = Tile::SIZE as f32;
-        let axis = self.view.ray(x + 0.5 * size, y + 0.5 * size).normalize();
-        let corners = [(0.0, 0.0), (size, 0.0), (0.0, size), (size, size)];
-        let cos = corners.iter().fold(1.0, |cos: f32, (dx, dy)| cos.min(self.view.ray(x + dx, y + dy).normalize().dot(axis)));
+        let ray = |dx: f32, dy: f32| self.view.ray(x + dx * Tile::SIZE as f32, y + dy * Tile::SIZE as f32).normalize();
+        let axis = ray(0.5, 0.5);
+        let mut cos = 1.0f32;
+        for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            cos = cos.min(ray(dx, dy).dot(axis));
+        }
         let sin = (1.0 - cos * cos).sqrt();
-        let meets = |cloud: &&Cloud| {
-            let way = cloud.centre - self.view.camera().eye;
+        // A ball around the cube against a cone around the tile.
+        let meets = |seen: &&Seen| {
+            let way = seen.cloud.centre - self.view.camera().eye;
             let along = way.dot(axis);
             let across = (way.length_squared() - along * along).max(0.0).sqrt();
-            across * cos - along * sin <= 1.7320508 * cloud.size
+            across * cos - along * sin <= ROOT * seen.cloud.size
         };
         self.clouds.iter().filter(meets).collect()
     }
 }
+
+/// From a cube's middle to its corner, halves of its edge.
+const ROOT: f32 = 1.732_051;
 
 impl Layer for Clouds {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {

@@ -41,12 +41,11 @@ fn picture(shot: &Shot, variant: usize) -> Picture {
     };
     let q = &shot.quality;
     let quality = CloudQuality {
-        steps: std::env::var("STEPS").map_or(100, |s| s.parse().unwrap()),
-        cell: q.cell,
         threshold: std::env::var("THR").map_or(q.threshold, |s| s.parse().unwrap()),
-        grid: q.grid,
+        detail: std::env::var("DETAIL").map_or(0.25, |s| s.parse().unwrap()),
+        ..CloudQuality::new(q)
     };
-    let clouds = Clouds::new(set::clouds(variant), look, (HAZE, 1400.0), view, quality);
+    let clouds = Clouds::new(set::clouds(variant), look, |_| HAZE, 1400.0, view, quality);
     let cells = Cells { size: if q.cell > 1 { 8 } else { 1 }, grid: q.grid };
     Picture { layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })], transfer: Transfer::Linear }
 }

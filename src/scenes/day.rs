@@ -28,7 +28,7 @@ pub const DAY: Scene =
 pub const LENGTH: f64 = 60.0;
 
 /// A day of the year.
-struct Season {
+pub(super) struct Season {
     /// Days from J2000 to midnight, Central European Time: 2026-06-25, 2026-09-19, 2026-12-22, 2027-03-10.
     midnight: f64,
     /// Albedo of the meadows, and what that of leaves is multiplied by.
@@ -38,7 +38,7 @@ struct Season {
     snow: f32,
 }
 
-const SEASONS: [Season; 4] = [
+pub(super) const SEASONS: [Season; 4] = [
     Season { midnight: 9671.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
     Season { midnight: 9757.5 - HOUR, grass: vec3(0.16, 0.14, 0.045), leaves: vec3(2.2, 0.8, 0.3), snow: 0.0 },
     Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.6, 0.35, 0.7), snow: 1.0 },
@@ -68,7 +68,7 @@ const CAMERA: &[Key<7>] = &[
 ];
 
 /// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
-fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
+pub(super) fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
     static BODIES: OnceLock<(Vec<Body>, [Arc<Mesh>; 2])> = OnceLock::new();
     BODIES.get_or_init(|| {
         let mut meshes = land::ground();
@@ -81,7 +81,7 @@ fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
 }
 
 /// The textures of a season.
-fn textures(season: &Season) -> Vec<Texture> {
+pub(super) fn textures(season: &Season) -> Vec<Texture> {
     let mut textures = models::TEXTURES.to_vec();
     for (index, scale) in [(0, season.grass / MEADOW), (6, season.leaves)] {
         if let Palette::Mix(a, b) = &mut textures[index].palette {

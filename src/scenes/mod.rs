@@ -1,6 +1,8 @@
 //! One file a scene; only scenes know more than one renderer.
 
 #[cfg(feature = "day")]
+pub mod clouds;
+#[cfg(feature = "day")]
 pub mod day;
 #[cfg(feature = "bench-scenes")]
 pub mod cumulus;
@@ -93,6 +95,8 @@ pub const ALL: &[Scene] = &[
     lumen::LUMEN,
     #[cfg(feature = "day")]
     day::DAY,
+    #[cfg(feature = "day")]
+    clouds::CLOUDS,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]
