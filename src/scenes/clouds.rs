@@ -61,8 +61,7 @@ fn picture(shot: &Shot) -> Picture {
     let bend = (way(time + 1.5) - way(time + 1.0)).normalize() - ahead;
     let side = ahead.cross(Vec3::Y).normalize();
     let bank = (bend.dot(side) * 6.0).clamp(-0.9, 0.9);
-    let turn = Mat3::from_cols(-side, ahead.cross(-side), ahead);
-    let turn = turn * Mat3::from_rotation_z(bank);
+    let turn = Mat3::from_cols(side, side.cross(ahead), -ahead) * Mat3::from_rotation_z(-bank);
     let orbit = 0.35 * (0.17 * time).sin() + 0.5;
     let eye = place - ahead * (16.0 * orbit.cos()) + side * (16.0 * orbit.sin()) + Vec3::Y * (3.5 + 2.0 * (0.23 * time).sin());
     let camera = Camera::look_at(eye, place + ahead * 9.0, 50f32.to_radians(), -0.25 * bank);
@@ -95,7 +94,7 @@ fn picture(shot: &Shot) -> Picture {
     let look = Look {
         ambient: [now.ground * 0.5 + now.sky * 0.35, now.sky * 0.9],
         towards: now.direction,
-        sun: now.color * 1.25,
+        sun: now.color * 0.8,
         phase: [0.8, 0.9],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());

@@ -1,11 +1,11 @@
 //! The voxels and clouds that volume renderers are compared by, after the specification.
 
 use crate::cloud::march::Cloud;
+use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
 use crate::hash::rnd;
-use crate::noise::{fbm, noise};
+use fearless_simd::{Level, dispatch};
 use glam::{DVec3, Vec3, dvec3, vec3};
-use std::array::from_fn;
 use std::sync::{Arc, OnceLock};
 
 /// Points along an edge.
@@ -19,28 +19,14 @@ pub fn sun() -> Vec3 {
 /// Shape `k` of four, made when it is first asked for.
 pub fn shape(k: usize) -> Arc<Voxels> {
     static SHAPES: [OnceLock<Arc<Voxels>>; 4] = [const { OnceLock::new() }; 4];
-    SHAPES[k]
-        .get_or_init(|| {
-            let t = std::time::Instant::now();
-            let mut v = fearless_simd::dispatch!(fearless_simd::Level::new(), simd => crate::cloud::shape::Kind::grow(simd, &crate::cloud::shape::Kind::CUMULUS, k as u32, 64));
-            eprintln!("grow {:?}", t.elapsed());
-            let t = std::time::Instant::now();
-            let truth = voxels(k as u32);
-            eprintln!("truth {:?}", t.elapsed());
-            let worst = v.density.iter().zip(&truth.density).map(|(a, b)| a.abs_diff(*b)).max();
-            let differ = v.density.iter().zip(&truth.density).filter(|(a, b)| a != b).count();
-            eprintln!("density worst {worst:?} differ {differ}");
-            let t = std::time::Instant::now();
-            fearless_simd::dispatch!(fearless_simd::Level::new(), simd => crate::cloud::sunlight::bake(simd, &mut v, sun(), 30.0));
-            eprintln!("bake {:?}", t.elapsed());
-            let t = std::time::Instant::now();
-            v.pack();
-            eprintln!("pack {:?}", t.elapsed());
-            let e: f64 = v.light.iter().zip(&truth.light).map(|(a, b)| (*a as f64 - *b as f64).powi(2)).sum();
-            eprintln!("light rms {}", (e / v.light.len() as f64).sqrt());
-            Arc::new(if std::env::var("OURS").is_ok() { v } else { truth })
-        })
-        .clone()
+    let grow = || {
+        let level = Level::new();
+        let mut voxels = dispatch!(level, simd => Kind::grow(simd, &Kind::CUMULUS, k as u32, EDGE));
+        voxels.light = bake(&voxels.density);
+        voxels.pack();
+        Arc::new(voxels)
+    };
+    SHAPES[k].get_or_init(grow).clone()
 }
 
 /// Eye and view direction of `cumulus`, `cumulus-inside` and `sky-of-clouds` at `t` seconds.
@@ -75,37 +61,6 @@ pub fn clouds(variant: usize) -> Vec<Cloud> {
         Cloud { voxels: shape(i as usize % 4), centre, size, extinction: 30.0 }
     };
     (0..100).map(cloud).collect()
-}
-
-fn voxels(k: u32) -> Voxels {
-    let o = 17.3 * (k + 1) as f32;
-    let puffs: [(Vec3, f32); 9] = from_fn(|i| {
-        let r = |j: u32| rnd(1, 800 + 16 * k + i as u32, j);
-        let angle = std::f32::consts::TAU * (i as f32 / 8.0 + 0.1 * r(0));
-        let (way, y, radius) = match i {
-            8 => (0.0, -0.04, 0.50 + 0.12 * r(3)),
-            _ => (0.30 + 0.16 * r(1), -0.34 + 0.22 * r(2), 0.22 + 0.13 * r(3)),
-        };
-        (vec3(way * angle.cos(), y, way * angle.sin()), radius)
-    });
-    let density = |at: usize| {
-        let place = [at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)];
-        if place.iter().any(|i| [0, EDGE - 1].contains(i)) {
-            return 0;
-        }
-        let p = Vec3::from(place.map(|i| (i as f32 + 0.5) / 32.0 - 1.0));
-        let warp = |a: f32| 0.22 * fbm(p * 1.6 + vec3(o + a, a, -a), 2);
-        let q = p + vec3(warp(0.0), warp(31.7), warp(63.1));
-        let mut distance = puffs.iter().map(|(c, r)| q.distance(*c) - r).fold(9.0, f32::min);
-        let billow = |m: i32| 0.5f32.powi(m + 1) * noise(q * (3.0 * 2.03f32.powi(m)) + vec3(o, 0.0, 0.0)).abs();
-        distance -= 0.42 * ((0..4).map(billow).sum::<f32>() - 0.16);
-        let base = ((p.y + 0.46 + 0.10 * fbm(vec3(3.0 * p.x + o, 0.0, 3.0 * p.z), 4)) / 0.10).clamp(0.0, 1.0);
-        (255.0 * (-distance / 0.12).clamp(0.0, 1.0) * base).round() as u8
-    };
-    let mut voxels = Voxels::new(EDGE, (0..EDGE * EDGE * EDGE).map(density).collect());
-    voxels.light = bake(&voxels.density);
-    voxels.pack();
-    voxels
 }
 
 /// The sun's light at each voxel: 60 samples towards it, one voxel apart.
