@@ -12,160 +12,147 @@ use glam::Vec3;
 /// Points of a tile along an edge, with the first ones of the next tile.
 const SIDE: usize = Tile::SIZE + 1;
 
-/// Light and transmittance of points of a tile.
+/// Points of a tile.
 struct Lattice {
+    /// Premultiplied light and transmittance.
     values: Vec<[f32; 4]>,
+    /// Has a point been cast, or is it to be?
     known: Vec<bool>,
+    /// Edge of the cell that begins at a point.
+    sizes: Vec<usize>,
     /// Points to be cast.
-    wanted: Vec<u16>,
+    wanted: Vec<usize>,
 }
 
 impl Lattice {
-    fn want(&mut self, x: usize, y: usize) {
-        let at = x + y * SIDE;
+    fn want(&mut self, at: usize) {
         if !self.known[at] {
             self.known[at] = true;
-            self.wanted.push(at as u16);
+            self.wanted.push(at);
         }
-    }
-
-    fn at(&self, x: usize, y: usize) -> [f32; 4] {
-        self.values[x + y * SIDE]
     }
 }
 
-/// Draws clouds into a tile: adds their light and what they hide to what is covered.
+/// Draws clouds into a tile: adds their light, and what they hide to what is covered.
 #[simd]
 pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) {
-    let mut lattice =
-        Lattice { values: vec![[0.0; 4]; SIDE * SIDE], known: vec![false; SIDE * SIDE], wanted: Vec::new() };
+    const POINTS: usize = SIDE * SIDE;
     let mut size = clouds.quality.cell;
-    let mut cells = Vec::new();
-    for y in (0..tile.height).step_by(size) {
-        for x in (0..tile.width).step_by(size) {
-            let full = |row: usize| tile.coverage[row * Tile::SIZE + x..][..size].iter().all(|covered| *covered >= 1.0);
-            if (y..y + size).all(full) {
-                continue;
-            }
-            cells.push((x, y));
-            for (dx, dy) in [(0, 0), (size, 0), (0, size), (size, size)] {
-                if size > 1 || dx + dy == 0 {
-                    lattice.want(x + dx, y + dy);
+    let mut lattice = Lattice {
+        values: vec![[0.0; 4]; POINTS],
+        known: vec![false; POINTS],
+        sizes: vec![size; POINTS],
+        wanted: Vec::new(),
+    };
+    loop {
+        // First their corners, then their middles, then what the middles tell.
+        for pass in 0..3 {
+            for y in (0..tile.height).step_by(size) {
+                for x in (0..tile.width).step_by(size) {
+                    let at = x + y * SIDE;
+                    let corners = [at, at + size, at + size * SIDE, at + size * SIDE + size];
+                    let middle = at + (size / 2) * (SIDE + 1);
+                    if lattice.sizes[at] != size {
+                        continue;
+                    }
+                    match pass {
+                        0 if size == 1 => lattice.want(at),
+                        0 => {
+                            for corner in corners {
+                                lattice.want(corner);
+                            }
+                        }
+                        1 => lattice.want(middle),
+                        _ => {
+                            let [a, b, c, d] = corners.map(|corner| lattice.values[corner]);
+                            let mut error = 0.0f32;
+                            for k in 0..4 {
+                                error = error.max((lattice.values[middle][k] - (a[k] + b[k] + c[k] + d[k]) * 0.25).abs());
+                            }
+                            if error > clouds.quality.threshold {
+                                for part in [at, at + size / 2, middle - size / 2, middle] {
+                                    lattice.sizes[part] = size / 2;
+                                }
+                            } else {
+                                interpolate(&mut lattice, at, size, [a, b, c, d]);
+                            }
+                        }
+                    }
                 }
             }
-        }
-    }
-    cast(simd, clouds, near, tile, &mut lattice);
-    while size > 1 {
-        let half = size / 2;
-        for &(x, y) in &cells {
-            lattice.want(x + half, y + half);
-        }
-        cast(simd, clouds, near, tile, &mut lattice);
-        let mut parts = Vec::new();
-        for &(x, y) in &cells {
-            let corners = [(0, 0), (size, 0), (0, size), (size, size)].map(|(dx, dy)| lattice.at(x + dx, y + dy));
-            let middle = lattice.at(x + half, y + half);
-            let mut error = 0.0f32;
-            for k in 0..4 {
-                let mean = (corners[0][k] + corners[1][k] + corners[2][k] + corners[3][k]) * 0.25;
-                error = error.max((middle[k] - mean).abs());
-            }
-            if error > clouds.quality.threshold {
-                for (dx, dy) in [(half, 0), (0, half), (size, half), (half, size)] {
-                    lattice.want(x + dx, y + dy);
-                }
-                parts.extend([(x, y), (x + half, y), (x, y + half), (x + half, y + half)]);
-            } else {
-                interpolate(&mut lattice, corners, x, y, size);
+            cast(simd, clouds, near, tile, &mut lattice, false);
+            if size == 1 {
+                finish(simd, clouds, near, tile, &mut lattice);
+                return;
             }
         }
-        cast(simd, clouds, near, tile, &mut lattice);
-        (cells, size) = (parts, half);
-    }
-    cover(simd, clouds, near, tile);
-    for y in 0..tile.height {
-        for x in 0..tile.width {
-            let at = y * Tile::SIZE + x;
-            let [r, g, b, transmittance] = lattice.at(x, y);
-            let left = 1.0 - tile.coverage[at];
-            tile.red[at] += r * left;
-            tile.green[at] += g * left;
-            tile.blue[at] += b * left;
-            tile.coverage[at] += left * (1.0 - transmittance);
-        }
-    }
-}
-
-/// Draws what of the clouds is before solids: a ray for each pixel that has one.
-#[simd]
-fn cover<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) {
-    let mut points = Vec::new();
-    for y in 0..tile.height {
-        for x in 0..tile.width {
-            let at = x + y * Tile::SIZE;
-            if tile.coverage[at] > 0.0 {
-                points.push(at as u16);
-            }
-        }
-    }
-    for points in points.chunks(BLOCK) {
-        let [mut x, mut y, mut depth] = [[0.0; BLOCK]; 3];
-        let mut sum = [[0.0; BLOCK]; 4];
-        for (i, point) in points.iter().enumerate() {
-            let at = *point as usize;
-            x[i] = (tile.x + at % Tile::SIZE) as u32 as f32 + 0.5;
-            y[i] = (tile.y + at / Tile::SIZE) as u32 as f32 + 0.5;
-            depth[i] = 1.0 / tile.closeness[at];
-        }
-        see(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
-        for (i, point) in points.iter().enumerate() {
-            let at = *point as usize;
-            for (plane, light) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().zip(&sum) {
-                plane[at] = plane[at] * sum[3][i] + light[i] * tile.coverage[at];
-            }
-        }
+        size /= 2;
     }
 }
 
 /// Fills a cell's points between its corners.
-fn interpolate(lattice: &mut Lattice, corners: [[f32; 4]; 4], x: usize, y: usize, size: usize) {
+fn interpolate(lattice: &mut Lattice, at: usize, size: usize, [a, b, c, d]: [[f32; 4]; 4]) {
     let share = 1.0 / size as u32 as f32;
-    for dy in 0..size {
-        let v = dy as u32 as f32 * share;
-        for dx in 0..size {
-            let at = x + dx + (y + dy) * SIDE;
-            if !lattice.known[at] {
-                let u = dx as u32 as f32 * share;
-                for k in 0..4 {
-                    let a = corners[0][k] + (corners[1][k] - corners[0][k]) * u;
-                    let b = corners[2][k] + (corners[3][k] - corners[2][k]) * u;
-                    lattice.values[at][k] = a + (b - a) * v;
-                }
-            }
+    for part in 0..size * size {
+        let (x, y) = (part % size, part / size);
+        let (u, v) = (x as u32 as f32 * share, y as u32 as f32 * share);
+        for k in 0..4 {
+            let (above, below) = (a[k] + (b[k] - a[k]) * u, c[k] + (d[k] - c[k]) * u);
+            lattice.values[at + x + y * SIDE][k] = above + (below - above) * v;
         }
     }
 }
 
-/// Casts the rays of the points that are wanted.
+/// From the lattice to the tile; before solids a ray is cast for each pixel.
 #[simd]
-fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice: &mut Lattice) {
+fn finish<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile, lattice: &mut Lattice) {
+    let free = lattice.values.clone();
+    for y in 0..tile.height {
+        for x in 0..tile.width {
+            lattice.values[x + y * SIDE] = [0.0, 0.0, 0.0, 1.0];
+            if tile.coverage[x + y * Tile::SIZE] > 0.0 {
+                lattice.wanted.push(x + y * SIDE);
+            }
+        }
+    }
+    cast(simd, clouds, near, tile, lattice, true);
+    for y in 0..tile.height {
+        for x in 0..tile.width {
+            let (at, point) = (x + y * Tile::SIZE, x + y * SIDE);
+            let covered = tile.coverage[at];
+            let (before, free) = (lattice.values[point], free[point]);
+            for (k, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
+                plane[at] = plane[at] * before[3] + before[k] * covered + free[k] * (1.0 - covered);
+            }
+            tile.coverage[at] = covered + (1.0 - covered) * (1.0 - free[3]);
+        }
+    }
+}
+
+/// Casts the rays of the points that are wanted, as far as the solids there or on and on.
+#[simd]
+fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice: &mut Lattice, solids: bool) {
     let grid = clouds.quality.grid as u32;
     let step = 1.0 / grid as f32;
-    let limit = [f32::INFINITY; BLOCK];
     for points in lattice.wanted.chunks(BLOCK) {
         let mut sum = [[0.0; BLOCK]; 4];
         for part in 0..grid * grid {
             let [mut x, mut y] = [[0.0; BLOCK]; 2];
-            for ((x, y), point) in x.iter_mut().zip(&mut y).zip(points) {
-                let point = *point as usize;
-                *x = (tile.x + point % SIDE) as u32 as f32 + ((part % grid) as f32 + 0.5) * step;
-                *y = (tile.y + point / SIDE) as u32 as f32 + ((part / grid) as f32 + 0.5) * step;
+            let mut depth = [f32::INFINITY; BLOCK];
+            for (i, point) in points.iter().enumerate() {
+                let (column, row) = (point % SIDE, point / SIDE);
+                x[i] = (tile.x + column) as u32 as f32 + ((part % grid) as f32 + 0.5) * step;
+                y[i] = (tile.y + row) as u32 as f32 + ((part / grid) as f32 + 0.5) * step;
+                if solids {
+                    depth[i] = 1.0 / tile.closeness[column + row * Tile::SIZE];
+                }
             }
-            see(simd, clouds, near, [&x, &y, &limit], points.len(), &mut sum);
+            see(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
         }
         for (i, point) in points.iter().enumerate() {
-            lattice.values[*point as usize] = [0, 1, 2, 3].map(|k| sum[k][i] * step * step);
+            for k in 0..4 {
+                lattice.values[*point][k] = sum[k][i] * (step * step);
+            }
         }
     }
     lattice.wanted.clear();

@@ -4,7 +4,7 @@ use super::voxels::Voxels;
 use crate::block::{BLOCK, load, store};
 use crate::hash::rnd;
 use crate::lanes::F;
-use crate::noise::{fbm_block, noise_block};
+use crate::noise::fbm_block;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
@@ -71,10 +71,10 @@ impl Kind {
             }
             let mut warped = [x, y, z];
             for (warped, a) in warped.iter_mut().zip([0.0, 31.7, 63.1]) {
-                let mut warp = [0.0; BLOCK];
-                let p = [along(simd, &x, 1.6, o + a), along(simd, &y, 1.6, a), along(simd, &z, 1.6, -a)];
-                fbm_block(simd, &p[0], &p[1], &p[2], 2, &mut warp);
-                add(simd, &warp, 0.22, warped);
+                let warp = sample(simd, [&x, &y, &z], Vec3::splat(1.6), vec3(o + a, a, -a), 2);
+                for i in 0..BLOCK {
+                    warped[i] += warp[i] * 0.22;
+                }
             }
             let mut distance = [0.0; BLOCK];
             let mut some = false;
@@ -92,19 +92,17 @@ impl Kind {
             if !some {
                 continue;
             }
-            let (mut frequency, mut amplitude) = (3.0, -0.21);
+            let (mut frequency, mut amplitude) = (3.0, -0.42);
+            let [u, v, w] = &warped;
             for _ in 0..4 {
-                let mut billow = [0.0; BLOCK];
-                let [p, q, r] = [0, 1, 2].map(|axis| along(simd, &warped[axis], frequency, if axis == 0 { o } else { 0.0 }));
-                noise_block(simd, &p, &q, &r, 1.0, &mut billow);
+                // One octave is half of a noise.
+                let billow = sample(simd, [u, v, w], Vec3::splat(frequency), vec3(o, 0.0, 0.0), 1);
                 for i in 0..BLOCK {
                     distance[i] += billow[i].abs() * amplitude;
                 }
                 (frequency, amplitude) = (frequency * 2.03, amplitude * 0.5);
             }
-            let mut base = [0.0; BLOCK];
-            let (p, r) = (along(simd, &x, 3.0, o), along(simd, &z, 3.0, 0.0));
-            fbm_block(simd, &p, &[0.0; BLOCK], &r, 4, &mut base);
+            let base = sample(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
             for (i, density) in density.iter_mut().enumerate() {
                 let base = (y[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
                 *density = ((distance[i] * (-1.0 / 0.12)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
@@ -114,19 +112,16 @@ impl Kind {
     }
 }
 
-/// A block times `scale`, and `offset`.
-#[inline(always)]
-fn along<S: Simd>(simd: S, x: &[f32; BLOCK], scale: f32, offset: f32) -> [f32; BLOCK] {
-    let mut out = [offset; BLOCK];
-    add(simd, x, scale, &mut out);
-    out
-}
-
-/// Adds a block times `scale`.
-#[inline(always)]
-fn add<S: Simd>(simd: S, x: &[f32; BLOCK], scale: f32, out: &mut [f32; BLOCK]) {
-    for i in 0..BLOCK / F::<S>::LEN {
-        let sum = load::<S, F<S>>(simd, out, i) + load::<S, F<S>>(simd, x, i) * scale;
-        store(sum, out, i);
+/// [`fbm`](crate::noise::fbm) of 64 points times `scale` and moved by `offset`.
+#[simd]
+fn sample<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, octaves: u32) -> [f32; BLOCK] {
+    let mut q = [[0.0; BLOCK]; 3];
+    for (axis, q) in q.iter_mut().enumerate() {
+        for i in 0..BLOCK / F::<S>::LEN {
+            store(load::<S, F<S>>(simd, p[axis], i) * scale[axis] + offset[axis], q, i);
+        }
     }
+    let mut out = [0.0; BLOCK];
+    fbm_block(simd, &q[0], &q[1], &q[2], octaves, &mut out);
+    out
 }

@@ -62,20 +62,18 @@ impl Voxels {
                 }
             }
         }
-        self.leaps = full.iter().map(|full| if *full { 0 } else { 1 }).collect();
-        for ring in 1..8 {
-            let before = self.leaps.clone();
-            for (index, leap) in self.leaps.iter_mut().enumerate() {
-                let place = [index % n, index / n % n, index / (n * n)];
-                let [x, y, z] = place.map(|at| at.saturating_sub(1)..(at + 2).min(n));
-                let near = z.flat_map(|z| y.clone().map(move |y| n * (y + n * z)));
-                if near.flat_map(|row| x.clone().map(move |x| x + row)).all(|at| before[at] >= ring) {
-                    *leap = ring + 1;
+        self.leaps = vec![0; full.len()];
+        for _ in 0..7 {
+            // One ring wider, an axis at a time. What runs over an edge comes in at the other one, and makes leaps shorter.
+            for stride in [1, n, n * n] {
+                let before = full.clone();
+                for (at, full) in full.iter_mut().enumerate() {
+                    *full |= before[(at + stride) % before.len()] | before[(at + before.len() - stride) % before.len()];
                 }
             }
-        }
-        for leap in &mut self.leaps {
-            *leap = leap.saturating_sub(1) * LEAP as u8;
+            for (leap, full) in self.leaps.iter_mut().zip(&full) {
+                *leap += if *full { 0 } else { LEAP as u8 };
+            }
         }
     }
 
