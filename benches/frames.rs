@@ -38,15 +38,15 @@ fn frames(criterion: &mut Criterion) {
         frame
     };
     // The show's parts are scenes of their own.
-    for scene in scenes::all().into_iter().filter(|scene| scene.name != scenes::INTRO.name) {
-        let (fast, exact) = (draw(&scene, &Quality::FAST), draw(&scene, &Quality::EXACT));
+    for scene in scenes::all().iter().filter(|scene| scene.name != scenes::INTRO.name) {
+        let (fast, exact) = (draw(scene, &Quality::FAST), draw(scene, &Quality::EXACT));
         assert!(psnr(&fast, &exact) >= PSNR, "{}: {:.1} dB", scene.name, psnr(&fast, &exact));
         assert!(fast.pixels.iter().any(|p| *p != fast.pixels[0]), "{}: one colour", scene.name);
         let mut group = criterion.benchmark_group(scene.name);
         group.throughput(Throughput::Elements((SIZE.0 * SIZE.1) as u64)).sample_size(20);
         for name in ["fast", "default", "exact"] {
             let quality = Quality::named(name).expect("a quality of the command line");
-            group.bench_function(name, |bencher| bencher.iter(|| black_box(draw(&scene, &quality))));
+            group.bench_function(name, |bencher| bencher.iter(|| black_box(draw(scene, &quality))));
         }
     }
 }

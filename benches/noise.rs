@@ -8,7 +8,7 @@ use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_mai
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
 use paprsek::block::BLOCK;
-use paprsek::noise::{fbm, fbm_block, noise, noise_block};
+use paprsek::noise::{fbm, noise, noise_block, octaves_block};
 use std::time::Instant;
 
 #[path = "../tests/common/mod.rs"]
@@ -57,7 +57,7 @@ fn fill<S: Simd>(simd: S, value: f32, out: &mut [f32; BLOCK]) {
 fn wide(level: Level, planes: usize, octaves: Option<u32>) -> u32 {
     dispatch!(level, simd => grid(simd, planes, #[inline(always)] |[x, y, z], out| match octaves {
         None => noise_block(simd, x, y, z, 1.0, out),
-        Some(octaves) => fbm_block(simd, x, y, z, octaves, out),
+        Some(octaves) => octaves_block(simd, [x, y, z], octaves, false, None, out),
     }))
 }
 

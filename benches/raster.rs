@@ -105,7 +105,7 @@ fn sum() -> u64 {
     let maps = shadow::maps();
     let (key, map) = maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
     let mut sum = 0u64;
-    for view in 0..key.plan.views.len() {
+    for view in 0..key.views.len() {
         for (x, y) in (0..map.size).flat_map(|y| (0..map.size).map(move |x| (x, y))) {
             sum = sum.wrapping_mul(31).wrapping_add(map.at(view, x, y).to_bits().into());
         }

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut maps = shadow::maps();
         maps.sort_by_key(|(key, _)| key.slot);
         for (key, map) in maps.iter() {
-            rows.push((0..key.plan.views.len()).map(|view| grey(map, view)).collect::<Vec<_>>());
+            rows.push((0..key.views.len()).map(|view| grey(map, view)).collect::<Vec<_>>());
         }
     }
     let columns = rows.iter().map(Vec::len).max().filter(|&count| count > 0).ok_or("no light has a map")?;

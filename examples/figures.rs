@@ -26,7 +26,7 @@ const OFF: u8 = 8;
 fn main() -> Result<(), String> {
     let mut renderer = Renderer::new(THREADS)?;
     // The show's parts are scenes of their own.
-    let scenes: Vec<_> = scenes::all().into_iter().filter(|scene| scene.name != scenes::INTRO.name).collect();
+    let scenes: Vec<_> = scenes::all().iter().filter(|scene| scene.name != scenes::INTRO.name).copied().collect();
     let times = time(&mut renderer, &scenes);
     println!(
         "| scene | quality | fps | samples a pixel | PSNR, dB (worst) | pixels off by more than {OFF} | against |"

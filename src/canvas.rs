@@ -1,12 +1,18 @@
 //! Memory for frames, refused with a word where there is not enough.
 
-use paprsek::tile::Frame;
+use crate::args::Args;
+use paprsek::tile::{Frame, Renderer};
+
+/// What draws, and what it draws on.
+pub fn open(args: &Args) -> Result<(Renderer, Frame), Vec<u8>> {
+    Ok((Renderer::new(args.threads)?, frame(args.size)?))
+}
 
 /// A black frame; an error where there is no memory for it.
-pub fn frame(size: (usize, usize)) -> Result<Frame, String> {
+pub fn frame(size: (usize, usize)) -> Result<Frame, &'static str> {
     let (width, height) = size;
     let mut pixels = Vec::new();
-    pixels.try_reserve_exact(width * height).map_err(|_| format!("no memory for a frame of {width}x{height}"))?;
+    pixels.try_reserve_exact(width * height).map_err(|_| "no memory for a frame of that size")?;
     pixels.resize(width * height, 0);
     Ok(Frame { width, height, pixels })
 }

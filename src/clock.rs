@@ -1,6 +1,6 @@
 //! The time of a scene that plays: real time, paused, moved by hand, looped.
 
-use crate::args::{Args, When};
+use crate::args::Args;
 use std::time::Instant;
 
 /// What the keys move.
@@ -18,14 +18,10 @@ pub struct Clock {
 impl Clock {
     /// A clock that starts now. `--at` starts paused at its instant.
     pub fn new(args: &Args) -> Clock {
-        let start = args.start();
-        let (since, end) = match args.when {
-            When::At(_) => (None, None),
-            When::Range(_, end) => (Some(Instant::now()), end),
-            When::Whole => (Some(Instant::now()), None),
-        };
+        let start = args.start.unwrap_or(0.0);
+        let since = (!args.still).then(Instant::now);
         // Not zero, since time is taken modulo the duration.
-        Clock { base: start, since, start, end, duration: args.scene().duration.max(1e-3) }
+        Clock { base: start, since, start, end: args.end, duration: args.scene().duration.max(1e-3) }
     }
 
     /// The same clock, but ending with the scene instead of looping.

@@ -136,19 +136,15 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
 /// Encodes a block of red, green and blue, the dither of whose first pixel is `turns`.
 #[simd]
 fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOCK]; 3], pixels: &mut [u32; BLOCK]) {
-    // The dither along a block, but for where it begins.
-    static LANES: [u32; BLOCK] = {
-        let mut lanes = [0u32; BLOCK];
-        let mut i = 0;
-        while i < BLOCK {
-            lanes[i] = STEP_X.wrapping_mul(i as u32);
-            i += 1;
-        }
-        lanes
-    };
+    // The dither of the first pixels; further ones are a step of so many pixels on.
+    let mut lanes = [turns; 16];
+    for (x, lane) in (0u32..).zip(&mut lanes) {
+        *lane = turns.wrapping_add(STEP_X.wrapping_mul(x));
+    }
+    let mut along = S::u32s::from_slice(simd, &lanes[..S::u32s::LEN]);
     let mut i = 0;
     while i < BLOCK / S::f32s::LEN {
-        let mut turns = load::<S, S::u32s>(simd, &LANES, i) + turns;
+        let mut turns = along;
         let mut pixel = S::u32s::splat(simd, 0);
         // Unrolled, the three are chains of operations that need not wait for each other.
         for plane in light {
@@ -158,6 +154,7 @@ fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOC
             turns += STEP_CHANNEL;
         }
         store(pixel, pixels, i);
+        along += STEP_X.wrapping_mul(S::u32s::LEN as u32);
         i += 1;
     }
 }

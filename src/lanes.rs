@@ -2,7 +2,8 @@
 //!
 //! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
 
-use fearless_simd::prelude::*;
+use crate::block::{BLOCK, load, store};
+use fearless_simd::{Level, prelude::*};
 use glam::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -29,6 +30,20 @@ impl<S: Simd> V3<S> {
     #[inline(always)]
     pub fn splat(simd: S, v: Vec3) -> V3<S> {
         V3 { x: F::<S>::splat(simd, v.x), y: F::<S>::splat(simd, v.y), z: F::<S>::splat(simd, v.z) }
+    }
+
+    /// Vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn load(simd: S, blocks: &[[f32; BLOCK]; 3], i: usize) -> V3<S> {
+        V3 { x: load(simd, &blocks[0], i), y: load(simd, &blocks[1], i), z: load(simd, &blocks[2], i) }
+    }
+
+    /// Writes vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn store(self, blocks: &mut [[f32; BLOCK]; 3], i: usize) {
+        store(self.x, &mut blocks[0], i);
+        store(self.y, &mut blocks[1], i);
+        store(self.z, &mut blocks[2], i);
     }
 
     /// Inner product.
@@ -59,6 +74,12 @@ impl<S: Simd> V3<S> {
     #[inline(always)]
     pub fn max_element(self) -> F<S> {
         self.x.max(self.y).max(self.z)
+    }
+
+    /// The vector of the first lane.
+    #[inline(always)]
+    pub fn first(self) -> Vec3 {
+        Vec3::new(self.x[0], self.y[0], self.z[0])
     }
 
     /// `a` where the mask holds, else `b`.
@@ -125,4 +146,9 @@ impl Iterator for Bits {
             lane
         })
     }
+}
+
+/// The best SIMD level: any gives the same bits.
+pub fn best() -> Level {
+    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }

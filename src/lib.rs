@@ -10,7 +10,7 @@ pub mod hash;
 pub mod lanes;
 pub mod math;
 pub mod noise;
-mod pool;
+pub mod pool;
 pub mod quality;
 pub mod raster;
 pub mod scenes;

@@ -3,31 +3,43 @@
 //! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and
 //! code for it. A time on a command line and a figure in a table need neither.
 
+use crate::output::fill;
+
 /// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
 ///
 /// Up to 18 digits and 22 places the result is the nearest `f64` but for one case in billions: digits and power of
 /// ten are exact there (Clinger, PLDI 1990), and the remainder of the division is too. So a time that was printed
 /// with all its digits comes back as it was. Past that it may be off by some last places.
-pub fn decimal(text: &str) -> Option<f64> {
-    let (digits, exponent) = match text.split_once(['e', 'E']) {
-        Some((digits, exponent)) => (digits, exponent.parse::<i32>().ok()?),
-        None => (text, 0),
-    };
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    if whole.is_empty() && fraction.is_empty() {
-        return None;
+pub fn decimal(text: &[u8]) -> Option<f64> {
+    let (mut mantissa, mut scale) = (0u64, 0);
+    let (mut digits, mut point) = (false, false);
+    let mut bytes = text.iter();
+    while let Some(&byte) = bytes.next() {
+        match byte {
+            b'0'..=b'9' => {
+                digits = true;
+                // Digits past the eighteenth cannot change the value any more, only its power of ten.
+                let kept = mantissa < 10u64.pow(18);
+                if kept {
+                    mantissa = mantissa * 10 + u64::from(byte - b'0');
+                }
+                scale += i32::from(!kept) - i32::from(point);
+            }
+            b'.' if !point => point = true,
+            b'e' | b'E' => {
+                let (sign, power) = match bytes.as_slice() {
+                    [b'-', power @ ..] => (-1, power),
+                    [b'+', power @ ..] | power => (1, power),
+                };
+                // Larger than any power that leaves something, whatever the digits before it.
+                scale += sign * whole(power)?.min(1 << 30) as i32;
+                break;
+            }
+            _ => return None,
+        }
     }
-    let (mut mantissa, mut scale) = (0u64, exponent);
-    for (i, byte) in whole.bytes().chain(fraction.bytes()).enumerate() {
-        if !byte.is_ascii_digit() {
-            return None;
-        }
-        // Digits past the eighteenth cannot change the value any more, only its power of ten.
-        let kept = mantissa < 10u64.pow(18);
-        if kept {
-            mantissa = mantissa * 10 + u64::from(byte - b'0');
-        }
-        scale = scale.saturating_add(i32::from(!kept) - i32::from(i >= whole.len()));
+    if !digits {
+        return None;
     }
     if mantissa == 0 {
         return Some(0.0);
@@ -47,10 +59,28 @@ pub fn decimal(text: &str) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// A figure with three decimals; negative values print as zero.
-pub fn fixed(value: f64) -> String {
-    let thousandths = (value * 1000.0 + 0.5) as u64;
-    format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+/// The value of some digits, of which there is one or more; the largest number where it is larger.
+pub fn whole(text: &[u8]) -> Option<usize> {
+    let add = |sum: usize, byte: &u8| {
+        byte.is_ascii_digit().then(|| sum.saturating_mul(10).saturating_add(usize::from(byte - b'0')))
+    };
+    if text.is_empty() { None } else { text.iter().try_fold(0, add) }
+}
+
+/// The digits of a whole number.
+pub fn digits(number: usize) -> Vec<u8> {
+    let mut text = if number < 10 { Vec::new() } else { digits(number / 10) };
+    text.push(b'0' + (number % 10) as u8);
+    text
+}
+
+/// A figure with three decimals, or none where they are zeros; negative values print as zero.
+pub fn figure(value: f64) -> Vec<u8> {
+    let thousandths = (value * 1000.0 + 0.5) as usize;
+    let whole = digits(thousandths / 1000);
+    // The one before them keeps the zeros of the decimals.
+    let decimals = &digits(1000 + thousandths % 1000)[1..];
+    if decimals == b"000" { whole } else { fill("%.%", &[&whole, decimals]) }
 }
 
 #[cfg(test)]
@@ -60,7 +90,11 @@ mod tests {
     #[test]
     fn decimals_are_the_nearest_double() {
         for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "1e3", "1E-3", "12.5e+2", "007"] {
-            assert_eq!(decimal(text).map(f64::to_bits), text.parse::<f64>().ok().map(f64::to_bits), "{text}");
+            assert_eq!(
+                decimal(text.as_bytes()).map(f64::to_bits),
+                text.parse::<f64>().ok().map(f64::to_bits),
+                "{text}"
+            );
         }
     }
 
@@ -68,19 +102,19 @@ mod tests {
     fn printed_times_come_back() {
         for number in 1..100_000 {
             let time = f64::from(number) / 30.0;
-            assert_eq!(decimal(&time.to_string()), Some(time));
+            assert_eq!(decimal(time.to_string().as_bytes()), Some(time));
         }
-        assert_eq!(decimal("0.30000000000000004"), Some(0.1 + 0.2));
+        assert_eq!(decimal(b"0.30000000000000004"), Some(0.1 + 0.2));
     }
 
     #[test]
     fn long_decimals_are_within_some_last_places() {
         for text in ["123456789012345678901234567890", "0.000000000000000000000012345678901234567"] {
-            let (ours, exact) = (decimal(text).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
+            let (ours, exact) = (decimal(text.as_bytes()).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
             assert!((ours - exact).abs() <= 8.0 * exact * f64::EPSILON, "{text}: {ours:e} {exact:e}");
         }
-        assert_eq!(decimal("0e999"), Some(0.0));
-        assert_eq!(decimal("1e-999999999"), Some(0.0));
+        assert_eq!(decimal(b"0e999"), Some(0.0));
+        assert_eq!(decimal(b"1e-999999999"), Some(0.0));
     }
 
     #[test]
@@ -105,15 +139,27 @@ mod tests {
             "1e99999999999",
             "१",
         ] {
-            assert_eq!(decimal(text), None, "{text}");
+            assert_eq!(decimal(text.as_bytes()), None, "{text}");
         }
     }
 
     #[test]
-    fn figures_have_three_decimals() {
-        assert_eq!(fixed(0.0), "0.000");
-        assert_eq!(fixed(1.0005), "1.001");
-        assert_eq!(fixed(59.9999), "60.000");
-        assert_eq!(fixed(-3.0), "0.000");
+    fn whole_numbers_are_digits() {
+        for number in [0, 7, 10, 1024, usize::MAX] {
+            assert_eq!((&*digits(number), whole(&digits(number))), (number.to_string().as_bytes(), Some(number)));
+        }
+        assert_eq!(whole(b"99999999999999999999"), Some(usize::MAX));
+        for text in ["", "+1", "-1", "1.0", " 1", "x"] {
+            assert_eq!(whole(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn figures_have_three_decimals_or_none() {
+        assert_eq!(figure(0.0), b"0");
+        assert_eq!(figure(1.0005), b"1.001");
+        assert_eq!(figure(7.04), b"7.040");
+        assert_eq!(figure(59.9999), b"60");
+        assert_eq!(figure(-3.0), b"0");
     }
 }

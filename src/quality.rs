@@ -55,17 +55,20 @@ impl Quality {
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 
-    /// The names of the command line.
-    pub const NAMES: [&'static str; 4] = ["fast", "default", "exact", "reference"];
+    /// The qualities of the command line.
+    pub const NAMED: [(&'static str, Quality); 4] = [
+        ("fast", Quality::FAST),
+        ("default", Quality::DEFAULT),
+        ("exact", Quality::EXACT),
+        ("reference", Quality::REFERENCE),
+    ];
+
+    /// Their names.
+    pub const NAMES: [&'static str; 4] =
+        [Quality::NAMED[0].0, Quality::NAMED[1].0, Quality::NAMED[2].0, Quality::NAMED[3].0];
 
     /// The quality of that name.
     pub fn named(name: &str) -> Option<Quality> {
-        Some(match name {
-            "fast" => Quality::FAST,
-            "default" => Quality::DEFAULT,
-            "exact" => Quality::EXACT,
-            "reference" => Quality::REFERENCE,
-            _ => return None,
-        })
+        Quality::NAMED.into_iter().find(|named| named.0 == name).map(|named| named.1)
     }
 }

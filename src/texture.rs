@@ -3,11 +3,11 @@
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, V3};
 use crate::math;
-use crate::noise;
+use crate::noise::{self, Fade};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
-use std::f32::consts::TAU;
+use std::f32::consts::{LOG2_E, TAU};
 
 /// The scalar field, about 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,27 +153,27 @@ impl Texture {
 /// x, y and z (or red, green and blue) of [`BLOCK`] points.
 pub type Block3 = [[f32; BLOCK]; 3];
 
-/// Standard deviation of noise.
-const SIGMA: f32 = 0.27;
-
 /// The colours of a block of points: [`Texture::color`], [`BLOCK`] at a time.
 ///
 /// `footprint`, metres, is the length of a pixel's picture on the surface; where it is not 0 the colour is an estimate of
-/// the mean over it. Each octave of noise fades by its best linear predictor, fitted to `1 / (1 + 0.3 L^2)` (L: octave's
-/// cells along the footprint; within 0.04 of measured), and what has faded inside of a sine damps it by
+/// the mean over it. Octaves of noise fade ([`noise::octaves_block`]), and what has faded inside of a sine damps it by
 /// `exp(-variance / 2)`, the mean of a sine with a normal phase.
 #[simd]
 pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Option<&[f32; BLOCK]>, out: &mut Block3) {
     let mut local = [[0.0; BLOCK]; 3];
-    let pre = match texture.pattern {
-        Pattern::Marble { scale, .. } => 1.0 / scale,
-        _ => 1.0,
+    let (octaves, absolute, warp, scale) = match texture.pattern {
+        Pattern::Plain | Pattern::Checker => (0, false, 0.0, 1.0),
+        Pattern::Clouds { octaves } => (octaves, false, 0.0, 1.0),
+        Pattern::Turbulence { octaves } => (octaves, true, 0.0, 1.0),
+        Pattern::Marble { warp, scale, octaves } => (octaves, false, warp, scale),
+        Pattern::Wood { warp, octaves } => (octaves, false, warp, 1.0),
     };
+    let pre = 1.0 / scale;
     let mut foot = [0.0; BLOCK];
     let zoom = texture.turn.x_axis.length() * pre;
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let p = load3(simd, points, i).sub1(texture.origin);
+        let p = V3::load(simd, points, i).sub1(texture.origin);
         for (axis, local) in local.iter_mut().enumerate() {
             store(p.dot1(texture.turn.row(axis)) * pre, local, i);
         }
@@ -185,22 +185,14 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let mut field = [0.0; BLOCK];
     let mut lost = [0.0; BLOCK];
     let [x, y, z] = &local;
-    match (texture.pattern, footprint) {
-        (Pattern::Plain | Pattern::Checker, _) => (),
-        (Pattern::Turbulence { octaves }, None) => noise::turbulence_block(simd, x, y, z, octaves, &mut field),
-        (Pattern::Clouds { octaves } | Pattern::Marble { octaves, .. } | Pattern::Wood { octaves, .. }, None) => {
-            noise::fbm_block(simd, x, y, z, octaves, &mut field)
-        }
-        (Pattern::Turbulence { octaves }, Some(_)) => {
-            octaves_in(simd, &local, &foot, octaves, true, &mut field, &mut lost);
-        }
-        (Pattern::Clouds { octaves } | Pattern::Marble { octaves, .. } | Pattern::Wood { octaves, .. }, Some(_)) => {
-            octaves_in(simd, &local, &foot, octaves, false, &mut field, &mut lost);
-        }
-    }
+    let fade = if footprint.is_some() { Some(Fade { footprint: &foot, lost: &mut lost }) } else { None };
+    noise::octaves_block(simd, [x, y, z], octaves, absolute, fade, &mut field);
+    let wood = matches!(texture.pattern, Pattern::Wood { .. });
+    // A sine's phase is even over the footprint, of which a third lies along any one axis; and radians of a wave.
+    let (spread, radians) = if wood { (1.0 / 24.0, TAU * TAU) } else { (1.0 / 36.0, 1.0) };
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let p = load3(simd, &local, i);
+        let p = V3::load(simd, &local, i);
         let n = load::<S, F<S>>(simd, &field, i);
         let w = load::<S, F<S>>(simd, &foot, i);
         let lost = load::<S, F<S>>(simd, &lost, i);
@@ -215,21 +207,17 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
                 (half - half.floor()) * 2.0
             }
             Pattern::Clouds { .. } => n * 0.5 + 0.5,
-            Pattern::Marble { warp, scale, .. } => {
-                let mut wave = math::sin(simd, p.x * scale + n * warp) * 0.5;
+            Pattern::Marble { .. } | Pattern::Wood { .. } => {
+                let mut wave = if wood {
+                    let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
+                    ring - ring.floor() - 0.5
+                } else {
+                    math::sin(simd, p.x * scale + n * warp) * 0.5
+                };
                 if footprint.is_some() {
-                    // The layers' own phase is even over the footprint, of which a third lies along any one axis.
                     let phase = w * scale;
-                    wave *= damping(simd, lost * (warp * warp) + phase * phase * (1.0 / 36.0));
-                }
-                wave + 0.5
-            }
-            Pattern::Wood { warp, .. } => {
-                let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
-                let mut wave = ring - ring.floor() - 0.5;
-                if footprint.is_some() {
-                    let turns = lost * (warp * warp) + w * w * (1.0 / 24.0);
-                    wave *= damping(simd, turns * (TAU * TAU));
+                    let variance = (lost * (warp * warp) + phase * phase * spread) * radians;
+                    wave *= math::exp2(simd, variance * (-0.5 * LOG2_E));
                 }
                 wave + 0.5
             }
@@ -253,64 +241,10 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     }
 }
 
-/// Octaves of noise, each faded by the footprint `foot` (texture units), and the variance that the fading took.
-#[simd]
-fn octaves_in<S: Simd>(
-    simd: S,
-    p: &Block3,
-    foot: &[f32; BLOCK],
-    octaves: u32,
-    absolute: bool,
-    field: &mut [f32; BLOCK],
-    lost: &mut [f32; BLOCK],
-) {
-    /// Mean of |noise|.
-    const MEAN: f32 = 0.21;
-    let one = F::<S>::splat(simd, 1.0);
-    let mut least = f32::INFINITY;
-    for &w in foot {
-        least = least.min(w);
-    }
-    let (mut amplitude, mut frequency) = (0.5, 1.0);
-    for _ in 0..octaves {
-        let mut n = [0.0; BLOCK];
-        // Beyond ten cells less than a thirtieth is left of an octave.
-        if least * frequency < 10.0 {
-            noise::noise_block(simd, &p[0], &p[1], &p[2], frequency, &mut n);
-        }
-        let mut i = 0;
-        while i < BLOCK / F::<S>::LEN {
-            let w = load::<S, F<S>>(simd, foot, i) * frequency;
-            let keep = one / (w * w * 0.3 + 1.0);
-            let gone = one - keep;
-            let n = load::<S, F<S>>(simd, &n, i);
-            let n = if absolute { n.abs() * keep + gone * MEAN } else { n * keep };
-            store(load::<S, F<S>>(simd, field, i) + n * amplitude, field, i);
-            let variance = gone * (amplitude * amplitude * SIGMA * SIGMA);
-            store(load::<S, F<S>>(simd, lost, i) + variance, lost, i);
-            i += 1;
-        }
-        amplitude *= 0.5;
-        frequency *= 2.0;
-    }
-}
-
 /// Mean of a square wave of period 2 and height 1 over a window of width `w` around `x`.
 #[inline(always)]
 fn checks<S: Simd>(simd: S, x: F<S>, w: F<S>) -> F<S> {
     let (a, b) = ((x - w * 0.5) * 0.5, (x + w * 0.5) * 0.5);
     let half = F::<S>::splat(simd, 0.5);
     ((a - a.floor() - half).abs() - (b - b.floor() - half).abs()) * 2.0 / w
-}
-
-/// `exp(-variance / 2)`.
-#[inline(always)]
-fn damping<S: Simd>(simd: S, variance: F<S>) -> F<S> {
-    math::exp2(simd, variance * (-0.5 * std::f32::consts::LOG2_E))
-}
-
-/// Vector `i` of a block.
-#[inline(always)]
-fn load3<S: Simd>(simd: S, block: &Block3, i: usize) -> V3<S> {
-    V3 { x: load(simd, &block[0], i), y: load(simd, &block[1], i), z: load(simd, &block[2], i) }
 }

@@ -153,6 +153,7 @@ pub trait Layer: Sync {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
 
     /// Where eye rays are traced in a tile, pixels from the picture's top left; none for layers that trace none.
+    #[cfg(feature = "bench-scenes")]
     fn positions(&self, _level: Level, _tile: &mut Tile) -> Vec<(f32, f32)> {
         Vec::new()
     }

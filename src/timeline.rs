@@ -6,57 +6,59 @@
 //!
 //! M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy & Astrophysics 239, 1990.
 
-/// A key: seconds, and the values there. Times ascend within a table.
-pub type Key<const N: usize> = (f32, [f32; N]);
+/// A key: seconds, then the values there. Times ascend within a table.
+pub type Key<const N: usize> = [f32; N];
 
-/// The values of a table at `time`: those of the first key before it and at NaN, of the last after it.
+/// The line of a table at `time`: the first key before it and at NaN, the last after it.
 ///
 /// Panics where the table is empty.
-pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> [f32; N] {
-    std::array::from_fn(|i| value(keys.len(), &|k| (keys[k].0, keys[k].1[i]), time))
-}
-
-/// One value of a table of `count` keys at `time`: `key` gives the seconds and the value of each.
-#[inline(never)] // Else it is unrolled for each value.
-fn value(count: usize, key: &dyn Fn(usize) -> (f32, f32), time: f64) -> f32 {
+#[inline(never)]
+pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
+    let last = keys.len() - 1;
     // NaN is after no key.
-    let next = (0..count).take_while(|&k| key(k).0 as f64 <= time).count();
-    if next == 0 || next == count {
-        return key(next.max(1) - 1).1;
+    let mut next = 0;
+    while next <= last && keys[next][0] as f64 <= time {
+        next += 1;
     }
-    let here = next - 1;
-    let ((start, a), (end, b)) = (key(here), key(next));
-    let length = end as f64 - start as f64;
-    let x = ((time - start as f64) / length) as f32;
-    let length = length as f32;
-    let (from, to) = (slope(count, key, here) * length, slope(count, key, next) * length);
-    // Hermite's cubic, written so that equal keys give their value exactly.
-    let y = 1.0 - x;
-    a + (b - a) * (x * x * (1.0 + 2.0 * y)) + (from * y - to * x) * (x * y)
+    let here = next.max(1) - 1;
+    let mut line = keys[here];
+    if next > 0 && next <= last {
+        let x = (time - line[0] as f64) as f32 / (keys[next][0] - line[0]);
+        let y = 1.0 - x;
+        // This interval, and its neighbours if there are.
+        let intervals = [here.max(1) - 1, here, next.min(last - 1)].map(|k| (&keys[k], &keys[k + 1]));
+        for (i, value) in line.iter_mut().enumerate() {
+            // Their lengths and mean speeds.
+            let [(h0, s0), (h, s), (h1, s1)] = intervals.map(|(a, b)| (b[0] - a[0], (b[i] - a[i]) / (b[0] - a[0])));
+            // The parabola's speed at both ends; the first and the last are those of its neighbour's.
+            let (mut from, mut to) = ((s0 * h + s * h0) / (h0 + h), (s * h1 + s1 * h) / (h + h1));
+            if here == 0 {
+                from = 2.0 * s - to;
+            }
+            if next == last {
+                to = 2.0 * s - from;
+            }
+            // Hermite's cubic, written so that equal keys give their value exactly.
+            *value +=
+                h * (s * (x * x * (1.0 + 2.0 * y)) + (monotone(from, s0, s) * y - monotone(to, s, s1) * x) * (x * y));
+        }
+    }
+    line
 }
 
-/// Speed of that value at key `k`, a second.
-fn slope(count: usize, key: &dyn Fn(usize) -> (f32, f32), k: usize) -> f32 {
-    let interval = |k: usize| {
-        let ((start, a), (end, b)) = (key(k), key(k + 1));
-        (end - start, (b - a) / (end - start))
-    };
-    let last = count - 1;
-    if k == 0 || k == last {
-        // The parabola through the three keys of that end, as far as it is monotone; through two the line.
-        let ((h, s), (h2, s2)) = match k {
-            0 => (interval(0), interval(1.min(last - 1))),
-            _ => (interval(last - 1), interval(last.max(2) - 2)),
-        };
-        let p = s + (s - s2) * (h / (h + h2));
-        return if p * s <= 0.0 { 0.0 } else { p.abs().min(2.0 * s.abs()).copysign(s) };
+/// A speed where intervals of two mean speeds meet, as far as the curve stays monotone in both.
+#[inline(never)]
+fn monotone(speed: f32, a: f32, b: f32) -> f32 {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    let most = if low > 0.0 { 2.0 * low } else { 0.0 };
+    let least = if high < 0.0 { 2.0 * high } else { 0.0 };
+    if speed < least {
+        least
+    } else if speed > most {
+        most
+    } else {
+        speed
     }
-    let ((h0, s0), (h1, s1)) = (interval(k - 1), interval(k));
-    if s0 * s1 <= 0.0 {
-        return 0.0;
-    }
-    let p = (s0 * h1 + s1 * h0) / (h0 + h1);
-    s0.abs().min(s1.abs()).min(0.5 * p.abs()).copysign(s0) * 2.0
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
@@ -70,7 +72,10 @@ pub fn ease(from: f64, to: f64, time: f64) -> f32 {
 ///
 /// The first before its start and at NaN; the last up to `end`, where it stops. Panics where the list is empty.
 pub fn cut<T>(list: &[(f64, T)], end: f64, time: f64) -> (&T, f64) {
-    let next = list.partition_point(|&(start, _)| start <= time).max(1);
+    let mut next = 1;
+    while next < list.len() && list[next].0 <= time {
+        next += 1;
+    }
     let (start, shot) = &list[next - 1];
     let end = list.get(next).map_or(end, |&(start, _)| start);
     (shot, (time - start).max(0.0).min(end - start))

@@ -56,7 +56,6 @@ fn it_shows_the_plain_build_s_pictures() {
 #[test]
 fn it_needs_the_c_library_and_no_new_one() {
     let Some(intro) = intro() else { return };
-    // Loaded, not linked: libX11.
     let unpacked = intro.with_file_name("paprsek.elf");
     let readelf = |what: &str| {
         let mut readelf = Command::new("readelf");

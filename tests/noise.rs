@@ -5,7 +5,7 @@ mod common;
 use fearless_simd::dispatch;
 use glam::Vec3;
 use paprsek::block::BLOCK;
-use paprsek::noise::{fbm, fbm_block, noise, noise_block, turbulence, turbulence_block};
+use paprsek::noise::{fbm, noise, noise_block, octaves_block, turbulence};
 use proptest::prelude::*;
 
 /// f32 against exact arithmetic, all roundings of one noise together.
@@ -245,9 +245,9 @@ fn check_levels(points: &[Vec3; BLOCK]) {
         dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
         same("noise", name, &out, &noise);
         for octaves in [0, 1, 5] {
-            dispatch!(level, simd => fbm_block(simd, &x, &y, &z, octaves, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, None, &mut out));
             same("fbm", name, &out, &|p| fbm(p, octaves));
-            dispatch!(level, simd => turbulence_block(simd, &x, &y, &z, octaves, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, None, &mut out));
             same("turbulence", name, &out, &|p| turbulence(p, octaves));
         }
     }

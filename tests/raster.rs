@@ -6,12 +6,12 @@ mod common;
 mod oracle;
 
 use fearless_simd::{Level, Simd, dispatch};
-use glam::{Affine3A, Mat4, Vec3, vec3};
+use glam::{Affine3A, Vec3, Vec4, vec3};
 use oracle::{ULP, random::Random};
 use paprsek::raster::bins::{Bins, NOTHING, parts};
 use paprsek::raster::fill::{CENTER, Sample, Visible, fill};
 use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::project::{NEAR, Projection};
+use paprsek::raster::project::Projection;
 use paprsek::raster::triangle::{Piece, SUB, Setup};
 use paprsek::tile::Tile;
 
@@ -38,7 +38,7 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
         let step = 1.0 / SUB as f32;
         mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
     }
-    let projection = Projection { matrix: Mat4::IDENTITY, size, near: NEAR };
+    let projection = Projection { rows: Vec4::AXES, size, texel: 1.0 };
     Setup { projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
 }
 

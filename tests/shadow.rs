@@ -225,7 +225,7 @@ fn beyond_the_map_is_light() {
         let view = scene.plan().views[0];
         let (mut beyond, mut dark, mut cut) = (0, 0, 0);
         for (p, share) in scene.receivers(cameras()[0]) {
-            let at = view.matrix.project_point3(p.as_vec3());
+            let at = view.matrix().project_point3(p.as_vec3());
             let (low, high) = (at.x.min(at.y), at.x.max(at.y));
             if low < MARGIN - NEAR || high > texels as f32 - MARGIN + NEAR {
                 assert!((share - 1.0).abs() < 1e-5, "{p}: {share}");
@@ -264,7 +264,7 @@ fn the_finest_map_that_reaches_is_looked_up() {
         }
         let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
         let p = camera.eye.as_dvec3() + d / both.closeness[pixel] as f64;
-        let at = view.matrix.project_point3(p.as_vec3());
+        let at = view.matrix().project_point3(p.as_vec3());
         // On the margin's edge either may be looked up.
         let (low, high) = (at.x.min(at.y), at.x.max(at.y));
         if low > MARGIN + NEAR && high < 128.0 - MARGIN - NEAR {

@@ -54,9 +54,9 @@ fn eyes_in_one_place_see_the_picture_of_one_eye_twice() {
             let quality = Quality::named(name).unwrap();
             // The reference takes 64 samples a pixel.
             let (half, height) = if name == "reference" { (16, 9) } else { (133, 70) };
-            let one = render(&mut renderer, &scene, &quality, None, (half, height));
+            let one = render(&mut renderer, scene, &quality, None, (half, height));
             for width in [2 * half, 2 * half + 1] {
-                let both = render(&mut renderer, &scene, &quality, stereo, (width, height));
+                let both = render(&mut renderer, scene, &quality, stereo, (width, height));
                 assert!(columns(&both, 0..half) == one.pixels, "{} {name} {width}: left", scene.name);
                 assert!(columns(&both, half..2 * half) == one.pixels, "{} {name} {width}: right", scene.name);
                 assert!(columns(&both, 2 * half..width).iter().all(|pixel| *pixel == 0));
@@ -69,7 +69,7 @@ fn eyes_in_one_place_see_the_picture_of_one_eye_twice() {
 fn every_scene_has_two_eyes() {
     let mut renderer = Renderer::new(2).unwrap();
     for scene in scenes::all() {
-        let both = render(&mut renderer, &scene, &Quality::FAST, Some(BOTH), (256, 72));
+        let both = render(&mut renderer, scene, &Quality::FAST, Some(BOTH), (256, 72));
         assert!(columns(&both, 0..128) != columns(&both, 128..256), "{}", scene.name);
     }
 }

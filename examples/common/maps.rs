@@ -6,6 +6,6 @@ use paprsek::raster::shadow;
 pub fn forget() {
     for (key, _) in shadow::maps().iter_mut().filter(|(key, _)| key.slot == 0) {
         // No light has a plan without views. The memory stays for the next map.
-        key.plan.views.clear();
+        key.views.clear();
     }
 }

@@ -22,7 +22,7 @@ impl Map {
     /// Memory for a map, which is filled anew by [`Map::draw`].
     pub fn new(projection: Projection) -> Map {
         let size = projection.size[0] as usize;
-        Map { matrix: projection.matrix.as_dmat4(), size, texels: vec![0.0; size * size] }
+        Map { matrix: projection.matrix().as_dmat4(), size, texels: vec![0.0; size * size] }
     }
 
     /// Draws what a set shows in it, on this thread.

@@ -5,7 +5,7 @@ use glam::{Affine3A, DMat4, DVec3, Vec3};
 use paprsek::raster::bins::{Bins, parts};
 use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{Bias, Plan};
-use paprsek::raster::triangle::{Piece, Plane, SUB, Setup};
+use paprsek::raster::triangle::{Piece, SUB, Setup};
 use paprsek::tile::{Renderer, Tile};
 
 /// Texels along the edge of the rasters that sort triangles: their corners lie on its 256ths.
@@ -37,7 +37,7 @@ impl Tracer {
             let setup = Setup { projection, back_faces: false, shaded: false };
             let pieces: Vec<_> = set.meshes.iter().map(|mesh| setup.piece(mesh, &Affine3A::IDENTITY)).collect();
             let bins = Bins::new(&pieces, projection.size);
-            (projection.matrix.as_dmat4(), pieces, bins)
+            (projection.matrix().as_dmat4(), pieces, bins)
         };
         Tracer { views: views.into_iter().map(view).collect() }
     }
@@ -56,9 +56,8 @@ impl Tracer {
                 let t = &pieces[piece].triangles[number];
                 let (x, y) = (h.x * SUB as f64, h.y * SUB as f64);
                 t.edges.iter().all(|&(a, b, c)| a as f64 * x + b as f64 * y + c as f64 >= 0.0) && {
-                    let Plane { at, by } = t.nearness;
                     let (dx, dy) = (h.x - t.anchor[0] as f64, h.y - t.anchor[1] as f64);
-                    let near = at as f64 + by[0] as f64 * dx + by[1] as f64 * dy;
+                    let near = t.at.w as f64 + t.by[0].w as f64 * dx + t.by[1].w as f64 * dy;
                     near.clamp(t.range[0] as f64, t.range[1] as f64) > h.z + lift
                 }
             });
@@ -102,10 +101,10 @@ pub fn mark(pixels: &mut [Pixel], tracer: &Tracer, towards: Vec3, views: &[Proje
 /// Metres a texel of the map that a point is looked up in.
 fn texel(views: &[Projection], point: Vec3) -> Option<f32> {
     let inside = |view: &&Projection| {
-        let h = view.matrix * point.extend(1.0);
+        let h = view.matrix() * point.extend(1.0);
         h.x.min(h.y) >= 2.0 && h.x.max(h.y) <= view.size[0] as f32 - 2.0
     };
-    views.iter().find(inside).map(|view| 1.0 / view.matrix.transpose().x_axis.truncate().length())
+    views.iter().find(inside).map(|view| 1.0 / view.rows[0].truncate().length())
 }
 
 /// Do the points around, 1.5 texels away on the pixel's own plane, all see the sun as it does?

@@ -1,8 +1,8 @@
 //! One map through a perspective: M. Wimmer, D. Scherzer, W. Purgathofer, "Light space perspective shadow maps", 2004.
 
 use crate::set::Set;
-use glam::{Mat4, Vec3, Vec4};
-use paprsek::raster::project::{NEAR, Projection};
+use glam::{Vec3, Vec4};
+use paprsek::raster::project::Projection;
 
 /// A warped map of `size` texels for what a set's camera sees between the ends of its range. In it w is the distance from a
 /// point behind the eye, along the view's axis as the sun sees it: then heights over it are affine in the map.
@@ -35,8 +35,7 @@ pub fn warped(set: &Set, towards: Vec3, size: u32) -> Projection {
     let share = inner / (1.0 / start - 1.0 / (start + depth));
     // From the first end, at 1 / start, to the last: affine in 1 / w.
     let y = w * (share / start + edge) - Vec4::W * share;
-    let matrix = Mat4::from_cols(x, y, towards.extend(0.0), w).transpose();
-    Projection { matrix, size: [size; 2], near: NEAR }
+    Projection { rows: [x, y, towards.extend(0.0), w], size: [size; 2], texel: 1.0 / x.truncate().length() }
 }
 
 fn bounds(values: impl Iterator<Item = f32>) -> (f32, f32) {

@@ -67,7 +67,8 @@ pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) 
                             let [a, b, c, d] = corners.map(|corner| lattice.values[corner]);
                             let mut error = 0.0f32;
                             for k in 0..4 {
-                                error = error.max((lattice.values[middle][k] - (a[k] + b[k] + c[k] + d[k]) * 0.25).abs());
+                                error =
+                                    error.max((lattice.values[middle][k] - (a[k] + b[k] + c[k] + d[k]) * 0.25).abs());
                             }
                             if error > clouds.quality.threshold {
                                 for part in [at, at + size / 2, middle - size / 2, middle] {
@@ -150,8 +151,8 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice:
             see(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
         }
         for (i, point) in points.iter().enumerate() {
-            for k in 0..4 {
-                lattice.values[*point][k] = sum[k][i] * (step * step);
+            for (k, sum) in sum.iter().enumerate() {
+                lattice.values[*point][k] = sum[i] * (step * step);
             }
         }
     }

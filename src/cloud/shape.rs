@@ -4,7 +4,7 @@ use super::voxels::Voxels;
 use crate::block::{BLOCK, load, store};
 use crate::hash::rnd;
 use crate::lanes::F;
-use crate::noise::fbm_block;
+use crate::noise::octaves_block;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
@@ -24,7 +24,8 @@ pub struct Kind {
 
 impl Kind {
     /// Fair weather: a dome on a flat base.
-    pub const CUMULUS: Kind = Kind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46, flat: 100 };
+    pub const CUMULUS: Kind =
+        Kind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46, flat: 100 };
     /// A tower of domes.
     pub const CONGESTUS: Kind = Kind {
         rings: &[[8, 26, 16, -62, 16, 20, 10], [5, 12, 14, -30, 30, 24, 12], [3, 6, 14, 20, 30, 20, 14]],
@@ -79,7 +80,8 @@ impl Kind {
             let mut distance = [0.0; BLOCK];
             let mut some = false;
             for i in 0..BLOCK / F::<S>::LEN {
-                let [x, y, z]: [F<S>; 3] = [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
+                let [x, y, z]: [F<S>; 3] =
+                    [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
                 let mut near = F::<S>::splat(simd, 9.0);
                 for (centre, radius) in &puffs {
                     let (x, y, z) = (x - centre.x, (y - centre.y) * squash, z - centre.z);
@@ -122,6 +124,6 @@ fn sample<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, oc
         }
     }
     let mut out = [0.0; BLOCK];
-    fbm_block(simd, &q[0], &q[1], &q[2], octaves, &mut out);
+    octaves_block(simd, [&q[0], &q[1], &q[2]], octaves, false, None, &mut out);
     out
 }

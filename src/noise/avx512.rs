@@ -15,7 +15,7 @@ static GRADIENT_PAIRS: [u8; 256] = {
     let mut pairs = [0; 256];
     let mut i = 0;
     while i < 256 {
-        pairs[i] = super::PERMUTATION[i] & 15 | super::PERMUTATION[(i + 1) & 255] << 4;
+        pairs[i] = super::PERMUTATION[i] & 15 | super::PERMUTATION[i + 1] << 4;
         i += 1;
     }
     pairs
@@ -49,15 +49,15 @@ fearless_simd::kernel!(
     }
 );
 
-/// A table of 256 bytes in registers.
+/// The first 256 bytes of a table in registers.
 #[inline(always)]
-fn load_table(simd: Avx512, table: &[u8; 256]) -> [u8x64<Avx512>; 4] {
+fn load_table(simd: Avx512, table: &[u8]) -> [u8x64<Avx512>; 4] {
     // No `map`: what it calls lacks the target features where the optimizer, asked for size, does not inline it.
     [
         u8x64::from_slice(simd, &table[..64]),
         u8x64::from_slice(simd, &table[64..128]),
         u8x64::from_slice(simd, &table[128..192]),
-        u8x64::from_slice(simd, &table[192..]),
+        u8x64::from_slice(simd, &table[192..256]),
     ]
 }
 

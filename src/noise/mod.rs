@@ -9,13 +9,16 @@
 mod avx512;
 mod wide;
 
-pub use wide::{fbm_block, noise_block, turbulence_block};
+pub use wide::{Fade, noise_block, octaves_block};
 
+use crate::block::BLOCK;
+use crate::lanes::best;
+use fearless_simd::dispatch;
 use glam::Vec3;
 
-/// Perlin's permutation of 0..256.
+/// Perlin's permutation of 0..256, and its first entry again, so that each has a next one.
 #[rustfmt::skip]
-static PERMUTATION: [u8; 256] = [
+static PERMUTATION: [u8; 257] = [
     151, 160, 137, 91, 90, 15, 131, 13, 201, 95, 96, 53, 194, 233, 7, 225,
     140, 36, 103, 30, 69, 142, 8, 99, 37, 240, 21, 10, 23, 190, 6, 148,
     247, 120, 234, 75, 0, 26, 197, 62, 94, 252, 219, 203, 117, 35, 11, 32,
@@ -32,6 +35,7 @@ static PERMUTATION: [u8; 256] = [
     81, 51, 145, 235, 249, 14, 239, 107, 49, 192, 214, 31, 181, 199, 106, 157,
     184, 84, 204, 176, 115, 121, 50, 45, 127, 4, 150, 254, 138, 236, 205, 93,
     222, 114, 67, 29, 24, 72, 243, 141, 128, 195, 78, 66, 215, 61, 156, 180,
+    151,
 ];
 
 /// The permutation at `i` modulo 256.
@@ -118,6 +122,24 @@ fn sum_octaves(p: Vec3, octaves: u32, shape: impl Fn(f32) -> f32) -> f32 {
         sum += amplitude * shape(noise(p));
         amplitude *= 0.5;
         p *= 2.0;
+    }
+    sum
+}
+
+/// [`fbm`], or where it is `absolute` [`turbulence`], of up to 8 octaves: the same bits, by [`noise_block`].
+#[inline(never)]
+pub fn octaves(p: Vec3, octaves: usize, absolute: bool) -> f32 {
+    let [mut x, mut y, mut z, mut n] = [[0.0; BLOCK]; 4];
+    let mut zoomed = p;
+    for k in 0..8 {
+        [x[k], y[k], z[k]] = zoomed.to_array();
+        zoomed *= 2.0;
+    }
+    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, &mut n));
+    let (mut sum, mut amplitude) = (0.0, 0.5);
+    for n in &n[..octaves] {
+        sum += amplitude * if absolute { n.abs() } else { *n };
+        amplitude *= 0.5;
     }
     sum
 }

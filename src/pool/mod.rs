@@ -9,5 +9,14 @@ mod workers;
 
 #[cfg(not(feature = "rayon"))]
 pub use scoped::Pool;
+use std::thread::Builder;
 #[cfg(feature = "rayon")]
 pub use workers::Pool;
+
+/// Stack of a thread, bytes: the standard size. Said here, it is not looked for in the environment.
+const STACK: usize = 2 << 20;
+
+/// Starts a thread that nobody waits for; `None` where none can start.
+pub fn start(work: &'static (dyn Fn() + Sync)) -> Option<()> {
+    Builder::new().stack_size(STACK).spawn(work).ok().map(drop)
+}

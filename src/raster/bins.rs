@@ -36,19 +36,36 @@ impl Bins {
     /// Sorts triangles into the tiles of a raster of `size` pixels, by their bounds.
     pub fn new(pieces: &[Piece], size: [u32; 2]) -> Bins {
         let [columns, rows] = size.map(|n| n.div_ceil(Tile::SIZE as u32));
-        // Counted, summed, filled from the back: after that each start is where it belongs.
-        let mut starts = vec![0; (columns * rows + 1) as usize];
-        each(pieces, columns, |tile, _| starts[tile] += 1);
-        let mut sum = 0;
-        for start in &mut starts {
-            sum += *start;
-            *start = sum;
+        // Counted down from 0, summed, and counted down again: after that each start is where it belongs.
+        let mut starts = vec![0u32; (columns * rows + 1) as usize];
+        let mut list = Vec::new();
+        for _ in 0..2 {
+            // The last triangle first.
+            for (p, piece) in pieces.iter().take(1 << BITS).enumerate().rev() {
+                for (t, triangle) in piece.triangles.iter().enumerate().rev() {
+                    let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
+                    for y in y0..y1 + 1 {
+                        for x in x0..x1 + 1 {
+                            let start = &mut starts[(y * columns + x) as usize];
+                            *start = start.wrapping_sub(1);
+                            // While they are counted there is no list yet.
+                            if let Some(id) = list.get_mut(*start as usize) {
+                                let texture = triangle.paint.texture.map_or(PLAIN, u32::from);
+                                *id = (texture << BITS | p as u32) << BITS | t as u32;
+                            }
+                        }
+                    }
+                }
+            }
+            if list.is_empty() {
+                let mut sum = 0u32;
+                for start in &mut starts {
+                    sum = sum.wrapping_sub(*start);
+                    *start = sum;
+                }
+                list = vec![0; sum as usize];
+            }
         }
-        let mut list = vec![NOTHING; sum as usize];
-        each(pieces, columns, |tile, id| {
-            starts[tile] -= 1;
-            list[starts[tile] as usize] = id;
-        });
         Bins { columns, starts, list }
     }
 
@@ -58,20 +75,6 @@ impl Bins {
         match self.starts.get(tile..tile + 2) {
             Some(&[from, to]) => &self.list[from as usize..to as usize],
             _ => &[],
-        }
-    }
-}
-
-/// Every tile that every triangle may touch, the last triangle first.
-fn each(pieces: &[Piece], columns: u32, mut put: impl FnMut(usize, Id)) {
-    for (p, piece) in pieces.iter().take(1 << BITS).enumerate().rev() {
-        for (t, triangle) in piece.triangles.iter().enumerate().rev() {
-            let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
-            for y in y0..=y1 {
-                for x in x0..=x1 {
-                    put((y * columns + x) as usize, (triangle.texture << BITS | p as u32) << BITS | t as u32);
-                }
-            }
         }
     }
 }

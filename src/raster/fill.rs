@@ -64,14 +64,14 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Samp
         k += 1;
     }
     // Not summed up along the way: each pixel's nearness is the same at any number of lanes.
-    let [zx, zy] = t.nearness.by;
+    let (zx, zy) = (t.by[0].w, t.by[1].w);
     let offset = |pixel: i32, sample: i32| pixel as f32 + sample as f32 * (1.0 / SUB as f32);
     let (dx, dy) = (offset(x, sample[0]) - t.anchor[0], offset(y, sample[1]) - t.anchor[1]);
     let steps: F<S> = steps.to_float();
     let nothing = S::i32s::splat(simd, 0);
     let mut at = y0;
     while at <= y1 {
-        let z = t.nearness.at + zy * (dy + at as f32);
+        let z = t.at.w + zy * (dy + at as f32);
         let mut edge = row;
         let mut column = x0;
         while column <= x1 {

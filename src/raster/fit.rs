@@ -16,32 +16,30 @@ pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size:
     let wide = aspect + camera.shift.abs();
     let corner2 = camera.up.length_squared() * (1.0 + wide * wide);
     let mut near = 0.0;
-    ends.iter()
-        .map(|&end| {
-            let begin = 0.9 * near;
-            near = end;
-            // The ball through the corners of both ends, unless the far end's own is enough.
-            let along = (0.5 * (begin + end) * (1.0 + corner2)).min(end);
-            let radius = ((end - along) * (end - along) + end * end * corner2).sqrt();
-            // Lookups keep off the border.
-            let width = 2.0 * radius * size as f32 / (size as f32 - 8.0);
-            let ball = camera.eye + camera.forward * along;
-            snapped(towards, ball, width, size)
-        })
-        .collect()
-}
-
-/// A parallel projection whose middle is moved to a whole texel.
-fn snapped(towards: Vec3, middle: Vec3, width: f32, size: u32) -> Projection {
-    let mut projection = Projection::parallel(towards, middle, width, size);
-    // The world's origin, too, is to lie on a corner of texels.
-    let origin = projection.matrix.w_axis;
-    projection.matrix.w_axis.x = origin.x.round();
-    projection.matrix.w_axis.y = origin.y.round();
-    projection
+    let mut views = Vec::new();
+    for &end in ends {
+        let begin = 0.9 * near;
+        near = end;
+        // The ball through the corners of both ends, unless the far end's own is enough.
+        let along = (0.5 * (begin + end) * (1.0 + corner2)).min(end);
+        let radius = ((end - along) * (end - along) + end * end * corner2).sqrt();
+        // Lookups keep off the border.
+        let width = 2.0 * radius * size as f32 / (size as f32 - 8.0);
+        let mut view = Projection::parallel(towards, camera.eye + camera.forward * along, width, size);
+        // Moved until the world's origin lies on a corner of texels.
+        for row in &mut view.rows[..2] {
+            row.w = row.w.round();
+        }
+        views.push(view);
+    }
+    views
 }
 
 /// The six faces of the cube around a lamp.
 pub fn cube(position: Vec3, size: u32) -> Vec<Projection> {
-    (0..6).map(|face| Projection::face(face, position, size)).collect()
+    let mut views = Vec::new();
+    for face in 0..6 {
+        views.push(Projection::face(face, position, size));
+    }
+    views
 }

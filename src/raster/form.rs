@@ -1,7 +1,7 @@
 //! Surfaces from small tables: grids, and bodies of rings. A box is one of these.
 
 use super::mesh::{Face, Mesh, Paint};
-use crate::noise::noise;
+use crate::noise;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::{PI, TAU};
 
@@ -119,7 +119,8 @@ impl Mesh {
     pub fn weather(&mut self, first: usize, amount: f32, scale: f32) {
         for p in &mut self.points[first..] {
             let q = *p * scale;
-            *p += amount * vec3(noise(q), noise(q + 17.3), noise(q + 31.7));
+            let by = |away: f32| 2.0 * noise::octaves(q + away, 1, false);
+            *p += amount * vec3(by(0.0), by(17.3), by(31.7));
         }
     }
 

@@ -6,7 +6,7 @@ use super::shadow::{DepthMap, Plan};
 use super::traced::hides;
 use crate::lanes::{Bits, F, Lane, M, V3};
 use fearless_simd::prelude::*;
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
 /// Where light comes from.
@@ -54,14 +54,15 @@ impl Haze {
     /// Its light in a direction (unit), and that of the sun's image where a mirror shows it.
     #[inline(always)]
     pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> (V3<S>, V3<S>) {
-        let mut powers = [d.dot1(self.glow.0).max(F::<S>::splat(simd, 0.0)); 2];
-        for (power, squarings) in powers.iter_mut().zip([3, 9]) {
-            for _ in 0..squarings {
-                *power *= *power;
-            }
+        let mut power = d.dot1(self.glow.0).max(F::<S>::splat(simd, 0.0));
+        for _ in 0..3 {
+            power *= power;
         }
-        let haze = V3::splat(simd, self.color) + V3::splat(simd, self.glow.1) * Lane(powers[0]);
-        (haze, V3::splat(simd, self.image) * Lane(powers[1]))
+        let haze = V3::splat(simd, self.color) + V3::splat(simd, self.glow.1) * Lane(power);
+        for _ in 0..6 {
+            power *= power;
+        }
+        (haze, V3::splat(simd, self.image) * Lane(power))
     }
 }
 
@@ -71,69 +72,70 @@ const MARGIN: f32 = 2.0;
 /// What is left of a bias where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
-/// A light, ready to be looked up.
-pub struct Lit {
-    /// The light; a shadow without views is none.
-    pub light: Light,
-    /// What it sees, where that is mapped.
+/// What a light sees.
+pub struct Sight {
+    /// Where that is mapped.
     pub map: Option<Arc<DepthMap>>,
     /// The first of its rasters, where it has any.
     pub first: usize,
-    /// Each view's matrix by rows, and metres a texel where it is a parallel projection.
-    views: Vec<(Mat4, f32)>,
-    /// 1 / (x D + y D^2) of a lamp at the end of its reach; 0 if it has none, or does not fade towards there.
-    end: f32,
 }
 
-impl Lit {
-    /// A light whose rasters, if it gets any, begin with that one.
-    pub fn new(mut light: Light, first: usize) -> Lit {
-        light.shadow.take_if(|plan| plan.views.is_empty());
-        let end = match light.source {
-            Source::Lamp { falloff, reach, .. } => 1.0 / (falloff.x * reach + falloff.y * reach * reach),
-            Source::Sun(_) => 0.0,
-        };
-        let end = if end.is_finite() { end } else { 0.0 };
-        let view = |view: &Projection| {
-            let rows = view.matrix.transpose();
-            (rows, 1.0 / rows.x_axis.truncate().length())
-        };
-        let views = light.shadow.iter().flat_map(|plan| &plan.views).map(view).collect();
-        Lit { light, map: None, first, views, end }
+impl Light {
+    /// What it is to see, if it casts shadows.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.shadow.as_ref().filter(|plan| !plan.views.is_empty())
     }
 
     /// May it reach into a ball?
     pub fn reaches(&self, center: Vec3, radius: f32) -> bool {
-        match self.light.source {
+        match self.source {
             Source::Sun(_) => true,
             Source::Lamp { position, reach, .. } => center.distance(position) <= reach + radius,
         }
     }
 
+    /// May it reach into one of the boxes between `low` and `high`?
+    #[inline(always)]
+    pub fn meets<S: Simd>(&self, simd: S, low: V3<S>, high: V3<S>) -> bool {
+        match self.source {
+            Source::Sun(_) => true,
+            Source::Lamp { position, reach, .. } => {
+                let (below, above) = (V3::splat(simd, position) - high, low.sub1(position));
+                let zero = F::<S>::splat(simd, 0.0);
+                let (x, y, z) =
+                    (below.x.max(above.x).max(zero), below.y.max(above.y).max(zero), below.z.max(above.z).max(zero));
+                (x * x + y * y + z * z).sqrt().simd_le(reach).any_true()
+            }
+        }
+    }
+
     /// Its light at points with unit normals, without albedo.
     #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
+    pub fn at<S: Simd>(&self, simd: S, sight: &Sight, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        let (towards, left) = match self.light.source {
+        let (towards, left) = match self.source {
             Source::Sun(direction) => (V3::splat(simd, direction), one),
             Source::Lamp { position, falloff, reach } => {
+                // 1 over the loss at the end of the reach; 0 if it has none, or does not fade towards there.
+                let end = 1.0 / (falloff.x * reach + falloff.y * reach * reach);
+                let end = if end.is_finite() { end } else { 0.0 };
                 let way = V3::splat(simd, position) - point;
                 let distance = way.dot(way).sqrt();
                 let loss = distance * falloff.x + distance * distance * falloff.y;
                 // What is left at the end of the reach is taken off everywhere, and the rest made 1 at the lamp again.
-                let left = one / (loss + 1.0) * (one - loss * self.end).max(zero);
+                let left = one / (loss + 1.0) * (one - loss * end).max(zero);
                 (way * Lane(one / distance), distance.simd_le(reach).select(left, zero))
             }
         };
         let cosine = normal.dot(towards).max(zero);
-        let wanted = (cosine * left).simd_gt(zero);
         let mut light = cosine * left;
-        if let Some(plan) = &self.light.shadow
+        let wanted = light.simd_gt(zero);
+        if let Some(plan) = self.plan()
             && wanted.any_true()
         {
-            light *= self.seen(simd, plan, rasters, point, normal, cosine, wanted);
+            light *= self.seen(simd, plan, sight, rasters, point, normal, cosine, wanted);
         }
-        V3::splat(simd, self.light.color) * Lane(light)
+        V3::splat(simd, self.color) * Lane(light)
     }
 
     /// The share of the light that is not in shadow.
@@ -143,6 +145,7 @@ impl Lit {
         &self,
         simd: S,
         plan: &Plan,
+        sight: &Sight,
         rasters: &[Raster],
         point: V3<S>,
         normal: V3<S>,
@@ -156,54 +159,44 @@ impl Lit {
         let tangent = (sine / cosine.max(F::<S>::splat(simd, 1e-3))).min(F::<S>::splat(simd, 4.0));
         let (mut view, mut x, mut y, mut near) = (zero, zero, zero, zero);
         let mut inside = M::<S>::splat(simd, false);
-        let mut k = 0;
-        match self.light.source {
-            Source::Sun(_) => {
-                // The finest map that the texels around are in.
-                while k < self.views.len() {
-                    let (rows, texel) = self.views[k];
-                    let p = point + normal * Lane(sine * (bias.normal * texel));
-                    let (px, py, z) = (apply(rows.x_axis, p), apply(rows.y_axis, p), apply(rows.z_axis, p));
-                    let (low, high) = (px.min(py), px.max(py));
-                    let here = low.simd_ge(MARGIN) & high.simd_le(size - MARGIN) & !inside;
-                    let bias = tangent * (bias.slope * texel) + bias.constant;
-                    (x, y) = (here.select(px, x), here.select(py, y));
-                    near = here.select(z + bias, near);
-                    view = here.select(F::<S>::splat(simd, k as u32 as f32), view);
-                    inside |= here;
-                    k += 1;
-                }
-            }
-            Source::Lamp { position, .. } => {
-                let q = point.sub1(position);
-                let (ax, ay, az) = (q.x.abs(), q.y.abs(), q.z.abs());
-                let depth = ax.max(ay).max(az);
-                let (on_x, on_y) = (ax.simd_ge(depth), ay.simd_ge(depth));
-                let axis = on_x.select(q.x, on_y.select(q.y, q.z));
-                let pair = on_x.select(zero, on_y.select(F::<S>::splat(simd, 2.0), F::<S>::splat(simd, 4.0)));
-                view = pair + axis.simd_gt(zero).select(zero, one);
-                // Texels are wider where the face is farther.
-                let texel = depth * (2.0 / size);
-                let p = point + normal * Lane(sine * texel * bias.normal);
-                while k < self.views.len() {
-                    let here = view.simd_eq(k as u32 as f32);
-                    if (here & wanted).any_true() {
-                        let (rows, _) = self.views[k];
-                        let w = apply(rows.w_axis, p);
-                        let inverse = one / w;
-                        x = here.select(apply(rows.x_axis, p) * inverse, x);
-                        y = here.select(apply(rows.y_axis, p) * inverse, y);
-                        let bias = tangent * texel * bias.slope + bias.constant;
-                        near = here.select(one / (w - bias).max(F::<S>::splat(simd, 1e-6)), near);
-                    }
-                    k += 1;
-                }
-                inside = M::<S>::splat(simd, true);
-            }
+        // The depth by which texels grow, the face of a cube that a point is seen through, and the border of a map that
+        // no point lies in.
+        let (mut depth, mut face, mut margin) = (one, zero, MARGIN);
+        if let Source::Lamp { position, .. } = self.source {
+            let q = point.sub1(position);
+            let (ax, ay, az) = (q.x.abs(), q.y.abs(), q.z.abs());
+            depth = ax.max(ay).max(az);
+            let (on_x, on_y) = (ax.simd_ge(depth), ay.simd_ge(depth));
+            let axis = on_x.select(q.x, on_y.select(q.y, q.z));
+            let pair = on_x.select(zero, on_y.select(F::<S>::splat(simd, 2.0), F::<S>::splat(simd, 4.0)));
+            face = pair + axis.simd_gt(zero).select(zero, one);
+            margin = f32::NEG_INFINITY;
         }
-        let wanted = wanted & inside;
-        let seen = match &self.map {
-            Some(map) => map.light(simd, view, x, y, near, plan.smooth, wanted),
+        let mut k = 0;
+        while k < plan.views.len() {
+            let number = F::<S>::splat(simd, k as u32 as f32);
+            // The finest of several maps that the texels around are in.
+            let here = wanted & !inside & (if margin > 0.0 { zero } else { face - number }).simd_eq(zero);
+            if here.any_true() {
+                let Projection { rows, texel, .. } = &plan.views[k];
+                let p = point + normal * Lane(sine * (depth * (bias.normal * texel)));
+                let w = apply(rows[3], p);
+                let inverse = one / w;
+                let (px, py) = (apply(rows[0], p) * inverse, apply(rows[1], p) * inverse);
+                let here = here & px.min(py).simd_ge(margin) & px.max(py).simd_le(size - margin);
+                let bias = tangent * (depth * (bias.slope * texel)) + bias.constant;
+                let z = match self.source {
+                    Source::Sun(_) => apply(rows[2], p) + bias,
+                    Source::Lamp { .. } => one / (w - bias).max(F::<S>::splat(simd, 1e-6)),
+                };
+                (x, y) = (here.select(px, x), here.select(py, y));
+                (near, view) = (here.select(z, near), here.select(number, view));
+                inside |= here;
+            }
+            k += 1;
+        }
+        let seen = match &sight.map {
+            Some(map) => map.light(simd, view, x, y, near, plan.smooth, inside),
             None => {
                 let end = F::<S>::splat(simd, size - 0.01);
                 let mut numbers = [[0.0; 16]; 4];
@@ -212,9 +205,9 @@ impl Lit {
                     of.store_slice(&mut row[..lanes]);
                 }
                 let mut seen = [0.0; 16];
-                for lane in Bits(wanted.to_bitmask()) {
+                for lane in Bits(inside.to_bitmask()) {
                     let [view, x, y, near] = [0, 1, 2, 3].map(|row: usize| numbers[row][lane]);
-                    seen[lane] = if hides(&rasters[self.first + view as usize], x, y, near) { 0.0 } else { 1.0 };
+                    seen[lane] = if hides(&rasters[sight.first + view as usize], x, y, near) { 0.0 } else { 1.0 };
                 }
                 F::<S>::from_slice(simd, &seen[..lanes])
             }

@@ -22,16 +22,16 @@ use crate::quality::Quality;
 use crate::texture::Texture;
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
-use bins::{Bins, NOTHING};
+use bins::{Bins, NOTHING, PLAIN};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use fill::{CENTER, Sample, Visible, fill};
 use glam::{Affine3A, Vec3};
-use light::{Haze, Light, Lit};
+use light::{Haze, Light, Sight};
 use mesh::Mesh;
 use project::Projection;
-use shade::{Context, Fragments, Samples};
-use shadow::{DepthMap, Key};
-use std::sync::{Arc, Mutex, PoisonError};
+use shade::{Context, Queue, collect, flush};
+use shadow::{DepthMap, Key, Plan};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use triangle::{Piece, SUB, Setup};
 
 /// A mesh in the world.
@@ -48,9 +48,16 @@ pub struct Body {
 impl Body {
     /// A mesh of at most 8,192 faces where `place` takes it: turned, moved, scaled alike in all directions.
     pub fn new(mesh: Arc<Mesh>, place: Affine3A) -> Body {
-        let (center, radius) = mesh.bound();
+        let mut body = Body { mesh, place, bound: (Vec3::ZERO, 0.0) };
+        body.put(place);
+        body
+    }
+
+    /// Takes it to another place.
+    pub fn put(&mut self, place: Affine3A) {
+        let (center, radius) = self.mesh.bound();
         let scale = place.matrix3.x_axis.length();
-        Body { bound: (place.transform_point3(center), radius * scale), mesh, place }
+        (self.bound, self.place) = ((place.transform_point3(center), radius * scale), place);
     }
 }
 
@@ -61,6 +68,10 @@ impl PartialEq for Body {
     }
 }
 
+/// Are the bench scenes there? What they alone ask for, the intro does without: a background, light without film, lookups
+/// of depth maps in which each texel counts alike.
+const BENCH: bool = cfg!(feature = "bench-scenes");
+
 /// All that the rasterizer draws.
 #[derive(Clone)]
 pub struct World {
@@ -68,7 +79,7 @@ pub struct World {
     pub bodies: Vec<Body>,
     /// The textures that paints name: at most 15.
     pub textures: Vec<Texture>,
-    /// The lights: up to 32 reach one place.
+    /// The lights.
     pub lights: Vec<Light>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
@@ -77,8 +88,9 @@ pub struct World {
     /// The sky straight above, for gloss.
     pub zenith: Vec3,
     /// Is light squeezed by `1 - exp(-light)`, as on film? Haze and zenith are taken to be so already.
+    /// Always, in a build without the bench scenes.
     pub film: bool,
-    /// What is behind all, if the raster is to fill it.
+    /// What is behind all, if the raster is to fill it; never, in a build without the bench scenes.
     pub background: Option<Vec3>,
 }
 
@@ -98,47 +110,51 @@ pub struct Drawn {
     quality: Quality,
     /// The camera's, then those of lights that have no map from an earlier frame.
     rasters: Vec<Raster>,
-    lights: Vec<Lit>,
+    /// What each light sees.
+    sights: Vec<Sight>,
 }
 
 impl Drawn {
     /// Prepares a picture of `width` x `height` pixels.
     pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> Drawn {
         let size = [width as u32, height as u32];
-        Drawn { world, view, size, quality, rasters: Vec::new(), lights: Vec::new() }
+        Drawn { world, view, size, quality, rasters: Vec::new(), sights: Vec::new() }
     }
 
     /// Draws a tile; returns the number of fragments.
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let Drawn { world, view, rasters, lights, quality, .. } = self;
-        let context = Context { world, lights, rasters, view };
-        let count = if quality.grid > 1 { 1 } else { quality.coverage };
-        scratch.visible.resize_with(count.max(scratch.visible.len()), Visible::new);
-        let visible = &mut scratch.visible[..count];
+        let Drawn { world, view, rasters, sights, quality, .. } = self;
+        let grid = quality.grid as u32;
+        let count = if grid > 1 { 1 } else { quality.coverage };
+        let Scratch { planes, queues } = scratch;
+        let planes = &mut planes[..count];
         let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
         tile.clear();
         tile.coverage.fill(0.0);
         tile.closeness.fill(0.0);
-        let share = 1.0 / (quality.grid * quality.grid * count) as u32 as f32;
+        let share = 1.0 / (grid * grid * count as u32) as f32;
+        let context = Context { world, sights, rasters, view, share };
         let mut fragments = 0;
         if !ids.is_empty() {
-            for pass in 0..quality.grid * quality.grid {
-                let mut samples = [CENTER; 16];
-                for (k, (plane, sample)) in visible.iter_mut().zip(&mut samples).enumerate() {
-                    *sample = match quality.grid {
-                        1 => spread(k, count),
-                        grid => [pass % grid, pass / grid].map(|n| ((2 * n + 1) * SUB as usize / (2 * grid)) as i32),
+            for pass in 0..grid * grid {
+                for (k, (visible, place)) in planes.iter_mut().enumerate() {
+                    *place = match grid {
+                        1 => spread(k as u32, count as u32),
+                        _ => cell([pass % grid, pass / grid], grid),
                     };
-                    plane.clear(0.0);
-                    fill(simd, &rasters[0].pieces, ids, tile.x as i32, tile.y as i32, *sample, plane);
+                    visible.clear(0.0);
+                    fill(simd, &rasters[0].pieces, ids, tile.x as i32, tile.y as i32, *place, visible);
                 }
-                let samples = Samples { visible, places: &samples[..count], share };
-                fragments += scratch.fragments.collect(simd, &context, &samples, tile);
+                fragments += collect(simd, &context, planes, queues, tile);
             }
-            scratch.fragments.finish(simd, &context, tile);
+            for (texture, queue) in queues.iter_mut().enumerate() {
+                if queue.count > 0 {
+                    flush(simd, &context, texture, queue, tile);
+                }
+            }
         }
-        if let Some(color) = world.background {
+        if BENCH && let Some(color) = world.background {
             behind(simd, color, tile);
         }
         fragments
@@ -163,16 +179,20 @@ fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
 }
 
 /// Where sample `k` of `n` lies in a pixel: one in each row and column of an `n` x `n` grid, spread like a lattice.
-fn spread(k: usize, n: usize) -> Sample {
-    let step = SUB as usize / n;
-    let multiplier = [1, 2, 2, 5][n.ilog2().min(3) as usize];
-    let row = multiplier * (k + 1) % (n + 1) - 1;
-    [k, row].map(|cell| (cell * step + step / 2) as i32)
+fn spread(k: u32, n: u32) -> Sample {
+    let multiplier = if n == 4 { 2 } else { 5 };
+    cell([k, multiplier * (k + 1) % (n + 1) - 1], n)
+}
+
+/// The middle of a cell in a grid of `n` x `n`.
+fn cell(at: [u32; 2], n: u32) -> Sample {
+    at.map(|at| ((2 * at + 1) * (SUB as u32 / 2) / n) as i32)
 }
 
 impl Visible {
+    /// To be cleared: what is not used takes no memory.
     fn new() -> Visible {
-        Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) }
+        Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
     }
 
     /// Nothing is visible, at that nearness.
@@ -183,94 +203,111 @@ impl Visible {
 }
 
 /// Memory that a tile needs.
-#[derive(Default)]
 struct Scratch {
-    visible: Vec<Visible>,
-    fragments: Fragments,
+    /// What is visible at each sample, and where that lies in a pixel.
+    planes: Vec<(Visible, Sample)>,
+    /// By texture.
+    queues: Vec<Queue>,
+}
+
+impl Scratch {
+    fn new() -> Scratch {
+        Scratch {
+            planes: (0..16).map(|_| (Visible::new(), CENTER)).collect(),
+            queues: vec![Queue::EMPTY; PLAIN as usize + 1],
+        }
+    }
 }
 
 /// Memory that tiles leave to the next ones, as much as threads have needed at a time.
 static SPARE: Mutex<Vec<Scratch>> = Mutex::new(Vec::new());
 
-fn with_scratch<T>(work: impl FnOnce(&mut Scratch) -> T) -> T {
-    let take = || SPARE.lock().unwrap_or_else(PoisonError::into_inner).pop();
-    let mut scratch = take().unwrap_or_default();
-    let done = work(&mut scratch);
-    SPARE.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
-    done
+fn spare() -> MutexGuard<'static, Vec<Scratch>> {
+    SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
-        let Drawn { world, rasters, lights, .. } = self;
-        let raster = |projection, back_faces, shaded| Raster {
-            setup: Setup { projection, back_faces, shaded },
-            pieces: world.bodies.iter().map(|_| Piece::default()).collect(),
-            bins: Bins::default(),
-        };
-        rasters.push(raster(Projection::of_view(&self.view, self.size), false, true));
+        let Drawn { world, rasters, sights, .. } = self;
+        let bodies = &world.bodies;
+        add(rasters, &Projection::of_view(&self.view, self.size), false, true, bodies.len());
         let mut missing = Vec::new();
         for (slot, light) in world.lights.iter().enumerate() {
-            let mut lit = Lit::new(light.clone(), rasters.len());
-            if let Some(plan) = &lit.light.shadow {
-                let casters = world.bodies.iter().filter(|body| lit.reaches(body.bound.0, body.bound.1)).cloned();
-                let key = Key { slot, plan: plan.clone(), casters: casters.collect() };
-                match shadow::recall(&key) {
-                    Ok(map) => lit.map = Some(map),
+            let mut sight = Sight { map: None, first: rasters.len() };
+            if let Some(&Plan { ref views, back_faces, traced, .. }) = light.plan() {
+                let mut key = Key { slot, views: views.clone(), back_faces, casters: Vec::new() };
+                for body in bodies {
+                    if light.reaches(body.bound.0, body.bound.1) {
+                        key.casters.push(body.clone());
+                    }
+                }
+                // What is traced has no map, though another frame may have kept one of the same views.
+                let kept = if traced { Err(DepthMap::default()) } else { shadow::recall(&key) };
+                match kept {
+                    Ok(map) => sight.map = Some(map),
                     Err(map) => {
-                        rasters.extend(plan.views.iter().map(|view| raster(*view, plan.back_faces, false)));
-                        if !plan.traced {
+                        for view in views {
+                            add(rasters, view, back_faces, false, bodies.len());
+                        }
+                        if !traced {
                             missing.push((key, map));
                         }
                     }
                 }
             }
-            lights.push(lit);
+            sights.push(sight);
         }
-        let jobs = rasters.iter_mut().flat_map(|Raster { setup, pieces, .. }| {
-            let setup = &*setup;
-            pieces.iter_mut().zip(&world.bodies).map(move |(piece, body)| (setup, piece, body))
-        });
-        crew.each(jobs, |(setup, piece, body)| {
-            if !setup.projection.misses(body.bound.0, body.bound.1) {
-                *piece = setup.piece(&body.mesh, &body.place);
+        let mut jobs = Vec::new();
+        for Raster { setup, pieces, .. } in rasters.iter_mut() {
+            for (piece, body) in pieces.iter_mut().zip(bodies) {
+                if !setup.projection.misses(body.bound.0, body.bound.1) {
+                    jobs.push((&*setup, piece, body));
+                }
             }
-        });
+        }
+        crew.each(jobs.iter_mut(), |(setup, piece, body)| **piece = setup.piece(&body.mesh, &body.place));
         crew.each(rasters.iter_mut(), |raster| {
             raster.bins = Bins::new(&raster.pieces, raster.setup.projection.size);
         });
-        for (key, mut map) in missing {
-            let lit = &mut lights[key.slot];
-            map.resize(key.plan.views[0].size[0] as usize, key.plan.views.len());
-            draw_map(crew, &mut map, &rasters[lit.first..]);
-            lit.map = Some(shadow::keep(key, map));
+        while let Some((key, mut map)) = missing.pop() {
+            let sight = &mut sights[key.slot];
+            map.resize(key.views[0].size[0] as usize, key.views.len());
+            draw_map(crew, &mut map, &rasters[sight.first..]);
+            sight.map = Some(shadow::keep(key, map));
         }
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let samples = with_scratch(|scratch| dispatch!(level, simd => self.draw_in(simd, tile, scratch)));
+        let mut scratch = spare().pop().unwrap_or_else(Scratch::new);
+        let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
+        spare().push(scratch);
         Stats { samples }
     }
+}
+
+/// Adds a raster, still empty, for that many bodies.
+fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool, bodies: usize) {
+    let setup = Setup { projection: *projection, back_faces, shaded };
+    let pieces = (0..bodies).map(|_| Piece::default()).collect();
+    rasters.push(Raster { setup, pieces, bins: Bins::default() });
 }
 
 /// Draws the depths of triangles, a row of tiles at a time.
 fn draw_map(crew: &Crew, map: &mut DepthMap, rasters: &[Raster]) {
     let (size, level) = (map.size, crew.level());
     crew.each(map.bands().enumerate(), |(index, texels)| {
-        let (view, band) = (index * Tile::SIZE / size, index % (size / Tile::SIZE));
-        let Raster { pieces, bins, .. } = &rasters[view];
-        with_scratch(|scratch| {
-            scratch.visible.resize_with(scratch.visible.len().max(1), Visible::new);
-            let visible = &mut scratch.visible[0];
-            for x in (0..size).step_by(Tile::SIZE) {
-                let ids = bins.of(x / Tile::SIZE, band);
-                visible.clear(shadow::NOTHING);
-                let y = (band * Tile::SIZE) as i32;
-                dispatch!(level, simd => fill(simd, pieces, ids, x as i32, y, CENTER, visible));
-                for (from, to) in visible.nearness.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
-                    to[x..][..Tile::SIZE].copy_from_slice(from);
-                }
+        // In 32 bits, as division of more takes several times the code.
+        let (index, bands) = (index as u32, (size / Tile::SIZE) as u32);
+        let (Raster { pieces, bins, .. }, band) = (&rasters[(index / bands) as usize], (index % bands) as usize);
+        let mut visible = Visible::new();
+        for x in (0..size).step_by(Tile::SIZE) {
+            let ids = bins.of(x / Tile::SIZE, band);
+            visible.clear(shadow::NOTHING);
+            let y = (band * Tile::SIZE) as i32;
+            dispatch!(level, simd => fill(simd, pieces, ids, x as i32, y, CENTER, &mut visible));
+            for (from, to) in visible.nearness.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
+                to[x..][..Tile::SIZE].copy_from_slice(from);
             }
-        });
+        }
     });
 }

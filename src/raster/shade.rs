@@ -1,10 +1,10 @@
 //! From what is visible in a tile to light: fragments wait until a block of one texture is full, and each is shaded once.
 
-use super::bins::{Id, NOTHING, PLAIN, TEXTURE, parts};
-use super::fill::{CENTER, STEPS, Sample, Visible};
-use super::light::Lit;
-use super::triangle::{Plane, SUB};
-use super::{Raster, World};
+use super::bins::{Id, NOTHING, TEXTURE, parts};
+use super::fill::{STEPS, Sample, Visible};
+use super::light::{Light, Sight};
+use super::triangle::{SUB, Triangle};
+use super::{BENCH, Raster, World};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{Bits, F, Lane, U, V3};
 use crate::math;
@@ -17,184 +17,153 @@ use glam::Vec3;
 
 /// What shading reads of the frame.
 pub struct Context<'a> {
-    /// Materials, haze.
+    /// Materials, lights, haze.
     pub world: &'a World,
-    /// Lights with their maps.
-    pub lights: &'a [Lit],
+    /// What each light sees.
+    pub sights: &'a [Sight],
     /// The camera's raster, and those of lights.
     pub rasters: &'a [Raster],
     /// The camera.
     pub view: &'a View,
+    /// What a sample counts, of its pixel.
+    pub share: f32,
 }
 
 /// Nearness of the farthest: beyond, squares of distances are infinite.
 const FARTHEST: f32 = 1e-18;
 
-/// Room for a block, and for the vector that fills it up.
-const ROOM: usize = 2 * BLOCK;
-
-/// Parts of pixels that show one triangle each.
+/// Fragments that wait: parts of pixels that show one triangle each, all of one texture.
 #[derive(Clone)]
-struct Queue {
-    count: usize,
-    pixel: [u32; ROOM],
-    id: [Id; ROOM],
+pub struct Queue {
+    /// How many.
+    pub count: usize,
+    /// The pixel's index in its tile; from bit 12 on where in the pixel it is looked at along x, steps of 1/256, from bit
+    /// 20 on along y; from bit 28 on the number of its samples, less one.
+    place: [u32; BLOCK],
+    id: [Id; BLOCK],
+    // What they show: here, and not on the stack, it need not be cleared.
+    point: Block3,
+    normal: Block3,
+    albedo: Block3,
+    light: Block3,
+    /// The length of the pixel on the surface, metres.
+    footprint: [f32; BLOCK],
+    gloss: [f32; BLOCK],
+    nearness: [f32; BLOCK],
     /// Share of the pixel.
-    weight: [f32; ROOM],
-    /// Where it is looked at, pixels from the picture's top left.
-    x: [f32; ROOM],
-    y: [f32; ROOM],
+    weight: [f32; BLOCK],
 }
 
-const EMPTY: Queue =
-    Queue { count: 0, pixel: [0; ROOM], id: [0; ROOM], weight: [0.0; ROOM], x: [0.0; ROOM], y: [0.0; ROOM] };
+impl Queue {
+    /// No fragments.
+    pub const EMPTY: Queue = Queue {
+        count: 0,
+        place: [0; BLOCK],
+        id: [0; BLOCK],
+        point: [[0.0; BLOCK]; 3],
+        normal: [[0.0; BLOCK]; 3],
+        albedo: [[0.0; BLOCK]; 3],
+        light: [[0.0; BLOCK]; 3],
+        footprint: [0.0; BLOCK],
+        gloss: [0.0; BLOCK],
+        nearness: [0.0; BLOCK],
+        weight: [0.0; BLOCK],
+    };
+}
 
-/// The first block of a queue's array.
+/// A fragment of that many samples at the mean of `sum`, which is the sum of their places, in pixel 0.
+fn fragment(samples: i32, [x, y]: Sample) -> u32 {
+    ((samples - 1) << 28 | (y / samples) << 20 | (x / samples) << 12) as u32
+}
+
+/// Adds what the samples of a tile's pixels show, each sample at its place in a pixel, to the queues by the texture in
+/// their [`Id`]s; returns the number of fragments.
 #[inline(always)]
-fn head<T>(room: &[T; ROOM]) -> &[T; BLOCK] {
-    &room.as_chunks().0[0]
-}
-
-/// Fragments of a tile, by the texture in their [`Id`].
-#[derive(Default)]
-pub struct Fragments {
-    queues: Vec<Queue>,
-}
-
-/// Where and how a tile's samples are turned into fragments.
-pub struct Samples<'a> {
-    /// What is visible at each.
-    pub visible: &'a [Visible],
-    /// Where they lie in a pixel.
-    pub places: &'a [Sample],
-    /// What one of them counts.
-    pub share: f32,
-}
-
-impl Fragments {
-    /// Adds what the samples of a tile's pixels show; returns the number of fragments.
-    #[inline(always)]
-    pub fn collect<S: Simd>(&mut self, simd: S, context: &Context, samples: &Samples, tile: &mut Tile) -> u64 {
-        let lanes = F::<S>::LEN;
-        self.queues.resize(PLAIN as usize + 1, EMPTY);
-        let (first, others) = samples.visible.split_at(1);
-        // Where all samples show the same, the pixel is looked at in its middle.
-        let place = if others.is_empty() { samples.places[0] } else { CENTER };
-        let whole = samples.share * samples.places.len() as u32 as f32;
-        let steps: F<S> = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>().to_float();
-        let steps = steps + place[0] as f32 * (1.0 / SUB as f32);
-        let mut count = 0;
-        for row in 0..tile.height {
-            let y = (tile.y + row) as u32 as f32 + place[1] as f32 * (1.0 / SUB as f32);
-            let mut column = 0;
-            while column < tile.width {
-                let at = row * Tile::SIZE + column;
-                let ids = U::<S>::from_slice(simd, &first[0].id[at..at + lanes]);
-                let mut same = ids.simd_eq(ids);
-                for other in others {
-                    same &= ids.simd_eq(U::<S>::from_slice(simd, &other.id[at..at + lanes]));
-                }
-                let empty = ids.simd_eq(NOTHING);
-                let full = same & !empty;
-                let texture = first[0].id[at] >> TEXTURE;
-                let left = column;
-                column += lanes;
-                if column <= tile.width && (full & (ids >> TEXTURE).simd_eq(texture)).all_true() {
-                    let queue = &mut self.queues[texture as usize];
-                    let end = queue.count..queue.count + lanes;
-                    let pixels = S::u32s::from_slice(simd, &STEPS[..lanes]) + at as u32;
-                    pixels.store_slice(&mut queue.pixel[end.clone()]);
-                    ids.store_slice(&mut queue.id[end.clone()]);
-                    F::<S>::splat(simd, whole).store_slice(&mut queue.weight[end.clone()]);
-                    (steps + (tile.x + left) as u32 as f32).store_slice(&mut queue.x[end.clone()]);
-                    F::<S>::splat(simd, y).store_slice(&mut queue.y[end]);
-                    queue.count += lanes;
-                    count += lanes as u64;
-                    if queue.count >= BLOCK {
-                        flush(simd, context, texture as usize, queue, tile);
-                    }
-                    continue;
-                }
-                let full = full.to_bitmask();
-                let in_use = (1 << lanes.min(tile.width - left)) - 1;
-                for lane in Bits(!(same & empty).to_bitmask() & in_use) {
-                    let id = first[0].id[at + lane];
-                    if full >> lane & 1 != 0 {
-                        self.push(simd, context, at + lane, id, whole, place, tile);
-                        count += 1;
-                    } else {
-                        count += self.several(simd, context, samples, at + lane, tile);
-                    }
-                }
-            }
-        }
-        count
+pub fn collect<S: Simd>(
+    simd: S,
+    context: &Context,
+    planes: &[(Visible, Sample)],
+    queues: &mut [Queue],
+    tile: &mut Tile,
+) -> u64 {
+    let lanes = F::<S>::LEN;
+    let mut sum = [0, 0];
+    for (_, place) in planes {
+        sum = [sum[0] + place[0], sum[1] + place[1]];
     }
-
-    /// Adds the triangles of a pixel whose samples show more than one, each where its samples are on the mean.
-    #[inline(never)]
-    fn several<S: Simd>(
-        &mut self,
-        simd: S,
-        context: &Context,
-        samples: &Samples,
-        pixel: usize,
-        tile: &mut Tile,
-    ) -> u64 {
-        let visible = samples.visible;
-        let mut count = 0;
-        for (first, plane) in visible.iter().enumerate() {
-            let id = plane.id[pixel];
-            if id == NOTHING || visible[..first].iter().any(|earlier| earlier.id[pixel] == id) {
+    // Where all samples show the same.
+    let whole = S::u32s::from_slice(simd, &STEPS[..lanes]) + fragment(planes.len() as i32, sum);
+    let mut fragments = 0;
+    for row in 0..tile.height {
+        let mut column = 0;
+        while column < tile.width {
+            let at = row * Tile::SIZE + column;
+            let first = &planes[0].0.id[at..at + lanes];
+            let ids = U::<S>::from_slice(simd, first);
+            let mut same = ids.simd_eq(ids);
+            for (other, _) in &planes[1..] {
+                same &= ids.simd_eq(U::<S>::from_slice(simd, &other.id[at..at + lanes]));
+            }
+            let empty = ids.simd_eq(NOTHING);
+            let texture = first[0] >> TEXTURE;
+            let alike = same & !empty & (ids >> TEXTURE).simd_eq(texture);
+            let queue = &mut queues[texture as usize];
+            let end = queue.count..queue.count + lanes;
+            let left = tile.width - column;
+            column += lanes;
+            if lanes <= left && end.end <= BLOCK && alike.all_true() {
+                (whole + at as u32).store_slice(&mut queue.place[end.clone()]);
+                ids.store_slice(&mut queue.id[end.clone()]);
+                queue.count = end.end;
+                fragments += lanes as u64;
+                if queue.count == BLOCK {
+                    flush(simd, context, texture as usize, queue, tile);
+                }
                 continue;
             }
-            let (mut met, mut x, mut y) = (0, 0, 0);
-            for (plane, place) in visible.iter().zip(samples.places).skip(first) {
-                if plane.id[pixel] == id {
-                    (met, x, y) = (met + 1, x + place[0], y + place[1]);
-                }
+            let in_use = (1 << lanes.min(left)) - 1;
+            for lane in Bits(!(same & empty).to_bitmask() & in_use) {
+                fragments += several(simd, context, planes, at + lane, queues, tile);
             }
-            self.push(simd, context, pixel, id, samples.share * met as f32, [x / met, y / met], tile);
-            count += 1;
         }
-        count
     }
+    fragments
+}
 
-    /// Adds a fragment at `place` in its pixel.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // A fragment, and what shades it.
-    fn push<S: Simd>(
-        &mut self,
-        simd: S,
-        context: &Context,
-        pixel: usize,
-        id: Id,
-        weight: f32,
-        place: Sample,
-        tile: &mut Tile,
-    ) {
-        let queue = &mut self.queues[(id >> TEXTURE) as usize];
+/// Adds the triangles that a pixel's samples show, each where its samples are on the mean.
+#[inline(never)]
+fn several<S: Simd>(
+    simd: S,
+    context: &Context,
+    planes: &[(Visible, Sample)],
+    pixel: usize,
+    queues: &mut [Queue],
+    tile: &mut Tile,
+) -> u64 {
+    let mut fragments = 0;
+    for (first, (plane, _)) in planes.iter().enumerate() {
+        let id = plane.id[pixel];
+        if id == NOTHING || planes[..first].iter().any(|(earlier, _)| earlier.id[pixel] == id) {
+            continue;
+        }
+        let (mut samples, mut sum) = (0, [0, 0]);
+        for (plane, place) in &planes[first..] {
+            if plane.id[pixel] == id {
+                (samples, sum) = (samples + 1, [sum[0] + place[0], sum[1] + place[1]]);
+            }
+        }
+        let texture = (id >> TEXTURE) as usize;
+        let queue = &mut queues[texture];
         let at = queue.count & (BLOCK - 1);
-        let [x, y] = place.map(|step| step as f32 * (1.0 / SUB as f32));
-        queue.pixel[at] = pixel as u32;
+        queue.place[at] = fragment(samples, sum) + pixel as u32;
         queue.id[at] = id;
-        queue.weight[at] = weight;
-        queue.x[at] = (tile.x + pixel % Tile::SIZE) as u32 as f32 + x;
-        queue.y[at] = (tile.y + pixel / Tile::SIZE) as u32 as f32 + y;
         queue.count = at + 1;
         if queue.count == BLOCK {
-            flush(simd, context, (id >> TEXTURE) as usize, queue, tile);
+            flush(simd, context, texture, queue, tile);
         }
+        fragments += 1;
     }
-
-    /// Shades all that still waits.
-    pub fn finish<S: Simd>(&mut self, simd: S, context: &Context, tile: &mut Tile) {
-        for (texture, queue) in self.queues.iter_mut().enumerate() {
-            if queue.count > 0 {
-                flush(simd, context, texture, queue, tile);
-            }
-        }
-    }
+    fragments
 }
 
 /// How fast the mirrored sky goes from the horizon's colour to the zenith's: half of it in 1 / this of the sine.
@@ -206,33 +175,85 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
     -math::exp2(simd, light * -std::f32::consts::LOG2_E) + 1.0
 }
 
-/// A plane at offsets from its anchor, where `here`.
-#[inline(always)]
-fn at<S: Simd>(plane: &Plane, dx: F<S>, dy: F<S>) -> F<S> {
-    dx * plane.by[0] + dy * plane.by[1] + plane.at
-}
-
 /// Shades a queue and adds its light to its pixels.
 #[simd]
-fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
-    let Context { world, lights, rasters, view } = *context;
-    let pieces = &rasters[0].pieces;
-    let count = queue.count.min(BLOCK);
+pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
+    let Context { world, sights, rasters, .. } = *context;
+    let count = std::mem::take(&mut queue.count);
     // What stands behind the last is left over from others.
-    let (id, x, y) = (queue.id[0], queue.x[0], queue.y[0]);
-    queue.id[count..BLOCK].fill(id);
-    queue.x[count..BLOCK].fill(x);
-    queue.y[count..BLOCK].fill(y);
-    let (mut point, mut normal, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let (mut depth, mut nearness, mut glosses) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-    let mut glossy = false;
-    let one = F::<S>::splat(simd, 1.0);
+    let (place, id) = (queue.place[0], queue.id[0]);
+    queue.place[count..].fill(place);
+    queue.id[count..].fill(id);
+    find(simd, context, [tile.x, tile.y], queue);
+    let lanes = F::<S>::LEN;
+    if let Some(texture) = world.textures.get(texture) {
+        let mut painted = [[0.0; BLOCK]; 3];
+        texture::shade(simd, texture, &queue.point, Some(&queue.footprint), &mut painted);
+        let mut i = 0;
+        while i < BLOCK / lanes {
+            store3(load3(simd, &queue.albedo, i).mulv(load3(simd, &painted, i)), &mut queue.albedo, i);
+            i += 1;
+        }
+    }
     let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
+    let mut i = 0;
+    while i < BLOCK / lanes {
+        let p = load3(simd, &queue.point, i);
+        low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
+        high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };
+        i += 1;
+    }
+    for (light, sight) in world.lights.iter().zip(sights) {
+        if light.meets(simd, low, high) {
+            shine(simd, light, sight, rasters, queue);
+        }
+    }
+    finish(simd, context, queue);
+    // To the pixels, as many at a time as follow each other.
+    let mut i = 0;
+    while i < count {
+        let first = queue.place[i] as usize & (Tile::AREA - 1);
+        let mut run = 1;
+        if i + lanes <= count {
+            let pixels = U::<S>::from_slice(simd, &queue.place[i..i + lanes]) & (Tile::AREA as u32 - 1);
+            let row = U::<S>::from_slice(simd, &STEPS[..lanes]) + first as u32;
+            if pixels.simd_eq(row).all_true() {
+                run = lanes;
+            }
+        }
+        let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.coverage];
+        for (plane, light) in planes.into_iter().zip([&queue.light[0], &queue.light[1], &queue.light[2], &queue.weight])
+        {
+            if run > 1 {
+                let sum = F::<S>::from_slice(simd, &plane[first..first + lanes])
+                    + F::<S>::from_slice(simd, &light[i..i + lanes]);
+                sum.store_slice(&mut plane[first..first + lanes]);
+            } else {
+                plane[first] += light[i];
+            }
+        }
+        for (near, at) in tile.closeness[first..].iter_mut().zip(&queue.nearness[i..i + run]) {
+            *near = near.max(*at);
+        }
+        i += run;
+    }
+}
+
+/// Finds the surfaces of a queue's fragments, in the tile with that corner.
+#[simd]
+#[inline(never)] // Apart, it and the next two have fewer numbers to keep at a time.
+fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Queue) {
+    let Context { world, rasters, view, .. } = *context;
+    let pieces = &rasters[0].pieces;
+    let one = F::<S>::splat(simd, 1.0);
+    let eye = view.camera().eye;
     let lanes = F::<S>::LEN;
     let mut i = 0;
     while i < BLOCK / lanes {
-        let ids: U<S> = load(simd, head(&queue.id), i);
-        let (x, y): (F<S>, F<S>) = (load(simd, head(&queue.x), i), load(simd, head(&queue.y), i));
+        let ids: U<S> = load(simd, &queue.id, i);
+        let places: U<S> = load(simd, &queue.place, i);
+        let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + corner[0] as u32 as f32;
+        let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + corner[1] as u32 as f32;
         let mut n = V3::splat(simd, Vec3::ZERO);
         let mut albedo = n;
         let (mut near, mut gloss) = (one, one);
@@ -242,160 +263,93 @@ fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue,
             let here = ids.simd_eq(U::<S>::splat(simd, id));
             todo &= !here.to_bitmask();
             let (piece, number) = parts(id);
-            let (triangle, surface) = (&pieces[piece].triangles[number], &pieces[piece].surfaces[number]);
-            let (dx, dy) = (x - triangle.anchor[0], y - triangle.anchor[1]);
-            let [nx, ny, nz] = &surface.normal;
-            n = V3::select(here, V3 { x: at::<S>(nx, dx, dy), y: at::<S>(ny, dx, dy), z: at::<S>(nz, dx, dy) }, n);
-            albedo = V3::select(here, V3::splat(simd, surface.paint.albedo), albedo);
-            let z = at::<S>(&triangle.nearness, dx, dy).max(triangle.range[0]).min(triangle.range[1]);
+            let Triangle { anchor, at, by: [along, down], range, paint, .. } = &pieces[piece].triangles[number];
+            let (dx, dy) = (x - anchor[0], y - anchor[1]);
+            let normal = V3 {
+                x: dx * along.x + dy * down.x + at.x,
+                y: dx * along.y + dy * down.y + at.y,
+                z: dx * along.z + dy * down.z + at.z,
+            };
+            n = V3::select(here, normal, n);
+            albedo = V3::select(here, V3::splat(simd, paint.albedo), albedo);
+            let z = (dx * along.w + dy * down.w + at.w).max(range[0]).min(range[1]);
             near = here.select(z, near);
-            gloss = here.select(F::<S>::splat(simd, surface.paint.gloss), gloss);
-            glossy |= surface.paint.gloss > 0.0;
+            gloss = here.select(F::<S>::splat(simd, paint.gloss), gloss);
         }
         let far = one / near.max(F::<S>::splat(simd, FARTHEST));
-        let p = V3::splat(simd, view.camera().eye) + view.rays(simd, x, y) * Lane(far);
-        low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
-        high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };
+        let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
         let n = n * Lane(one / n.dot(n).max(F::<S>::splat(simd, 1e-30)).sqrt());
-        for (block, v) in [(&mut point, p), (&mut normal, n), (&mut color, albedo)] {
-            store(v.x, &mut block[0], i);
-            store(v.y, &mut block[1], i);
-            store(v.z, &mut block[2], i);
-        }
-        store(far, &mut depth, i);
-        store(near, &mut nearness, i);
-        store(gloss, &mut glosses, i);
+        let way = p.sub1(eye);
+        let cosine = way.dot(n).abs() / way.dot(way).sqrt();
+        // Between the pixel's width and its length.
+        let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
+        store(far * stretch * view.pixel(), &mut queue.footprint, i);
+        store3(p, &mut queue.point, i);
+        store3(n, &mut queue.normal, i);
+        store3(albedo, &mut queue.albedo, i);
+        store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut queue.light, i);
+        store(near, &mut queue.nearness, i);
+        store(gloss, &mut queue.gloss, i);
         i += 1;
     }
-    if let Some(texture) = world.textures.get(texture) {
-        paint(simd, texture, &point, &normal, &depth, view, &mut color);
-    }
-    let (low, high) = (lowest(simd, low), -lowest(simd, -high));
-    let mut near = [0u32; 32];
-    let mut reaching = 0;
-    for (index, light) in lights.iter().enumerate() {
-        if light.reaches((low + high) * 0.5, low.distance(high) * 0.5) && reaching < near.len() {
-            near[reaching] = index as u32;
-            reaching += 1;
-        }
-    }
+}
+
+/// Adds what a light gives to a queue.
+#[simd]
+#[inline(never)]
+fn shine<S: Simd>(simd: S, light: &Light, sight: &Sight, rasters: &[Raster], queue: &mut Queue) {
     let mut i = 0;
-    while i < BLOCK / lanes {
-        let (p, n, albedo) = (load3(simd, &point, i), load3(simd, &normal, i), load3(simd, &color, i));
-        let mut light = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
-        let mut k = 0;
-        while k < reaching {
-            light = light + lights[near[k] as usize].at(simd, rasters, p, n);
-            k += 1;
-        }
-        let mut color_here = albedo.mulv(light);
-        let haze = &world.haze;
+    while i < BLOCK / F::<S>::LEN {
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        store3(load3(simd, &queue.light, i) + light.at(simd, sight, rasters, p, n), &mut queue.light, i);
+        i += 1;
+    }
+}
+
+/// From light on surfaces to light that is seen, by what their pixels have of it.
+#[simd]
+#[inline(never)]
+fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
+    let Context { world, view, share, .. } = *context;
+    let haze = &world.haze;
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let mut i = 0;
+    while i < BLOCK / F::<S>::LEN {
+        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        let mut color = load3(simd, &queue.albedo, i).mulv(load3(simd, &queue.light, i));
         let way = p.sub1(view.camera().eye);
         let distance = way.dot(way).sqrt();
         let way = way * Lane(one / distance);
-        if glossy {
+        let gloss: F<S> = load(simd, &queue.gloss, i);
+        if gloss.simd_gt(zero).any_true() {
             let cosine = way.dot(n);
             let mirrored = way - n * Lane(cosine + cosine);
             let (horizon, sun) = haze.at(simd, mirrored);
-            let height = one - math::exp2(simd, mirrored.y.max(F::<S>::splat(simd, 0.0)) * -RISE);
+            let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
             let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
             // Schlick's approximation.
             let rest = one - cosine.abs().min(one);
             let grazing = rest * rest;
             let grazing = grazing * grazing * rest;
-            let gloss = load::<S, F<S>>(simd, &glosses, i) * (grazing * 0.95 + 0.05);
-            color_here = color_here + (sky - color_here) * Lane(gloss);
+            color = color + (sky - color) * Lane(gloss * (grazing * 0.95 + 0.05));
         }
-        if world.film {
-            color_here = V3 { x: film(simd, color_here.x), y: film(simd, color_here.y), z: film(simd, color_here.z) };
+        if world.film || !BENCH {
+            color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
         let before = haze.at(simd, way).0;
-        let seen = before + (color_here - before) * Lane(clear);
-        let seen = seen * Lane(load(simd, head(&queue.weight), i));
-        store(seen.x, &mut color[0], i);
-        store(seen.y, &mut color[1], i);
-        store(seen.z, &mut color[2], i);
+        let samples = (load::<S, U<S>>(simd, &queue.place, i) >> 28) + 1;
+        let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
+        store3((before + (color - before) * Lane(clear)) * Lane(weight), &mut queue.light, i);
+        store(weight, &mut queue.weight, i);
         i += 1;
-    }
-    add(simd, queue, count, &color, &nearness, tile);
-    queue.count -= count;
-    if queue.count > 0 {
-        // What the vector that filled the block up left over.
-        let rest = BLOCK..BLOCK + lanes;
-        queue.pixel.copy_within(rest.clone(), 0);
-        queue.id.copy_within(rest.clone(), 0);
-        queue.weight.copy_within(rest.clone(), 0);
-        queue.x.copy_within(rest.clone(), 0);
-        queue.y.copy_within(rest, 0);
     }
 }
 
-/// Adds the light of the first `count` fragments to their pixels.
+/// Steps of 1/256 as a number.
 #[inline(always)]
-fn add<S: Simd>(simd: S, queue: &Queue, count: usize, color: &Block3, nearness: &[f32; BLOCK], tile: &mut Tile) {
-    let lanes = F::<S>::LEN;
-    let steps = U::<S>::from_slice(simd, &STEPS[..lanes]);
-    let mut i = 0;
-    while i < count {
-        let first = queue.pixel[i] as usize & (Tile::AREA - 1);
-        let pixels = U::<S>::from_slice(simd, &queue.pixel[i..i + lanes]);
-        if i + lanes <= count && pixels.simd_eq(steps + first as u32).all_true() {
-            let at = first..first + lanes;
-            let planes = [&mut tile.red, &mut tile.green, &mut tile.blue, &mut tile.coverage];
-            for (plane, light) in planes.into_iter().zip([&color[0][..], &color[1], &color[2], &queue.weight]) {
-                let sum = F::<S>::from_slice(simd, &plane[at.clone()]) + F::<S>::from_slice(simd, &light[i..i + lanes]);
-                sum.store_slice(&mut plane[at.clone()]);
-            }
-            let plane = &mut tile.closeness[at];
-            let near = F::<S>::from_slice(simd, &nearness[i..i + lanes]);
-            F::<S>::from_slice(simd, plane).max(near).store_slice(plane);
-        } else {
-            for j in i..count.min(i + lanes) {
-                let pixel = queue.pixel[j] as usize & (Tile::AREA - 1);
-                tile.red[pixel] += color[0][j];
-                tile.green[pixel] += color[1][j];
-                tile.blue[pixel] += color[2][j];
-                tile.coverage[pixel] += queue.weight[j];
-                tile.closeness[pixel] = tile.closeness[pixel].max(nearness[j]);
-            }
-        }
-        i += lanes;
-    }
-}
-
-/// Multiplies albedos by a texture, averaged over the length of each pixel on the surface.
-#[inline(always)]
-fn paint<S: Simd>(
-    simd: S,
-    texture: &texture::Texture,
-    point: &Block3,
-    normal: &Block3,
-    depth: &[f32; BLOCK],
-    view: &View,
-    color: &mut Block3,
-) {
-    let mut footprint = [0.0; BLOCK];
-    let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (load3(simd, point, i), load3(simd, normal, i));
-        let way = p.sub1(view.camera().eye);
-        let cosine = way.dot(n).abs() / way.dot(way).sqrt();
-        // Between the pixel's width and its length.
-        let stretch = F::<S>::splat(simd, 1.0) / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
-        store(load::<S, F<S>>(simd, depth, i) * stretch * view.pixel(), &mut footprint, i);
-        i += 1;
-    }
-    let mut painted = [[0.0; BLOCK]; 3];
-    texture::shade(simd, texture, point, Some(&footprint), &mut painted);
-    for channel in 0..3 {
-        let mut i = 0;
-        while i < BLOCK / F::<S>::LEN {
-            let albedo: F<S> = load(simd, &color[channel], i);
-            store(albedo * load::<S, F<S>>(simd, &painted[channel], i), &mut color[channel], i);
-            i += 1;
-        }
-    }
+fn steps<S: Simd>(_simd: S, steps: U<S>) -> F<S> {
+    steps.bitcast::<S::i32s>().to_float::<F<S>>() * (1.0 / SUB as f32)
 }
 
 /// Vector `i` of a block.
@@ -404,14 +358,10 @@ fn load3<S: Simd>(simd: S, block: &Block3, i: usize) -> V3<S> {
     V3 { x: load(simd, &block[0], i), y: load(simd, &block[1], i), z: load(simd, &block[2], i) }
 }
 
-/// The least of each component over the lanes.
+/// Writes vector `i` of a block.
 #[inline(always)]
-fn lowest<S: Simd>(_simd: S, v: V3<S>) -> Vec3 {
-    let mut least = Vec3::INFINITY;
-    for (axis, lanes) in [v.x, v.y, v.z].iter().enumerate() {
-        for &value in lanes.as_slice() {
-            least[axis] = least[axis].min(value);
-        }
-    }
-    least
+fn store3<S: Simd>(v: V3<S>, block: &mut Block3, i: usize) {
+    store(v.x, &mut block[0], i);
+    store(v.y, &mut block[1], i);
+    store(v.z, &mut block[2], i);
 }

@@ -3,8 +3,8 @@
 //! L. Williams, "Casting curved shadows on curved surfaces", 1978; percentage-closer filtering after W. Reeves,
 //! D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", 1987.
 
-use super::Body;
 use super::project::Projection;
+use super::{BENCH, Body};
 use crate::lanes::{Bits, F, M};
 use crate::tile::Tile;
 use fearless_simd::f32x4;
@@ -41,7 +41,8 @@ pub struct Plan {
     pub back_faces: bool,
     /// Are shadows traced, without a map? The views then only sort triangles, and the bias is a part of what it says.
     pub traced: bool,
-    /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike.
+    /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike,
+    /// which a build without the bench scenes leaves out.
     pub smooth: bool,
 }
 
@@ -64,7 +65,10 @@ impl DepthMap {
     pub fn resize(&mut self, size: usize, views: usize) {
         assert!(size.is_multiple_of(Tile::SIZE));
         self.size = size;
-        self.texels.resize((views * size + 1) * size + SLACK, 0.0);
+        let texels = (views * size + 1) * size + SLACK;
+        if self.texels.len() != texels {
+            self.texels = vec![0.0; texels];
+        }
     }
 
     /// All views cut into rows of tiles, one view after the other.
@@ -96,6 +100,7 @@ impl DepthMap {
     ) -> F<S> {
         let (size, lanes) = (self.size, F::<S>::LEN);
         // Smooth, the 3x3 texels are a window that meets 4x4.
+        let smooth = smooth || !BENCH;
         let shift = if smooth { 1.5 } else { 1.0 };
         let end = (size - 3) as u32 as f32;
         let zero = F::<S>::splat(simd, 0.0);
@@ -141,12 +146,14 @@ impl DepthMap {
 }
 
 /// What a depth map shows: maps of equal keys are equal.
-#[derive(Clone, PartialEq)]
+#[derive(PartialEq)]
 pub struct Key {
     /// The light's place in the world's list: each place keeps one map.
     pub slot: usize,
-    /// What it sees.
-    pub plan: Plan,
+    /// As in its [`Plan`].
+    pub views: Vec<Projection>,
+    /// As in its [`Plan`].
+    pub back_faces: bool,
     /// What stands there. Bodies hold their meshes, so that none can come to lie where another was.
     pub casters: Vec<Body>,
 }

@@ -3,7 +3,7 @@
 
 use super::Raster;
 use super::bins::parts;
-use super::triangle::{Plane, SUB};
+use super::triangle::SUB;
 use crate::tile::Tile;
 
 /// Is a point at (`x`, `y`) in a raster, of that nearness, behind a triangle? The point lies in the raster.
@@ -14,10 +14,6 @@ pub fn hides(raster: &Raster, x: f32, y: f32, nearness: f32) -> bool {
         let (piece, number) = parts(id);
         let t = &raster.pieces[piece].triangles[number];
         let inside = |&(a, b, c): &(i32, i32, i64)| a as f64 * sx + b as f64 * sy + c as f64 >= 0.0;
-        t.edges.iter().all(inside) && {
-            let Plane { at, by } = t.nearness;
-            let near = at + by[0] * (x - t.anchor[0]) + by[1] * (y - t.anchor[1]);
-            near.clamp(t.range[0], t.range[1]) > nearness
-        }
+        t.edges.iter().all(inside) && t.nearness(x, y) > nearness
     })
 }

@@ -1,9 +1,9 @@
 //! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
 
-use super::bins::{MOST, PLAIN};
+use super::bins::MOST;
 use super::mesh::{Mesh, Paint};
-use super::project::Projection;
-use glam::{Affine3A, Vec3, Vec4};
+use super::project::{NEAR, Projection};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 /// Steps of a pixel to which corners are snapped, in each direction.
 pub const SUB: i32 = 256;
@@ -11,15 +11,6 @@ pub const SUB: i32 = 256;
 const GUARD: f32 = 16384.0;
 /// How far clipped corners may lie beyond that: edges still fit.
 const SLACK: f32 = GUARD / 128.0;
-
-/// A value that is affine over the raster.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Plane {
-    /// At the triangle's anchor.
-    pub at: f32,
-    /// Change a pixel along x and along y.
-    pub by: [f32; 2],
-}
 
 /// A triangle that faces the eye.
 #[derive(Clone, Copy, Debug)]
@@ -30,21 +21,23 @@ pub struct Triangle {
     pub bound: [i32; 4],
     /// Where planes have their values, pixels.
     pub anchor: [f32; 2],
-    /// Nearness.
-    pub nearness: Plane,
-    /// Index of the world's texture, or [`PLAIN`].
-    pub texture: u32,
+    /// There, the components of the normal in the world, of any length, and nearness. Normals are 0 where nothing is
+    /// shaded.
+    pub at: Vec4,
+    /// Their change a pixel along x and along y: they are affine over the raster.
+    pub by: [Vec4; 2],
     /// Nearness of the farthest and of the nearest corner: on slivers the plane leaves them.
     pub range: [f32; 2],
-}
-
-/// What the shading of a triangle needs.
-#[derive(Clone, Copy, Debug)]
-pub struct Surface {
-    /// Components of the normal in the world, of any length.
-    pub normal: [Plane; 3],
     /// What it is painted with.
     pub paint: Paint,
+}
+
+impl Triangle {
+    /// Nearness at a point of the raster, pixels.
+    pub fn nearness(&self, x: f32, y: f32) -> f32 {
+        let near = self.at.w + self.by[0].w * (x - self.anchor[0]) + self.by[1].w * (y - self.anchor[1]);
+        near.clamp(self.range[0], self.range[1])
+    }
 }
 
 /// One body in one raster.
@@ -52,31 +45,22 @@ pub struct Surface {
 pub struct Piece {
     /// Its visible triangles.
     pub triangles: Vec<Triangle>,
-    /// Their surfaces; none in depth maps.
-    pub surfaces: Vec<Surface>,
 }
 
-/// What depth maps are painted with.
-const NO_PAINT: Paint = Paint { albedo: Vec3::ZERO, texture: None, gloss: 0.0 };
-
-/// A corner before it is snapped.
+/// A corner of a triangle.
 #[derive(Clone, Copy)]
 struct Corner {
     /// Homogeneous pixels.
     h: Vec4,
     /// Normal in the world, of any length.
-    normal: Vec3,
-}
-
-/// A corner on the raster.
-#[derive(Clone, Copy, Default)]
-struct Snapped {
-    /// In steps of [`SUB`].
+    normal: Vec3A,
+    /// From the planes that must be clipped at, signed, in homogeneous pixels: near, and the guard band's sides.
+    distances: [f32; 5],
+    /// A bit for each of those that it does not lie inside of.
+    outside: u32,
+    /// On the raster, in steps of [`SUB`].
     x: i32,
     y: i32,
-    nearness: f32,
-    /// 1 / w.
-    inverse: f32,
 }
 
 /// How bodies become pieces.
@@ -94,123 +78,109 @@ impl Setup {
     /// The triangles of a body's faces that look towards the eye, and may lie in the picture.
     pub fn piece(&self, mesh: &Mesh, place: &Affine3A) -> Piece {
         let matrix = self.projection.of_body(place);
+        let mut corners = Vec::with_capacity(mesh.points.len());
+        for (i, p) in mesh.points.iter().enumerate() {
+            let mut normal = Vec3A::ZERO;
+            if self.shaded && i < mesh.normals.len() {
+                normal = turned(place, mesh.normals[i]);
+            }
+            corners.push(self.corner(matrix * p.extend(1.0), normal));
+        }
         let mut piece = Piece::default();
-        let corners: Vec<(Vec4, u32, Snapped)> = mesh
-            .points
-            .iter()
-            .map(|&p| {
-                let h = matrix * p.extend(1.0);
-                let outside = self.outside(h);
-                (h, outside, if outside < CLIP { snap(h) } else { Snapped::default() })
-            })
-            .collect();
+        let mut polygon = Vec::new();
         for face in &mesh.faces {
             let index = face.corners.map(usize::from);
-            let [a, b, c] = index.map(|i| corners[i]);
-            if a.1 & b.1 & c.1 != 0 {
+            let [a, b, c] = index.map(|i| corners[i].outside);
+            if a & b & c != 0 {
                 continue;
             }
-            let clipped = a.1 | b.1 | c.1 >= CLIP;
-            if !clipped && !self.faces_here(a.2, b.2, c.2) {
-                continue;
+            polygon.clear();
+            polygon.extend_from_slice(&index);
+            if a | b | c != 0 {
+                self.clip(&mut polygon, &mut corners);
             }
-            let mut normals = [Vec3::ZERO; 3];
-            let mut paint = NO_PAINT;
-            if self.shaded {
-                normals = if mesh.normals.is_empty() {
-                    let [a, b, c] = index.map(|i| mesh.points[i]);
-                    [(b - a).cross(c - a); 3]
-                } else {
-                    index.map(|i| mesh.normals[i])
-                };
-                normals = normals.map(|n| (place.matrix3 * n).normalize_or_zero());
-                paint = mesh.paints[face.paint as usize];
-            }
-            if !clipped {
-                self.push(&mut piece, [a.2, b.2, c.2], normals, paint);
-                continue;
-            }
-            let corner = |i: usize, h: Vec4| Corner { h, normal: normals[i] };
-            let polygon = self.clip([corner(0, a.0), corner(1, b.0), corner(2, c.0)]);
             for i in 2..polygon.len() {
-                let fan = [polygon[0], polygon[i - 1], polygon[i]];
-                let [a, b, c] = fan.map(|corner| snap(corner.h));
-                if self.faces_here(a, b, c) {
-                    self.push(&mut piece, [a, b, c], fan.map(|corner| corner.normal), paint);
+                // Clockwise on the screen, where y points down, is positive: then edges are so inside.
+                let [second, third] = if self.back_faces { [i - 1, i] } else { [i, i - 1] };
+                let fan = [0, second, third].map(|i| &corners[polygon[i]]);
+                let twice = twice_area(fan);
+                if twice > 0 {
+                    let mut normals = fan.map(|corner| corner.normal);
+                    if self.shaded && mesh.normals.is_empty() {
+                        let [a, b, c] = index.map(|i| mesh.points[i]);
+                        normals = [turned(place, (b - a).cross(c - a)); 3];
+                    }
+                    self.push(&mut piece, fan, normals, twice, &mesh.paints[face.paint as usize]);
                 }
             }
         }
         piece
     }
 
-    /// The planes of a convex region, as signed distances, of homogeneous pixels: first the picture's sides, then what
-    /// must be clipped at.
-    fn distances(&self, h: Vec4) -> [f32; 9] {
-        let [width, height] = self.projection.size.map(|n| n as f32);
-        let (x, y) = (h.x - 0.5 * width * h.w, h.y - 0.5 * height * h.w);
+    /// To the raster.
+    fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
+        let [x, y] = [0, 1].map(|axis| h[axis] - 0.5 * self.projection.size[axis] as f32 * h.w);
         let guard = GUARD * h.w;
-        let near = h.w - self.projection.near;
-        [h.x, width * h.w - h.x, h.y, height * h.w - h.y, near, guard + x, guard - x, guard + y, guard - y]
+        let distances = [h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
+        let mut outside = 0;
+        for (k, distance) in distances.into_iter().enumerate() {
+            // What is not a number is inside of none.
+            #[allow(clippy::neg_cmp_op_on_partial_ord)]
+            let beyond = !(distance >= 0.0);
+            outside |= u32::from(beyond) << k;
+        }
+        let inverse = 1.0 / h.w;
+        let [x, y] = [h.x, h.y].map(|x| (x * inverse * SUB as f32).round() as i32);
+        Corner { h, normal, distances, outside, x, y }
     }
 
-    /// A bit for each of those planes that the point does not lie inside of; what is not a number is inside of none.
-    fn outside(&self, h: Vec4) -> u32 {
-        let inside = self.distances(h).into_iter().rev().fold(0, |bits, distance| bits << 1 | (distance >= 0.0) as u32);
-        inside ^ 0x1ff
-    }
-
-    /// The part of a triangle before the near plane and within the guard band: Sutherland and Hodgman, "Reentrant
-    /// polygon clipping", 1974.
-    fn clip(&self, triangle: [Corner; 3]) -> Vec<Corner> {
-        let mut polygon = triangle.to_vec();
-        for plane in 4..9 {
-            let distance = |corner: &Corner| self.distances(corner.h)[plane];
+    /// The part of a triangle before the near plane and within the guard band, with new corners after the others:
+    /// Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
+    fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
+        for plane in 0..5 {
             let mut rest = Vec::new();
-            for i in 0..polygon.len() {
-                let (this, next) = (polygon[i], polygon[(i + 1) % polygon.len()]);
-                let (d0, d1) = (distance(&this), distance(&next));
+            for (i, &this) in polygon.iter().enumerate() {
+                let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
+                let [d0, d1] = [this, next].map(|i| corners[i].distances[plane]);
                 if d0 >= 0.0 {
                     rest.push(this);
                 }
                 if (d0 >= 0.0) != (d1 >= 0.0) {
                     // From the nearer to the farther, whose digits do not reach here; and so both faces of an edge get
-                    // the same point.
-                    let nearer = d0.abs() < d1.abs() || (d0.abs() == d1.abs() && d0 >= 0.0);
-                    let ((a, da), (b, db)) = if nearer { ((this, d0), (next, d1)) } else { ((next, d1), (this, d0)) };
-                    let k = da / (da - db);
-                    rest.push(Corner { h: a.h + (b.h - a.h) * k, normal: a.normal + (b.normal - a.normal) * k });
+                    // the same point. Of two that are as near from the one inside.
+                    let nearer = (d0 + d1 > 0.0) != (d0 >= 0.0);
+                    let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
+                    let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
+                    rest.push(corners.len());
+                    corners.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
                 }
             }
-            polygon = rest;
+            *polygon = rest;
         }
         // What is not a number, or has lost all its digits beside another, is where nothing can be.
-        let sound = |corner: &Corner| {
-            let slack = [0.5 * self.projection.near, SLACK * corner.h.w];
-            (4..9).all(|plane| self.distances(corner.h)[plane] >= -slack[(plane > 4) as usize])
+        let sound = |&i: &usize| {
+            let Corner { h, distances: [near, sides @ ..], .. } = corners[i];
+            near >= -0.5 * NEAR && sides.into_iter().all(|side| side >= -SLACK * h.w)
         };
-        if polygon.iter().all(sound) { polygon } else { Vec::new() }
+        if !polygon.iter().all(sound) {
+            polygon.clear();
+        }
     }
 
-    /// Are the corners in the order of a face that is to be drawn?
-    fn faces_here(&self, a: Snapped, b: Snapped, c: Snapped) -> bool {
-        let twice = twice_area(a, b, c);
-        if self.back_faces { twice > 0 } else { twice < 0 }
-    }
-
-    /// Adds a triangle that has an area.
-    #[inline(never)]
-    fn push(&self, piece: &mut Piece, corners: [Snapped; 3], normals: [Vec3; 3], paint: Paint) {
-        // Clockwise on the screen, where y points down, is positive: then edges are so inside.
-        let order = if self.back_faces { [0, 1, 2] } else { [0, 2, 1] };
-        let corners = order.map(|i: usize| corners[i]);
+    /// Adds a triangle of that area, twice over.
+    fn push(&self, piece: &mut Piece, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
         let first = corners[0];
         let mut edges = [(0, 0, 0); 3];
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
+        let mut values = [Vec4::ZERO; 3];
         // First and last column and row, turned around while they are sought.
         let mut bound = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
         let mut range = [f32::INFINITY, f32::NEG_INFINITY];
         for (k, a) in corners.into_iter().enumerate() {
             let b = corners[(k + 1) % 3];
+            let inverse = 1.0 / a.h.w;
+            let nearness = a.h.z * inverse;
+            values[k] = (normals[k] * inverse).extend(nearness);
             let (ex, ey) = (a.y - b.y, b.x - a.x);
             // The top-left rule: a sample on an edge belongs to the triangle on its right or below it.
             let own = ex > 0 || (ex == 0 && ey > 0);
@@ -218,60 +188,37 @@ impl Setup {
             // A sample may lie anywhere in its pixel.
             let (x, y) = (a.x >> SUB.ilog2(), a.y >> SUB.ilog2());
             bound = [bound[0].min(x), bound[1].max(x), bound[2].min(y), bound[3].max(y)];
-            range = [range[0].min(a.nearness), range[1].max(a.nearness)];
+            range = [range[0].min(nearness), range[1].max(nearness)];
         }
         bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
         // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
         if bound[0] > bound[1] || bound[2] > bound[3] || piece.triangles.len() == MOST {
             return;
         }
-        let mut planes = [Plane::default(); 4];
-        for (k, plane) in planes.iter_mut().enumerate().take(if self.shaded { 4 } else { 1 }) {
-            let mut values = corners.map(|corner| corner.nearness);
-            if k > 0 {
-                for (i, value) in values.iter_mut().enumerate() {
-                    *value = normals[order[i]][k - 1] * corners[i].inverse;
-                }
-            }
-            *plane = Plane::through(&corners, values);
-        }
-        let [nearness, x, y, z] = planes;
-        let anchor = [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32];
-        let texture = paint.texture.map_or(PLAIN, u32::from);
-        piece.triangles.push(Triangle { edges, bound, anchor, nearness, texture, range });
-        if self.shaded {
-            piece.surfaces.push(Surface { normal: [x, y, z], paint });
-        }
-    }
-}
-
-impl Plane {
-    /// Through values at the corners, anchored at the first.
-    fn through(corners: &[Snapped; 3], values: [f32; 3]) -> Plane {
-        // In f64, as slivers cancel all digits of f32.
-        let [(bx, by), (cx, cy)] = [1, 2].map(|i| {
-            let (x, y) = (corners[i].x - corners[0].x, corners[i].y - corners[0].y);
-            (x as f64 / SUB as f64, y as f64 / SUB as f64)
+        // In f64, as slivers cancel all digits of f32. The edges are the differences of corners.
+        let [(ay, ax, _), _, (by, bx, _)] = edges.map(|(x, y, c)| (x as f64, y as f64, c));
+        let inverse = SUB as f64 / twice as f64;
+        let [a, b, c] = values;
+        let (b, c) = ((b - a).as_dvec4(), (c - a).as_dvec4());
+        piece.triangles.push(Triangle {
+            edges,
+            bound,
+            anchor: [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32],
+            at: a,
+            by: [((b * by + c * ay) * inverse).as_vec4(), ((b * bx + c * ax) * inverse).as_vec4()],
+            range,
+            paint: *paint,
         });
-        let inverse = 1.0 / (bx * cy - cx * by);
-        let (b, c) = ((values[1] - values[0]) as f64, (values[2] - values[0]) as f64);
-        let by = [(b * cy - c * by) * inverse, (c * bx - b * cx) * inverse];
-        Plane { at: values[0], by: by.map(|slope| slope as f32) }
     }
 }
 
-/// Bits of [`Setup::outside`] from this on ask for clipping.
-const CLIP: u32 = 1 << 4;
-
-/// To the raster.
-fn snap(h: Vec4) -> Snapped {
-    let inverse = 1.0 / h.w;
-    let snap = |x: f32| (x * inverse * SUB as f32).round() as i32;
-    Snapped { x: snap(h.x), y: snap(h.y), nearness: h.z * inverse, inverse }
+/// A normal of a body in the world, of length 1 if any.
+fn turned(place: &Affine3A, normal: Vec3) -> Vec3A {
+    (place.matrix3 * Vec3A::from(normal)).normalize_or_zero()
 }
 
 /// Twice the area, in steps of [`SUB`] squared; positive where the corners turn clockwise on the screen.
-fn twice_area(a: Snapped, b: Snapped, c: Snapped) -> i64 {
+fn twice_area([a, b, c]: [&Corner; 3]) -> i64 {
     let (bx, by) = ((b.x - a.x) as i64, (b.y - a.y) as i64);
     let (cx, cy) = ((c.x - a.x) as i64, (c.y - a.y) as i64);
     bx * cy - cx * by

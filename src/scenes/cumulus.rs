@@ -47,7 +47,10 @@ fn picture(shot: &Shot, variant: usize) -> Picture {
     };
     let clouds = Clouds::new(set::clouds(variant), look, |_| HAZE, 1400.0, view, quality);
     let cells = Cells { size: if q.cell > 1 { 8 } else { 1 }, grid: q.grid };
-    Picture { layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })], transfer: Transfer::Linear }
+    Picture {
+        layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })],
+        transfer: Transfer::Linear,
+    }
 }
 
 /// What is behind the clouds.
@@ -73,7 +76,8 @@ impl Field for Background {
         let c8 = c4 * c4;
         let disc = ((c - 0.9998) * (1.0 / 0.00012)).max(zero).min(one);
         let disc = disc * disc * (F::<S>::splat(simd, 3.0) - disc * 2.0);
-        haze + (end - haze) * Lane(share) + V3::splat(simd, vec3(1.0, 0.8, 0.5)) * Lane(c8 * c8 * c8 * 0.25 + disc * 0.8)
+        haze + (end - haze) * Lane(share)
+            + V3::splat(simd, vec3(1.0, 0.8, 0.5)) * Lane(c8 * c8 * c8 * 0.25 + disc * 0.8)
     }
 }
 

@@ -4,7 +4,8 @@ use crate::cloud::march::Cloud;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
 use crate::hash::rnd;
-use fearless_simd::{Level, dispatch};
+use crate::lanes;
+use fearless_simd::dispatch;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use std::sync::{Arc, OnceLock};
 
@@ -20,7 +21,7 @@ pub fn sun() -> Vec3 {
 pub fn shape(k: usize) -> Arc<Voxels> {
     static SHAPES: [OnceLock<Arc<Voxels>>; 4] = [const { OnceLock::new() }; 4];
     let grow = || {
-        let level = Level::new();
+        let level = lanes::best();
         let mut voxels = dispatch!(level, simd => Kind::grow(simd, &Kind::CUMULUS, k as u32, EDGE));
         voxels.light = bake(&voxels.density);
         voxels.pack();

@@ -1,20 +1,22 @@
 //! The second part of the intro: days on a hill by a lake, from dawn to the stars, through the year.
 
-use super::models::{self, MEADOW, chapel, land, mustang, tree};
+use super::models::{chapel, land, mustang, tree};
+use super::script::{
+    ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
+};
 use super::{Scene, Shot};
 use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::raster::fit;
 use crate::raster::light::{Haze, Light, Source};
-use crate::raster::mesh::Mesh;
 use crate::raster::shadow::{Bias, Plan};
 use crate::raster::{Body, Drawn, World};
 use crate::sky::backdrop::{Backdrop, Look};
 use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
-use crate::texture::{Palette, Texture};
+use crate::texture::Texture;
 use crate::tile::Picture;
-use crate::timeline::{self, Key, ease};
+use crate::timeline::{self, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::f32::consts::TAU;
@@ -27,87 +29,122 @@ pub const DAY: Scene =
 /// Seconds that a day takes, from four in the morning to four in the morning.
 pub const LENGTH: f64 = 60.0;
 
-/// A day of the year.
-pub(super) struct Season {
-    /// Days from J2000 to midnight, Central European Time: 2026-06-25, 2026-09-19, 2026-12-22, 2027-03-10.
-    midnight: f64,
-    /// Albedo of the meadows, and what that of leaves is multiplied by.
-    grass: Vec3,
-    leaves: Vec3,
-    /// Share of the land that is white.
-    snow: f32,
-}
-
-pub(super) const SEASONS: [Season; 4] = [
-    Season { midnight: 9671.5 - HOUR, grass: MEADOW, leaves: Vec3::ONE, snow: 0.0 },
-    Season { midnight: 9757.5 - HOUR, grass: vec3(0.16, 0.14, 0.045), leaves: vec3(2.2, 0.8, 0.3), snow: 0.0 },
-    Season { midnight: 9851.5 - HOUR, grass: vec3(0.7, 0.72, 0.78), leaves: vec3(0.6, 0.35, 0.7), snow: 1.0 },
-    Season { midnight: 9929.5 - HOUR, grass: vec3(0.12, 0.15, 0.03), leaves: vec3(1.0, 1.1, 0.8), snow: 0.15 },
-];
-
 /// A day's 24th part.
 const HOUR: f64 = 1.0 / 24.0;
 
 /// What day it is at `time` seconds, and how many of its hours have passed.
 pub fn clock(time: f64) -> (usize, f64) {
     let day = (time / LENGTH).floor();
-    (day as usize % SEASONS.len(), 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
+    (day as usize % 4, 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
 }
 
-/// Eye, target, vertical field of view in degrees, by the hour.
-const CAMERA: &[Key<7>] = &[
-    (4.0, [-36.0, 13.5, 14.0, 0.0, 18.5, -2.0, 54.0]),
-    (8.0, [-24.0, 17.0, -34.0, 0.0, 17.0, 0.0, 54.0]),
-    (12.0, [0.0, 19.0, -47.0, 0.0, 16.0, 0.0, 54.0]),
-    (14.0, [38.0, 19.0, -28.0, 0.0, 16.5, 0.0, 54.0]),
-    (18.0, [33.0, 13.5, 39.0, 0.0, 18.0, -4.0, 54.0]),
-    (21.999, [24.0, 14.0, 44.0, -3.0, 19.0, 0.0, 54.0]),
-    // To the south, where the moon stands over the lake.
-    (22.0, [-4.0, 15.5, -46.0, -6.0, 19.5, 0.0, 54.0]),
-    (28.0, [14.0, 16.5, -45.0, -4.0, 20.0, 0.0, 54.0]),
+operations! {
+    /// The camera's keys, nine numbers each: the hour; eye, target, vertical field of view in degrees; the last one is
+    /// free. In tens.
+    CAMERA = 40;
+    /// Days from 2026-06-25 on, in twenties.
+    DATE = 41;
+    /// The land's next texture, as `texture` takes it.
+    TEXTURE = 42;
+    /// The last word.
+    END = 43;
+}
+
+/// The course of days. The last keys are to the south, where the moon stands over the lake.
+#[rustfmt::skip]
+const PLAN: &[u8] = script![
+    [
+        0.4, -3.6, 1.35, 1.4, 0.0, 1.85, -0.2, 5.4, 0.0,
+        0.8, -2.4, 1.7, -3.4, 0.0, 1.7, 0.0, 5.4, 0.0,
+        1.2, 0.0, 1.9, -4.7, 0.0, 1.6, 0.0, 5.4, 0.0,
+        1.4, 3.8, 1.9, -2.8, 0.0, 1.65, 0.0, 5.4, 0.0,
+        1.8, 3.3, 1.35, 3.9, 0.0, 1.8, -0.4, 5.4, 0.0,
+        -0.02, 0.005, MUL, 2.2, ADD, 2.4, 1.4, 4.4, -0.3, 1.9, 0.0, 5.4, 0.0,
+        2.2, -0.4, 1.55, -4.6, -0.6, 1.95, 0.0, 5.4, 0.0,
+        2.8, 1.4, 1.65, -4.5, -0.4, 2.0, 0.0, 5.4, 0.0, CAMERA,
+    ],
+    [
+        // The date, what colours of meadows and of leaves are multiplied by, the share of the land that is white:
+        // 2026-06-25, 2026-09-19, 2026-12-22 and 2027-03-10.
+        0.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0,
+        4.3, 1.39, 0.85, 1.285, 2.2, 0.8, 0.3, 0.0,
+        9.0, 6.085, 4.365, 22.285, 0.6, 0.35, 0.7, 1.0,
+        12.9, 1.045, 0.91, 0.855, 1.0, 1.1, 0.8, 0.15,
+        get(0), 8.0, PICK, set(4), set(13), set(12), set(11), set(10), set(9), set(8), DATE,
+        // Of meadows and leaves, and of land and rocks, what is white, and what is not.
+        get(4), 0.7, MUL, set(5), get(5), -1.0, MUL, 1.0, ADD, set(6),
+        get(4), 0.5, MUL, set(7), get(7), -1.0, MUL, 1.0, ADD, set(4), get(7), 0.6, MUL, set(7),
+    ],
+    // Grass.
+    white(-0.5, 8), white(0.0, 9), white(0.2, 10), white(2.5, 8), white(2.0, 9), white(1.8, 10),
+    [0.09, 6.0, CLOUDS as Word, TEXTURE],
+    // Heights: grass, land, rock, snow. The sine rises from -50 m to 1250 m.
+    [get(8), 0.115, MUL, get(9), 0.165, MUL, get(10), 0.035, MUL], pale(0.045), pale(0.075), pale(0.025),
+    [0.04, 0.06, MUL, 2.5, LAYERS as Word, 0.7], pale(0.2), pale(0.185), pale(0.17), [0.8, 0.83, 0.88, 6.0, TEXTURE],
+    // Bark, needles, masonry, tiles, leaves. These vary about 1.
+    kind(CLOUDS, [0.3; 3], [1.7; 3], 3.0, 3.0), [TEXTURE],
+    kind(CLOUDS, [-0.8, -0.5, -0.2], [2.8, 2.5, 2.2], 1.2, 4.0), [TEXTURE],
+    kind(CLOUDS, [0.2, 0.2, 0.25], [1.8, 1.8, 1.75], 0.9, 4.0), [TEXTURE],
+    kind(LAYERS, [0.6; 3], [0.865; 3], 14.0, 5.0), [6.0, 1.135, 1.135, 1.135, 1.4, 1.4, 1.4, 0.0, TEXTURE],
+    white(-0.8, 11), white(-0.5, 12), white(-0.2, 13), white(2.8, 11), white(2.5, 12), white(2.2, 13),
+    [1.2, 4.0, CLOUDS as Word, TEXTURE, END],
 ];
 
-/// The bodies that never move: the land, the lake, the woods, the chapel; then the aeroplane and its propeller.
-pub(super) fn bodies() -> &'static (Vec<Body>, [Arc<Mesh>; 2]) {
-    static BODIES: OnceLock<(Vec<Body>, [Arc<Mesh>; 2])> = OnceLock::new();
+/// A colour's share of meadows or leaves: what is white, and what that is multiplied by.
+const fn white(color: Word, by: u8) -> [Word; 7] {
+    [color, get(6), MUL, get(5), ADD, get(by), MUL]
+}
+
+/// A colour's share of land or rocks.
+const fn pale(color: Word) -> [Word; 5] {
+    [color, get(4), MUL, get(7), ADD]
+}
+
+/// The bodies: the land, the lake, the woods, the chapel; last the aeroplane and its propeller, which move.
+pub(super) fn bodies() -> &'static Vec<Body> {
+    static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
     BODIES.get_or_init(|| {
         let mut meshes = land::ground();
-        meshes.extend(tree::woods(&tree::trees()));
-        meshes.push(chapel::chapel());
-        meshes.push(land::lake());
-        let still = meshes.into_iter().map(|mesh| Body::new(Arc::new(mesh), Affine3A::IDENTITY)).collect();
-        (still, [mustang::airframe(), mustang::propeller()].map(Arc::new))
+        meshes.append(&mut tree::woods(&tree::trees()));
+        for mesh in [chapel::chapel(), land::lake(), mustang::airframe(), mustang::propeller()] {
+            meshes.push(mesh);
+        }
+        let mut bodies = Vec::new();
+        for mesh in meshes {
+            bodies.push(Body::new(Arc::new(mesh), Affine3A::IDENTITY));
+        }
+        bodies
     })
 }
 
-/// The textures of a season.
-pub(super) fn textures(season: &Season) -> Vec<Texture> {
-    let mut textures = models::TEXTURES.to_vec();
-    for (index, scale) in [(0, season.grass / MEADOW), (6, season.leaves)] {
-        if let Palette::Mix(a, b) = &mut textures[index].palette {
-            let calm = 0.7 * season.snow;
-            (*a, *b) = (a.lerp(Vec3::ONE, calm) * scale, b.lerp(Vec3::ONE, calm) * scale);
+/// What the plan has for a day: the camera at an hour, the date and the textures.
+pub(super) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Texture>) {
+    let mut plan = Script::new(PLAN, [day as u32 as f32, 0.0]);
+    let (mut key, mut date, mut textures) = ([0.0; 9], 0.0, Vec::new());
+    loop {
+        match plan.next() {
+            byte::CAMERA => key = timeline::sample(plan.stack().as_chunks().0, 0.1 * hour),
+            byte::DATE => date = 20.0 * plan.numbers[VARIABLES],
+            byte::TEXTURE => {
+                let numbers = plan.numbers[VARIABLES..].first_chunk().unwrap();
+                textures.push(texture(numbers, &Mat3::IDENTITY, Vec3::ZERO));
+            }
+            _ => return (key, date, textures),
         }
     }
-    if let Palette::Ramp(colors) = &mut textures[1].palette {
-        colors[0] = season.grass;
-        for color in &mut colors[1..3] {
-            *color = color.lerp(Vec3::splat(0.6), 0.5 * season.snow);
-        }
-    }
-    textures
 }
 
 fn picture(shot: &Shot) -> Picture {
     let (day, hour) = clock(shot.time);
-    let season = &SEASONS[day];
-    let [x, y, z, tx, ty, tz, fov] = timeline::sample(CAMERA, hour);
+    let (key, date, textures) = plan(day, hour);
+    let [_, x, y, z, tx, ty, tz, fov, _] = key.map(|n| 10.0 * n);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     let camera = shot.camera(camera);
-    let dome = Dome::new(Sky::new(season.midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
+    // Days from J2000, Central European Time.
+    let midnight = 9671.5 - HOUR + date as f64;
+    let dome = Dome::new(Sky::new(midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
     let now = dome.lighting();
-    let (still, aeroplane) = bodies();
-    let mut bodies = still.clone();
+    let mut bodies = bodies().clone();
     // Over the hill in some seconds, again and again.
     let flights = shot.time / 15.0;
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
@@ -116,8 +153,9 @@ fn picture(shot: &Shot) -> Picture {
     // Turns a second, five.
     let turns = 5.0 * shot.time;
     let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
-    for (mesh, turn, at) in [(&aeroplane[0], turn, Vec3::ZERO), (&aeroplane[1], spin, turn * mustang::HUB)] {
-        bodies.push(Body::new(mesh.clone(), Affine3A::from_mat3_translation(turn, place + at)));
+    let aeroplane = bodies.len() - 2;
+    for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
+        body.put(Affine3A::from_mat3_translation(turn, place));
     }
     let aspect = shot.width as u32 as f32 / shot.height as u32 as f32;
     let size = if shot.quality.shadow_map == 0 { 1024 } else { shot.quality.shadow_map };
@@ -149,7 +187,7 @@ fn picture(shot: &Shot) -> Picture {
     let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
     let world = World {
         bodies,
-        textures: textures(season),
+        textures,
         lights,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },

@@ -2,16 +2,17 @@
 
 #[cfg(feature = "day")]
 pub mod clouds;
-#[cfg(feature = "day")]
-pub mod day;
 #[cfg(feature = "bench-scenes")]
 pub mod cumulus;
 #[cfg(feature = "bench-scenes")]
 pub mod cumulus_set;
+#[cfg(feature = "day")]
+pub mod day;
 pub mod intro;
 pub mod lumen;
 #[cfg(feature = "day")]
 pub mod models;
+mod script;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
 #[cfg(feature = "bench-scenes")]
@@ -121,8 +122,8 @@ pub const ALL: &[Scene] = &[
 pub const INTRO: Scene = ALL[0];
 
 /// Every scene.
-pub fn all() -> Vec<Scene> {
-    ALL.to_vec()
+pub fn all() -> &'static [Scene] {
+    ALL
 }
 
 /// The scene of that name.

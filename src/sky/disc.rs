@@ -108,7 +108,7 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
             continue;
         }
         if shaded {
-            noise::fbm_block(simd, &x, &y, &z, 4, &mut spots);
+            noise::octaves_block(simd, [&x, &y, &z], 4, false, None, &mut spots);
         }
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

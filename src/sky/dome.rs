@@ -5,9 +5,9 @@ use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
 use super::time::{sane, turned};
-use crate::lanes::{F, Lane, V3};
+use crate::lanes::{self, F, Lane, V3};
 use crate::quality::Quality;
-use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3, vec3};
 
@@ -133,7 +133,7 @@ impl Dome {
     /// One answer of the kernels for a unit direction.
     #[inline(never)]
     fn ask(&self, d: Vec3, what: What) -> Vec3 {
-        dispatch!(best(), simd => first(answer(simd, self, V3::splat(simd, d), what)))
+        dispatch!(lanes::best(), simd => answer(simd, self, V3::splat(simd, d), what).first())
     }
 
     /// The light of the sky itself from a unit direction, over the sun's outside of the air.
@@ -189,15 +189,4 @@ pub(super) fn power(x: f32, n: u32) -> f32 {
         bit /= 2;
     }
     product
-}
-
-/// The first lane.
-#[inline(always)]
-fn first<S: Simd>(v: V3<S>) -> Vec3 {
-    vec3(v.x.as_slice()[0], v.y.as_slice()[0], v.z.as_slice()[0])
-}
-
-/// The best SIMD level: any gives the same bits.
-fn best() -> Level {
-    if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }

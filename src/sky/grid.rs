@@ -30,7 +30,7 @@ pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, tile: &mut Ti
         let [a, b] = &lines;
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {
-            let (a, b) = (load3(simd, a, i), load3(simd, b, i));
+            let (a, b) = (V3::load(simd, a, i), V3::load(simd, b, i));
             put(simd, a + (b - a) * Lane(F::<S>::splat(simd, share)), false, y as usize, i, tile);
             i += 1;
         }
@@ -60,10 +60,7 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, left: f32, top: f
             let ray = view.rays(simd, load::<S, F<S>>(simd, &x, i) + dx, F::<S>::splat(simd, top + dy));
             let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
             let light = answer(simd, dome, d, What::Shown) * Lane(F::<S>::splat(simd, step * step));
-            let light = load3(simd, &sum, i) + light;
-            store(light.x, &mut sum[0], i);
-            store(light.y, &mut sum[1], i);
-            store(light.z, &mut sum[2], i);
+            (V3::load(simd, &sum, i) + light).store(&mut sum, i);
             i += 1;
         }
     }
@@ -74,11 +71,6 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, size: u32, left: f32, top: f
             *out = a + (b - a) * ((i as u32 % size) as f32 + middle(size)) / size as f32;
         }
     }
-}
-
-#[inline(always)]
-fn load3<S: Simd>(simd: S, v: &Block3, i: usize) -> V3<S> {
-    V3 { x: load(simd, &v[0], i), y: load(simd, &v[1], i), z: load(simd, &v[2], i) }
 }
 
 /// Adds light to what solids have left of vector `i` of a row; `soft` is less where there is light already.

@@ -51,6 +51,12 @@ impl Job<'_> {
     pub fn unit(&self) -> usize {
         1 << self.quality.subpixel
     }
+
+    /// Whole pixels of so many lattice steps.
+    #[inline(always)]
+    pub fn pixels(&self, steps: usize) -> usize {
+        steps >> self.quality.subpixel
+    }
 }
 
 /// What a thread keeps from tile to tile; only memory, never values.
@@ -60,12 +66,11 @@ pub struct Scratch {
     pub visible: Vec<u32>,
     grid: Grid,
     /// Squares to look at, by level.
-    work: [Vec<(u16, u16)>; LEVELS],
-    /// Squares whose corners agree.
+    work: [Vec<Square>; LEVELS],
+    /// Squares whose corners agree, and pixels that are traced themselves.
     whole: Vec<Square>,
-    /// Pixels that are traced themselves, and those that an edge runs through.
-    pixels: Vec<(u16, u16)>,
-    edges: Vec<(u16, u16)>,
+    /// Pixels that an edge runs through.
+    edges: Vec<Square>,
     deferred: Deferred,
     ramps: Ramps,
 }
@@ -73,73 +78,50 @@ pub struct Scratch {
 /// Draws a tile; returns the number of eye rays.
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-    scratch.grid.begin(job, tile);
     scratch.deferred.begin(job.context.world.objects.len(), job.quality.subpixel > 0);
     tile.clear();
-    let count = if job.quality.cell > 1 {
+    let across = job.quality.grid;
+    let step = 1.0 / across as u32 as f32;
+    let mut count = 0;
+    for n in 0..across * across {
+        // Corners are centres of pixels, or corners of them.
+        let middle = if job.quality.subpixel > 0 { 0.0 } else { 0.5 };
+        let [dx, dy] = [n % across, n / across].map(|n| (n as u32 as f32 + middle) * step);
+        scratch.grid.begin(job, tile, dx, dy);
         subdivide(simd, job, tile, scratch);
-        paint(simd, job, tile, scratch);
-        scratch.grid.samples().len()
-    } else {
-        every_pixel(simd, job, tile, scratch);
-        tile.width * tile.height * job.quality.grid * job.quality.grid
-    };
+        paint(simd, job, tile, step * step, scratch);
+        count += scratch.grid.samples();
+    }
     scratch.deferred.finish(simd, job.context.world, tile);
     count as u64
 }
 
 impl Scratch {
     /// Where the samples of the tile drawn last lie, pixels of the picture.
+    #[cfg(feature = "bench-scenes")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.grid.positions()
     }
 }
 
-/// The exact limit: `grid` x `grid` samples in every pixel.
-#[simd]
-fn every_pixel<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
-    let Scratch { grid, deferred, .. } = scratch;
-    let across = job.quality.grid;
-    let share = 1.0 / (across * across) as u32 as f32;
-    let step = 1.0 / across as u32 as f32;
-    for y in 0..tile.height {
-        grid.clear();
-        for x in 0..tile.width {
-            for n in 0..across * across {
-                let (dx, dy) = (((n % across) as u32 as f32 + 0.5) * step, ((n / across) as u32 as f32 + 0.5) * step);
-                grid.want_at((tile.x + x) as u32 as f32 + dx, (tile.y + y) as u32 as f32 + dy);
-            }
-        }
-        grid.trace(simd, job);
-        for (n, sample) in grid.samples().iter().enumerate() {
-            let pixel = y * Tile::SIZE + n / (across * across);
-            fill::add(simd, job, tile, deferred, pixel, sample, share, &[0.0; REMEMBERED]);
-        }
-    }
-}
-
 /// Cuts the tile into squares whose corners agree, pixels, and pixels that an edge runs through.
 #[simd]
-fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
-    let Scratch { grid, work, whole, pixels, edges, .. } = scratch;
+fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
+    let Scratch { grid, work, whole, edges, .. } = scratch;
     let unit = job.unit();
     let coarsest = job.quality.cell * unit;
-    let end = ((tile.width * unit) as u16, (tile.height * unit) as u16);
+    let cutter = Cutter { coarsest, unit, end: (tile.width * unit, tile.height * unit) };
     whole.clear();
-    pixels.clear();
     edges.clear();
-    for y in (0..end.1).step_by(coarsest) {
-        for x in (0..end.0).step_by(coarsest) {
-            work[0].push((x, y));
+    for y in (0..cutter.end.1).step_by(coarsest) {
+        for x in (0..cutter.end.0).step_by(coarsest) {
+            work[0].push(Square { x, y, size: coarsest });
         }
     }
     loop {
-        let mut size = coarsest;
-        let mut level = 0;
-        while size > 0 {
+        for level in 0..LEVELS {
             let squares = std::mem::take(&mut work[level]);
-            for &(x, y) in &squares {
-                let (x, y) = (x as usize, y as usize);
+            for &Square { x, y, size } in &squares {
                 grid.want(x, y);
                 if size == 1 && unit == 1 {
                     continue;
@@ -147,44 +129,46 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
                 grid.want(x + size, y);
                 grid.want(x, y + size);
                 grid.want(x + size, y + size);
-                if size > unit || unit == 1 {
+                if size > unit {
                     grid.want(x + size / 2, y + size / 2);
                 }
             }
             grid.trace(simd, job);
-            for &(x, y) in &squares {
-                let square = Square { x: x as usize, y: y as usize, size };
-                let agree = if size < unit {
-                    size == 1 || same_chain(grid.corners(square))
-                } else {
-                    let finest = job.guard.finest(tile.x + square.x / unit, tile.y + square.y / unit);
-                    if size == unit && unit > 1 {
-                        // A pixel is the mean of its corners, whatever they differ in but their chain.
-                        finest > 1 && same_chain(grid.corners(square))
-                    } else {
-                        size > 1
-                            && size <= unit * finest
-                            && agree(simd, job, size.div_ceil(unit), grid.corners(square), grid.centre(square))
+            for &square in &squares {
+                let Square { x, y, size } = square;
+                if size == 1 {
+                    if unit == 1 {
+                        whole.push(square);
                     }
-                };
-                if size < unit && agree {
                     continue;
                 }
-                if size == 1 {
-                    pixels.push((x, y));
-                } else if agree {
+                let corners = grid.corners(square);
+                let same = same_chain(corners);
+                if size < unit {
+                    if !same {
+                        cutter.cut(work, square);
+                    }
+                    continue;
+                }
+                let finest = job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y));
+                // A pixel is the mean of its corners, whatever they differ in but their chain.
+                let agree = same
+                    && if size == unit {
+                        finest > 1
+                    } else {
+                        size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
+                    };
+                if agree {
                     whole.push(square);
                 } else {
                     if size == unit {
-                        edges.push((x, y));
+                        edges.push(square);
                     }
-                    cut(work, level, square, unit, end);
+                    cutter.cut(work, square);
                 }
             }
             work[level] = squares;
             work[level].clear();
-            level += 1;
-            size /= 2;
         }
         let mut at = 0;
         let mut done = true;
@@ -197,7 +181,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
             }
             done = false;
             whole.swap_remove(at);
-            cut(work, (coarsest / square.size).trailing_zeros() as usize, square, unit, end);
+            cutter.cut(work, square);
         }
         if done {
             break;
@@ -205,58 +189,53 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch
     }
 }
 
-/// Cuts a square in four, without what lies beyond the picture's end.
-///
-/// Where a corner is a pixel, squares of 4 are cut into their pixels at once: it takes no more rays than to try squares of
-/// 2 (whose middle is a fourth of what they could save), and is exact.
-#[inline(always)]
-fn cut(
-    work: &mut [Vec<(u16, u16)>; LEVELS],
-    level: usize,
-    Square { x, y, size }: Square,
+/// What cutting a square needs to know of the tile: its largest squares, its pixels and its end, lattice steps.
+struct Cutter {
+    coarsest: usize,
     unit: usize,
-    end: (u16, u16),
-) {
-    let levels = if unit == 1 && size == 4 { 2 } else { 1 };
-    let part = size >> levels;
-    for y in (y..y + size).step_by(part) {
-        for x in (x..x + size).step_by(part) {
-            if x < end.0 as usize && y < end.1 as usize {
-                work[level + levels].push((x as u16, y as u16));
+    end: (usize, usize),
+}
+
+impl Cutter {
+    /// Cuts a square in four, without what lies beyond the picture's end.
+    ///
+    /// Where a corner is a pixel, squares of 4 are cut into their pixels at once: it takes no more rays than to try squares
+    /// of 2 (whose middle is a fourth of what they could save), and is exact.
+    fn cut(&self, work: &mut [Vec<Square>; LEVELS], Square { x, y, size }: Square) {
+        let part = size >> if self.unit == 1 && size == 4 { 2 } else { 1 };
+        let work = &mut work[(self.coarsest / part).trailing_zeros() as usize];
+        for y in (y..self.end.1.min(y + size)).step_by(part) {
+            for x in (x..self.end.0.min(x + size)).step_by(part) {
+                work.push(Square { x, y, size: part });
             }
         }
     }
 }
 
-/// Gives every pixel its light.
+/// Gives every pixel a `share` of its light.
 #[simd]
-fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) {
-    let Scratch { grid, whole, pixels, edges, deferred, ramps, .. } = scratch;
+fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut Scratch) {
+    let Scratch { grid, whole, edges, deferred, ramps, .. } = scratch;
     let unit = job.unit();
     ramps.prepare(job.quality.subpixel > 0);
     for &square in whole.iter() {
-        if square.size == unit {
-            let pixel = square.y / unit * Tile::SIZE + square.x / unit;
+        let Square { x, y, size } = square;
+        if size > unit {
+            fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
+        } else if unit == 1 {
+            fill::add(simd, job, tile, deferred, square, grid.at(x, y), share, &[0.0; REMEMBERED]);
+        } else {
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
             let Sample { chain, count, object, .. } = *corners[0];
             let mean = Sample { chain, count, object, numbers: foretell(simd, corners) };
-            fill::add(simd, job, tile, deferred, pixel, &mean, 1.0, &footprint);
-        } else {
-            fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
+            fill::add(simd, job, tile, deferred, square, &mean, share, &footprint);
         }
     }
-    for &(x, y) in pixels.iter() {
-        let pixel = y as usize * Tile::SIZE + x as usize;
-        let sample = grid.at(x as usize, y as usize);
-        fill::add(simd, job, tile, deferred, pixel, sample, 1.0, &[0.0; REMEMBERED]);
-    }
     let mut groups = Groups::default();
-    for &(x, y) in edges.iter() {
-        let (x, y) = (x as usize, y as usize);
-        let pixel = y / unit * Tile::SIZE + x / unit;
-        for group in groups.of_pixel(simd, grid, x, y, unit) {
-            fill::add(simd, job, tile, deferred, pixel, &group.mean, group.share, &[0.0; REMEMBERED]);
+    for &square in edges.iter() {
+        for group in groups.of_pixel(simd, grid, square) {
+            fill::add(simd, job, tile, deferred, square, &group.mean, group.share, &[0.0; REMEMBERED]);
         }
     }
 }
@@ -276,10 +255,10 @@ fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
     mean
 }
 
-/// May a square be interpolated?
+/// May a square be interpolated whose corners have one chain?
 #[inline(always)]
 fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sample) -> bool {
-    if !same_chain(c) || c[0].chain != centre.chain {
+    if c[0].chain != centre.chain {
         return false;
     }
     let mean = foretell(simd, c);

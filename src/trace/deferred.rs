@@ -13,7 +13,6 @@ use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
 /// Hits that wait for one object's texture.
-#[derive(Clone)]
 struct Queue {
     count: usize,
     pixel: [u16; BLOCK],
@@ -31,11 +30,12 @@ pub struct Deferred {
 }
 
 impl Deferred {
-    /// Ready for a world of that many objects.
+    /// Ready for a world of up to that many objects.
     pub fn begin(&mut self, objects: usize, filter: bool) {
         let black = [[0.0; BLOCK]; 3];
-        let empty = Queue { count: 0, pixel: [0; BLOCK], gain: black, point: black, footprint: [0.0; BLOCK] };
-        self.queues.resize(objects, empty);
+        while self.queues.len() < objects {
+            self.queues.push(Queue { count: 0, pixel: [0; BLOCK], gain: black, point: black, footprint: [0.0; BLOCK] });
+        }
         self.filter = filter;
     }
 

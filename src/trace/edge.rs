@@ -27,19 +27,18 @@ pub struct Group {
 }
 
 impl Groups {
-    /// The surfaces in the pixel whose top left corner is at (x, y) of the lattice, `unit` steps wide.
+    /// The surfaces in a pixel, a square of the lattice.
     #[inline(always)]
-    pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, x: usize, y: usize, unit: usize) -> &[Group] {
+    pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square) -> &[Group] {
         let mut weights = Weights::default();
-        let half = unit / 2;
-        for (left, top) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x: left, y: top, size: half }, 0.25, (x, y), &mut weights);
+        for part in pixel.quarters() {
+            weigh(grid, part, 0.25, pixel, &mut weights);
         }
         self.count = 0;
-        for (row, weights) in weights[..=unit].iter().enumerate() {
-            for (column, &weight) in weights[..=unit].iter().enumerate() {
+        for (row, weights) in weights[..=pixel.size].iter().enumerate() {
+            for (column, &weight) in weights[..=pixel.size].iter().enumerate() {
                 if weight > 0.0 {
-                    self.add(simd, grid.at(x + column, y + row), weight);
+                    self.add(simd, grid.at(pixel.x + column, pixel.y + row), weight);
                 }
             }
         }
@@ -84,16 +83,15 @@ impl Groups {
 type Weights = [[f32; 5]; 5];
 
 /// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
-fn weigh(grid: &Grid, square: Square, weight: f32, pixel: (usize, usize), weights: &mut Weights) {
+fn weigh(grid: &Grid, square: Square, weight: f32, pixel: Square, weights: &mut Weights) {
     let Square { x, y, size } = square;
     if size > 1 && !same_chain(grid.corners(square)) {
-        let half = size / 2;
-        for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
-            weigh(grid, Square { x, y, size: half }, weight * 0.25, pixel, weights);
+        for part in square.quarters() {
+            weigh(grid, part, weight * 0.25, pixel, weights);
         }
         return;
     }
-    let (column, row) = (x - pixel.0, y - pixel.1);
+    let (column, row) = (x - pixel.x, y - pixel.y);
     for (column, row) in [(column, row), (column + size, row), (column, row + size), (column + size, row + size)] {
         weights[row][column] += weight * 0.25;
     }

@@ -11,7 +11,7 @@ use crate::tile::Tile;
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
-/// Adds `share` of a sample to a pixel, its textures averaged over their `footprint`s.
+/// Adds `share` of a sample to the pixel that a square is, its textures averaged over their `footprint`s.
 #[simd]
 #[allow(clippy::too_many_arguments)]
 pub fn add<S: Simd>(
@@ -19,14 +19,14 @@ pub fn add<S: Simd>(
     job: &Job,
     tile: &mut Tile,
     deferred: &mut Deferred,
-    pixel: usize,
+    square: Square,
     sample: &Sample,
     share: f32,
     footprint: &[f32; REMEMBERED],
 ) {
     let [red, green, blue, closeness, ..] = sample.numbers;
     // Inside, and now the compiler knows.
-    let pixel = pixel & (Tile::AREA - 1);
+    let pixel = (job.pixels(square.y) * Tile::SIZE + job.pixels(square.x)) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
@@ -134,11 +134,18 @@ impl Patch {
         patch
     }
 
-    /// Number `k` at places of the square.
-    #[inline(always)]
-    fn at<S: Simd>(&self, simd: S, k: usize, u: F<S>, v: F<S>) -> F<S> {
-        let (start, down) = (F::<S>::splat(simd, self.start[k]), F::<S>::splat(simd, self.down[k]));
-        start + u * self.along[k] + v * (down + u * self.twist[k])
+    /// Numbers from `first` on at the points of a ramp, a row each.
+    #[simd]
+    fn values<S: Simd>(&self, simd: S, first: usize, ramp: &Ramp, out: &mut [[f32; BLOCK]]) {
+        for (k, row) in (first..).zip(out) {
+            let (start, down) = (F::<S>::splat(simd, self.start[k]), F::<S>::splat(simd, self.down[k]));
+            let mut i = 0;
+            while i * F::<S>::LEN < ramp.count {
+                let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
+                store(start + u * self.along[k] + v * (down + u * self.twist[k]), row, i);
+                i += 1;
+            }
+        }
     }
 
     /// The derivatives of number `k` along u and v.
@@ -147,23 +154,27 @@ impl Patch {
         (v * self.twist[k] + self.along[k], u * self.twist[k] + self.down[k])
     }
 
-    /// The points of the textured hit whose numbers begin at `at`, and how long a pixel is there if that is asked for.
+    /// Homogeneous points to true ones, of the textured hit whose numbers begin at `at`; and how long a pixel is there if
+    /// that is asked for.
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, at: usize, ramp: &Ramp, footprint: Option<&mut [f32; BLOCK]>) -> Block3 {
-        let mut points = [[0.0; BLOCK]; 3];
-        let mut none = [0.0; BLOCK];
-        let filter = footprint.is_some();
-        let footprint = footprint.unwrap_or(&mut none);
+    #[allow(clippy::too_many_arguments)]
+    fn project<S: Simd>(
+        &self,
+        simd: S,
+        at: usize,
+        ramp: &Ramp,
+        closeness: &[f32; BLOCK],
+        points: &mut Block3,
+        filter: bool,
+        footprint: &mut [f32; BLOCK],
+    ) {
         let mut i = 0;
         while i * F::<S>::LEN < ramp.count {
-            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-            let k = F::<S>::splat(simd, 1.0) / self.at(simd, at + 6, u, v);
-            let (x, y, z) = (self.at(simd, at + 3, u, v), self.at(simd, at + 4, u, v), self.at(simd, at + 5, u, v));
-            let point = V3::<S> { x, y, z } * Lane(k);
-            store(point.x, &mut points[0], i);
-            store(point.y, &mut points[1], i);
-            store(point.z, &mut points[2], i);
+            let k = F::<S>::splat(simd, 1.0) / load::<S, F<S>>(simd, closeness, i);
+            let point = V3::load(simd, points, i) * Lane(k);
+            point.store(points, i);
             if filter {
+                let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
                 let (wu, wv) = self.slopes::<S>(at + 6, u, v);
                 let (xu, xv) = self.slopes::<S>(at + 3, u, v);
                 let (yu, yv) = self.slopes::<S>(at + 4, u, v);
@@ -176,7 +187,6 @@ impl Patch {
             }
             i += 1;
         }
-        points
     }
 }
 
@@ -193,49 +203,35 @@ pub fn interpolate<S: Simd>(
 ) {
     let corners = grid.corners(square);
     let patch = Patch::new(simd, corners);
-    let unit = job.unit();
-    let size = square.size / unit;
-    let first = (square.y / unit) * Tile::SIZE + square.x / unit;
+    let size = job.pixels(square.size);
+    let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
     let filter = job.quality.subpixel > 0;
     let solid = if corners[0].closeness() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];
-        let mut i = 0;
-        while i * F::<S>::LEN < ramp.count {
-            let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-            for (k, plane) in plain.iter_mut().enumerate() {
-                store(patch.at(simd, k, u, v), plane, i);
-            }
-            i += 1;
-        }
+        patch.values(simd, 0, ramp, &mut plain);
         for n in 0..corners[0].count as usize {
             let at = PLAIN + HIT * n;
-            let mut footprint = [0.0; BLOCK];
-            let points = patch.points(simd, at, ramp, if filter { Some(&mut footprint) } else { None });
+            let [mut gain, mut points] = [[[0.0; BLOCK]; 3]; 2];
+            let [mut closeness, mut footprint] = [[0.0; BLOCK]; 2];
+            patch.values(simd, at, ramp, &mut gain);
+            patch.values(simd, at + 3, ramp, &mut points);
+            patch.values(simd, at + 6, ramp, std::slice::from_mut(&mut closeness));
+            patch.project(simd, at, ramp, &closeness, &mut points, filter, &mut footprint);
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
                 let mut color = [[0.0; BLOCK]; 3];
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
                 texture::shade(simd, albedo, &points, if filter { Some(&footprint) } else { None }, &mut color);
-                let mut i = 0;
-                while i * F::<S>::LEN < BLOCK {
-                    let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-                    for k in 0..3 {
-                        let light = patch.at(simd, at + k, u, v) * load::<S, F<S>>(simd, &color[k], i);
+                for k in 0..3 {
+                    let mut i = 0;
+                    while i * F::<S>::LEN < BLOCK {
+                        let light = load::<S, F<S>>(simd, &gain[k], i) * load::<S, F<S>>(simd, &color[k], i);
                         store(load::<S, F<S>>(simd, &plain[k], i) + light, &mut plain[k], i);
+                        i += 1;
                     }
-                    i += 1;
                 }
             } else {
-                let mut gain = [[0.0; BLOCK]; 3];
-                let mut i = 0;
-                while i * F::<S>::LEN < ramp.count {
-                    let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-                    for (k, plane) in gain.iter_mut().enumerate() {
-                        store(patch.at(simd, at + k, u, v), plane, i);
-                    }
-                    i += 1;
-                }
                 let mut pixels = [0; BLOCK];
                 for (pixel, offset) in pixels.iter_mut().zip(&ramp.pixel) {
                     *pixel = first as u16 + offset;

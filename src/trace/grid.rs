@@ -20,6 +20,14 @@ pub struct Square {
     pub size: usize,
 }
 
+impl Square {
+    /// Its four parts.
+    pub fn quarters(self) -> [Square; 4] {
+        let (Square { x, y, .. }, size) = (self, self.size / 2);
+        [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| Square { x, y, size })
+    }
+}
+
 /// The samples of a tile, on a lattice of pixels or parts of pixels.
 #[derive(Default)]
 pub struct Grid {
@@ -38,19 +46,14 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Forgets the last tile, for one of a job.
-    pub fn begin(&mut self, job: &Job, tile: &Tile) {
-        // Corners are centres of pixels, or corners of them.
-        let offset = if job.quality.subpixel == 0 { 0.5 } else { 0.0 };
-        self.first = (tile.x as u32 as f32 + offset, tile.y as u32 as f32 + offset);
+    /// Forgets all samples, for a tile of a job; the lattice begins so many pixels from the tile's corner.
+    pub fn begin(&mut self, job: &Job, tile: &Tile, dx: f32, dy: f32) {
+        self.first = (tile.x as u32 as f32 + dx, tile.y as u32 as f32 + dy);
         self.step = 1.0 / job.unit() as u32 as f32;
-        self.lattice.resize(LATTICE * LATTICE, (0, 0));
+        if self.lattice.is_empty() {
+            self.lattice = vec![(0, 0); LATTICE * LATTICE];
+        }
         self.generation = self.generation.wrapping_add(1).max(1);
-        self.clear();
-    }
-
-    /// Forgets all samples.
-    pub fn clear(&mut self) {
         self.count = 0;
         self.xs.clear();
         self.ys.clear();
@@ -71,18 +74,13 @@ impl Grid {
         self.ys.push(self.first.1 + y as u32 as f32 * self.step);
     }
 
-    /// Asks for a sample off the lattice: pixels of the picture.
-    pub fn want_at(&mut self, x: f32, y: f32) {
-        self.xs.push(x);
-        self.ys.push(y);
+    /// How many samples have been traced.
+    pub fn samples(&self) -> usize {
+        self.count
     }
 
-    /// All samples that have been traced, in the order in which they were asked for.
-    pub fn samples(&self) -> &[Sample] {
-        &self.samples[..self.count]
-    }
-
-    /// Where they are, pixels of the picture.
+    /// Where the samples are, pixels of the picture.
+    #[cfg(feature = "bench-scenes")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
@@ -106,8 +104,8 @@ impl Grid {
     #[inline(always)]
     pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
         let (first, end) = (self.count, self.xs.len());
-        if self.samples.len() < end {
-            self.samples.resize(end.next_power_of_two(), Sample::default());
+        while self.samples.len() < end {
+            self.samples.push(Sample::default());
         }
         packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
         self.count = end;

@@ -9,10 +9,13 @@
 //!
 //! Not guarded: images in the sides of blocks and cylinders, and images of images.
 
-use super::scalar;
-use super::shape::Shape;
+use super::packet::{Ray, nearest};
+use super::shape::{FAR, Shape};
 use super::world::{Light, Object, Source, World};
+use crate::lanes::{self, F, Lane, M, U, V3};
 use crate::view::View;
+use fearless_simd::{dispatch, prelude::*};
+use fearless_simd_macros::simd;
 use glam::Vec3;
 
 /// Edge of the blocks that the guard distinguishes, pixels.
@@ -38,19 +41,20 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard of a view of `world`, for a picture of that many pixels.
-    pub fn new(world: &World, view: &View, width: usize, height: usize) -> Guard {
+    /// The guard of a view of `world`, of `all` its objects, for a picture of that many pixels.
+    pub fn new(world: &World, all: &[u32], view: &View, width: usize, height: usize) -> Guard {
         let (columns, rows) = (width.div_ceil(BLOCK), height.div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
+        let eye = view.camera().eye;
         for (index, body) in world.objects.iter().enumerate() {
             for light in &world.lights {
-                guard.highlight(view, body, light);
+                guard.highlight(view, body, position(light, eye));
             }
-            for (center, radius) in balls(&body.shape).chain(tips(&body.shape)) {
+            for (center, radius) in (0..).map_while(|n| ball(&body.shape, n)) {
                 guard.protect(view, center, radius, Rim::Exact);
                 for (other, mirror) in world.objects.iter().enumerate() {
                     if other != index
-                        && let Some((image, radius)) = reflected(view.camera().eye, mirror, center, radius)
+                        && let Some((image, radius)) = reflected(eye, mirror, center, radius)
                     {
                         let flat = matches!(mirror.shape, Shape::Plane { .. });
                         guard.protect(view, image, radius, if flat { Rim::Exact } else { Rim::Found });
@@ -58,7 +62,7 @@ impl Guard {
                 }
                 if body.casts_shadow {
                     for light in &world.lights {
-                        guard.shadow(world, view, index, light, center, radius);
+                        guard.shadow(world, all, view, index, light, center, radius);
                     }
                 }
             }
@@ -73,11 +77,23 @@ impl Guard {
     }
 
     /// Cuts the squares under the shadow of a ball that is part of the body `caster`.
-    fn shadow(&mut self, world: &World, view: &View, caster: usize, light: &Light, center: Vec3, radius: f32) {
-        let aim = match light.source {
-            Source::Point(p) => (center - p).normalize_or(Vec3::NEG_Y),
-            Source::Directional(d) => -d,
+    #[allow(clippy::too_many_arguments)]
+    fn shadow(
+        &mut self,
+        world: &World,
+        all: &[u32],
+        view: &View,
+        caster: usize,
+        light: &Light,
+        center: Vec3,
+        radius: f32,
+    ) {
+        let source = position(light, view.camera().eye);
+        let toward = |point: Vec3| match light.source {
+            Source::Point(_) => (point - source).normalize_or(Vec3::NEG_Y),
+            Source::Directional(direction) => -direction,
         };
+        let aim = toward(center);
         // The middle of the shadow; and, where that is small, its rim, which may fall on something else.
         let (u, v) = aim.any_orthonormal_pair();
         let mut small = true;
@@ -86,32 +102,22 @@ impl Guard {
                 break;
             }
             let through = center + offset * radius;
-            let direction = match light.source {
-                Source::Point(p) => (through - p).normalize_or(aim),
-                Source::Directional(_) => aim,
-            };
-            let Some((index, t)) = scalar::nearest(world, through, direction, |i| i != caster) else { continue };
-            let point = through + direction * t;
-            let grown = match light.source {
-                Source::Point(p) => (point - p).length() / (through - p).length().max(1e-6),
-                Source::Directional(_) => 1.0,
-            };
+            let direction = toward(through);
+            let landing = dispatch!(lanes::best(), simd => landing(simd, world, all, caster, through, direction));
+            let Some((point, normal)) = landing else { continue };
+            let grown = point.distance(source) / through.distance(source).max(1e-6);
             // How much longer than wide it is there, at most 8.
-            let slope = world.objects[index].shape.normal_at(point).dot(direction).abs();
+            let slope = normal.dot(direction).abs();
             small = self.protect(view, point, radius * grown / slope.max(0.125), Rim::Exact);
         }
     }
 
-    /// Cuts the squares under a light's highlight on a body.
-    fn highlight(&mut self, view: &View, body: &Object, light: &Light) {
+    /// Cuts the squares under the highlight on a body of a light at `source`.
+    fn highlight(&mut self, view: &View, body: &Object, source: Vec3) {
         let material = &body.material;
         if material.specular == 0.0 {
             return;
         }
-        let source = match light.source {
-            Source::Point(p) => p,
-            Source::Directional(d) => view.camera().eye + d * 1e6,
-        };
         let Some(point) = mirror_point(view.camera().eye, &body.shape, source) else { return };
         // Half of the angle of the lobe: a normal turns the mirrored ray twice.
         let angle = 0.5 * SKIRT.powf(1.0 / material.exponent.max(1.0)).acos();
@@ -134,7 +140,8 @@ impl Guard {
         // Written so that a picture that is not a number is left alone.
         let small = finest < BLOCK as f32 && x.is_finite() && y.is_finite();
         if small {
-            let finest = 1 << finest.log2() as u32;
+            // A power of two.
+            let finest = 1 << ((finest.to_bits() >> 23) - 127);
             let rows = self.finest.len() / self.columns.max(1);
             let ((x0, x1), (y0, y1)) = (blocks(x, pixels, self.columns), blocks(y, pixels, rows));
             for row in y0..y1 {
@@ -147,6 +154,24 @@ impl Guard {
     }
 }
 
+/// Where a ray from the body `from` first meets another one, and the normal there.
+#[simd]
+fn landing<S: Simd>(
+    simd: S,
+    world: &World,
+    all: &[u32],
+    from: usize,
+    origin: Vec3,
+    direction: Vec3,
+) -> Option<(Vec3, Vec3)> {
+    let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
+    let ray = Ray { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
+    let (object, t) = nearest(simd, world, all, &ray, !inward, F::<S>::splat(simd, FAR), false);
+    let body = world.objects.get(object[0] as usize)?;
+    let point = ray.origin + ray.direction * Lane(t);
+    Some((point.first(), body.shape.normal(simd, point).first()))
+}
+
 /// The blocks, up to `end`, that a ball's picture may touch along one axis.
 fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
     let end = end as i32;
@@ -156,8 +181,19 @@ fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
     (low as usize, high as usize)
 }
 
-/// Balls that cover a body and are no wider than it, except for plates; none for planes and globes.
-fn balls(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
+/// Where a light is; one without distance is put far away.
+fn position(light: &Light, eye: Vec3) -> Vec3 {
+    match light.source {
+        Source::Point(position) => position,
+        Source::Directional(direction) => eye + direction * 1e6,
+    }
+}
+
+/// Ball `n` of those that stand for a body, none after the last one, or for planes and globes.
+///
+/// First those that cover it and are no wider than it, except for plates; then the corners of a block, as balls of no size:
+/// they reach into squares whose corners all lie outside.
+fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
     let (center, axis, half, radius) = match *shape {
         Shape::Sphere { center, radius } => (center, Vec3::ZERO, 0.0, radius),
         Shape::Cylinder { center, axis, half, radius } => (center, axis, half, radius),
@@ -167,22 +203,20 @@ fn balls(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
             across[long] = 0.0;
             (center, turn.row(long), half[long], across.length())
         }
-        Shape::Plane { .. } | Shape::Globe { .. } => (Vec3::ZERO, Vec3::ZERO, 0.0, 0.0),
+        Shape::Plane { .. } | Shape::Globe { .. } => return None,
     };
-    let count = if radius > 0.0 { (half / radius).ceil().clamp(1.0, MOST_BALLS) } else { 0.0 };
-    let radius = radius.max(half / count.max(1.0));
-    (0..count as u32).map(move |n| (center + axis * half * ((2 * n + 1) as f32 / count - 1.0), radius))
-}
-
-/// The corners of a block, as balls of no size: they reach into squares whose corners all lie outside.
-fn tips(shape: &Shape) -> impl Iterator<Item = (Vec3, f32)> + use<> {
-    let (center, half, turn) = match *shape {
-        Shape::Block { center, half, turn } => (center, half, turn.transpose()),
-        _ => (Vec3::ZERO, Vec3::ZERO, glam::Mat3::ZERO),
-    };
-    let signs = if half == Vec3::ZERO { 0..0 } else { 0..8 };
-    let sign = |bits: u32, axis: u32| if bits >> axis & 1 == 0 { -1.0 } else { 1.0 };
-    signs.map(move |n| (center + turn * (half * Vec3::new(sign(n, 0), sign(n, 1), sign(n, 2))), 0.0))
+    let count = (half / radius).ceil().clamp(1.0, MOST_BALLS);
+    if n < count as u32 {
+        return Some((center + axis * half * ((2 * n + 1) as f32 / count - 1.0), radius.max(half / count)));
+    }
+    let n = n - count as u32;
+    match *shape {
+        Shape::Block { center, half, turn } if n < 8 => {
+            let sign = |axis: u32| if n >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            Some((center + turn.transpose() * (half * Vec3::new(sign(0), sign(1), sign(2))), 0.0))
+        }
+        _ => None,
+    }
 }
 
 /// Where on a body the eye sees a point mirrored; none where it cannot or the body has no simple answer.

@@ -1,5 +1,6 @@
 //! What a point sees of the lights, and the sky.
 
+use super::packet::{Context, NOWHERE, Ray, nearest};
 use super::shape::FAR;
 use super::world::{Light, Source, World};
 use crate::lanes::{F, Lane, M, U, V3};
@@ -24,7 +25,7 @@ pub fn toward<S: Simd>(simd: S, light: &Light, point: V3<S>) -> (V3<S>, F<S>) {
 #[allow(clippy::too_many_arguments)]
 pub fn visibility<S: Simd>(
     simd: S,
-    world: &World,
+    context: &Context,
     samples: u32,
     light: &Light,
     point: V3<S>,
@@ -57,7 +58,10 @@ pub fn visibility<S: Simd>(
             distance = if directional { reach } else { length };
             aim = aim * Lane(one / length);
         }
-        seen += (wanted & !occluded(simd, world, point, aim, distance, from, wanted)).select(one, zero);
+        // A lit point of a convex body is never in that body's own shadow.
+        let ray = Ray { origin: point, direction: aim, from, inward: M::<S>::splat(simd, false) };
+        let (object, _) = nearest(simd, context.world, context.all, &ray, wanted, distance, true);
+        seen += (wanted & object.simd_eq(U::<S>::splat(simd, NOWHERE))).select(one, zero);
     }
     seen * (1.0 / samples as f32)
 }
@@ -68,25 +72,6 @@ fn disc_point(k: u32, n: u32) -> (f32, f32) {
     let radius = ((k as f32 + 0.5) / n as f32).sqrt();
     let (sin, cos) = (k as f32 * GOLDEN_ANGLE).sin_cos();
     (radius * cos, radius * sin)
-}
-
-/// Which of the `wanted` lanes have something between them and a light.
-///
-/// A lit point of a convex body is never in that body's own shadow.
-#[inline(always)]
-fn occluded<S: Simd>(simd: S, world: &World, point: V3<S>, aim: V3<S>, reach: F<S>, from: U<S>, wanted: M<S>) -> M<S> {
-    let mut dark = M::<S>::splat(simd, false);
-    for (index, body) in world.objects.iter().enumerate() {
-        if !body.casts_shadow {
-            continue;
-        }
-        let other = !from.simd_eq(U::<S>::splat(simd, index as u32));
-        dark |= body.shape.blocks(simd, point, aim, reach) & other;
-        if !(wanted & !dark).any_true() {
-            break;
-        }
-    }
-    dark
 }
 
 /// The sky in a direction.

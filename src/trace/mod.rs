@@ -44,14 +44,14 @@ impl Traced {
     /// Prepares a picture of `width` x `height` pixels.
     pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> Traced {
         let view = View::new(camera, width, height);
-        let guard = Guard::new(&world, &view, width, height);
+        let all: Vec<u32> = (0..world.objects.len() as u32).collect();
+        let guard = Guard::new(&world, &all, &view, width, height);
         let surfaces = world.objects.iter().map(|o| o.material.numbers()).collect();
-        let all = (0..world.objects.len() as u32).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         Traced { world, surfaces, all, variation, view, guard, quality }
     }
 
-    /// The objects that eye rays through a tile may meet: by the angle between the tile's middle and their bounds.
+    /// The objects that eye rays through a tile may meet: by the distance of their bounds from a cone around the tile.
     fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
         let eye = self.view.camera().eye;
         let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
@@ -61,17 +61,17 @@ impl Traced {
         let reach = half + 1.0;
         let corners = [(-reach, -reach), (reach, -reach), (-reach, reach), (reach, reach)];
         let cosine = |(dx, dy)| middle.dot(self.view.ray(x + half + dx, y + half + dy).normalize());
-        let spread = corners.map(cosine).into_iter().fold(1.0f32, f32::min).acos();
+        let cosine = corners.map(cosine).into_iter().fold(1.0f32, f32::min);
+        let sine = (1.0 - cosine * cosine).sqrt();
         visible.clear();
         for (index, body) in self.world.objects.iter().enumerate() {
             let (center, radius) = body.shape.bound();
-            let distance = center.distance(eye);
-            let near = distance <= radius * 1.001;
-            let seen = || {
-                let angle = middle.dot((center - eye) / distance).clamp(-1.0, 1.0).acos();
-                angle <= spread + (radius / distance).min(1.0).asin() + 1e-3
-            };
-            if near || seen() {
+            let way = center - eye;
+            let along = way.dot(middle);
+            let across = way.distance(middle * along);
+            // How far the centre lies outside of the cone around the tile, unless it is behind the eye.
+            let outside = across * cosine - along * sine;
+            if along >= -radius && outside <= radius * 1.001 + way.length() * 1e-3 {
                 visible.push(index as u32);
             }
         }
@@ -113,6 +113,7 @@ impl Layer for Traced {
         Stats { samples }
     }
 
+    #[cfg(feature = "bench-scenes")]
     fn positions(&self, level: Level, tile: &mut Tile) -> Vec<(f32, f32)> {
         self.draw_in(level, tile).1.positions().collect()
     }

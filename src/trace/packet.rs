@@ -5,9 +5,9 @@
 
 use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
-use super::shape::{FAR, Shape};
+use super::shape::{Ball, FAR, Shape};
 use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
-use crate::block::{BLOCK, store};
+use crate::block::BLOCK;
 use crate::lanes::{Bits, F, Lane, M, U, V3};
 use crate::math;
 use crate::texture;
@@ -51,20 +51,30 @@ struct Node<S: Simd> {
     active: M<S>,
     /// Lanes too faint to be traced. They are guessed to see the sky: half of the error of leaving them black.
     faint: M<S>,
-    origin: V3<S>,
-    direction: V3<S>,
+    ray: Ray<S>,
     weight: V3<S>,
-    /// Length of the path up to `origin`.
+    /// Length of the path up to the ray's origin.
     length: F<S>,
-    /// The body that the ray leaves, or `NOWHERE`, and whether it goes inside.
-    from: U<S>,
-    inward: M<S>,
     level: u32,
     /// 1 for the eye ray, then a bit for each level: 0 reflected, 1 refracted.
     path: u32,
 }
 
-const NOWHERE: u32 = u32::MAX;
+/// A ray a lane, and where it comes from.
+#[derive(Clone, Copy)]
+pub struct Ray<S: Simd> {
+    /// Start.
+    pub origin: V3<S>,
+    /// Unit direction.
+    pub direction: V3<S>,
+    /// The body that the ray leaves, or [`NOWHERE`].
+    pub from: U<S>,
+    /// Does it go inside?
+    pub inward: M<S>,
+}
+
+/// No body.
+pub const NOWHERE: u32 = u32::MAX;
 /// Highlights of more light than this are part of a corner's state: the skirt of a highlight finds the highlight.
 const HIGHLIGHT: f32 = 1.0 / 16.0;
 
@@ -128,12 +138,14 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     let mut next = Some(Node {
         active: lanes_in_use,
         faint: M::<S>::splat(simd, false),
-        origin: V3::splat(simd, eye),
-        direction: ray * Lane(one / step),
+        ray: Ray {
+            origin: V3::splat(simd, eye),
+            direction: ray * Lane(one / step),
+            from: U::<S>::splat(simd, NOWHERE),
+            inward: M::<S>::splat(simd, false),
+        },
         weight: V3 { x: one, y: one, z: one },
         length: zero,
-        from: U::<S>::splat(simd, NOWHERE),
-        inward: M::<S>::splat(simd, false),
         level: 1,
         path: 1,
     });
@@ -145,8 +157,14 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                 None => break,
             },
         };
-        let Node { active, direction, weight, length, level, path, .. } = node;
-        let object = nearest(simd, world, if level == 1 { context.visible } else { context.all }, &node);
+        let Node { active, weight, length, level, path, .. } = node;
+        let direction = node.ray.direction;
+        let far = F::<S>::splat(simd, FAR);
+        let (mut object, mut t) = (U::<S>::splat(simd, NOWHERE), far);
+        if active.any_true() {
+            let list = if level == 1 { context.visible } else { context.all };
+            (object, t) = nearest(simd, world, list, &node.ray, active, far, false);
+        }
         // Beside much light little is seen (Weber), in the dark it is.
         let detailed = weight.max_element().simd_gt((seen + DARK) * limits.min_detail);
         let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
@@ -156,7 +174,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         }
         let mut state = U::<S>::splat(simd, 0);
         if hit.any_true() {
-            let (t, point, surface) = resolve(simd, context, &node, object, hit);
+            let (t, point, surface) = resolve(simd, context, &node.ray, object, t, hit);
             let length = length + t;
             let closeness = step / length;
             if level == 1 {
@@ -189,7 +207,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     if !front.any_true() {
                         continue;
                     }
-                    let seen = visibility(simd, world, samples, source, point, to_light, reach, object, front);
+                    let seen = visibility(simd, context, samples, source, point, to_light, reach, object, front);
                     let lit = front & seen.simd_gt(zero);
                     let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
                     let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
@@ -225,7 +243,8 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
 
             if level < world.max_level {
                 let least = F::<S>::splat(simd, limits.min_weight);
-                let child = Node { origin: point, length, from: object, level: level + 1, ..node };
+                let child = Node { length, level: level + 1, ..node };
+                let leaving = Ray { origin: point, from: object, ..node.ray };
                 let mirrored = direction + normal * Lane(cosine * 2.0);
                 let mut reflected = weight.mulv(mirror);
                 let mut stays_inside = M::<S>::splat(simd, false);
@@ -237,16 +256,16 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                     let through = weight.mulv(surface.color(FILTER)) * Lane(one - share);
                     let (active, faint) = strength(simd, glass & passes, through, least);
                     if (active | faint).any_true() {
-                        let (direction, weight, inward, path) = (refracted, through, !inside, path * 2 + 1);
-                        stack.push(Node { active, faint, direction, weight, inward, path, ..child });
+                        let ray = Ray { direction: refracted, inward: !inside, ..leaving };
+                        stack.push(Node { active, faint, ray, weight: through, path: path * 2 + 1, ..child });
                     }
                     reflected = V3::select(glass, weight * Lane(share), reflected);
                     stays_inside = glass & inside;
                 }
                 let (active, faint) = strength(simd, hit, reflected, least);
                 if (active | faint).any_true() {
-                    let (direction, weight, inward, path) = (mirrored, reflected, stays_inside, path * 2);
-                    next = Some(Node { active, faint, direction, weight, inward, path, ..child });
+                    let ray = Ray { direction: mirrored, inward: stays_inside, ..leaving };
+                    next = Some(Node { active, faint, ray, weight: reflected, path: path * 2, ..child });
                 }
             }
         }
@@ -271,34 +290,65 @@ fn strength<S: Simd>(simd: S, wanted: M<S>, weight: V3<S>, least: F<S>) -> (M<S>
     (wanted & strong, wanted & !strong & most.simd_gt(F::<S>::splat(simd, 0.0)))
 }
 
-/// The nearest of the bodies in `list` for every lane, or `NOWHERE`.
-#[inline(always)]
-fn nearest<S: Simd>(simd: S, world: &World, list: &[u32], node: &Node<S>) -> U<S> {
+/// The nearest of the bodies in `list` for every lane, or [`NOWHERE`], and its distance but for a few ulps.
+///
+/// For the `shadow` of a light at the distance `reach`: any body before it that casts shadows, whose distance does not matter. The search ends
+/// when all `active` lanes are dark.
+#[simd]
+#[allow(clippy::too_many_arguments)]
+pub fn nearest<S: Simd>(
+    simd: S,
+    world: &World,
+    list: &[u32],
+    ray: &Ray<S>,
+    active: M<S>,
+    reach: F<S>,
+    shadow: bool,
+) -> (U<S>, F<S>) {
     let zero = F::<S>::splat(simd, 0.0);
-    let mut best = F::<S>::splat(simd, FAR);
-    let mut object = U::<S>::splat(simd, NOWHERE);
-    if !node.active.any_true() {
-        return object;
-    }
+    let nowhere = U::<S>::splat(simd, NOWHERE);
+    let (mut best, mut object) = (reach, nowhere);
+    let ball = if shadow { Ball::Middle } else { Ball::Rough };
     for &index in list {
+        let body = &world.objects[index as usize];
+        if shadow && !body.casts_shadow {
+            continue;
+        }
+        let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
+        if !(hit & active).any_true() {
+            continue;
+        }
         let id = U::<S>::splat(simd, index);
-        let same = node.from.simd_eq(id);
-        let (t0, t1) = world.objects[index as usize].shape.span_roughly(simd, node.origin, node.direction);
-        // Outwards the body that the ray leaves does not count; inwards only its far side does.
-        let t = (t0.simd_gt(zero) & !same).select(t0, t1);
-        let meets = t.simd_gt(zero) & t.simd_lt(best) & (!same | node.inward);
-        best = meets.select(t, best);
-        object = meets.select(id, object);
+        let other = !ray.from.simd_eq(id);
+        if shadow {
+            object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+            if !(active & object.simd_eq(nowhere)).any_true() {
+                break;
+            }
+        } else {
+            // Outwards the body that the ray leaves does not count; inwards only its far side does.
+            let t = (t0.simd_gt(zero) & other).select(t0, t1);
+            let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+            best = meets.select(t, best);
+            object = meets.select(id, object);
+        }
     }
-    object
+    (object, best)
 }
 
-/// Distance, point and surface of every lane's hit: once for each of the few bodies that a packet meets.
+/// Distance, point and surface of every lane's hit, from what [`nearest`] found: once for each of the few bodies that a
+/// packet meets.
 #[inline(always)]
-fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hit: M<S>) -> (F<S>, V3<S>, Surface<S>) {
+fn resolve<S: Simd>(
+    simd: S,
+    context: &Context,
+    ray: &Ray<S>,
+    object: U<S>,
+    mut t: F<S>,
+    hit: M<S>,
+) -> (F<S>, V3<S>, Surface<S>) {
     let zero = F::<S>::splat(simd, 0.0);
     let black = V3::splat(simd, Vec3::ZERO);
-    let mut t = zero;
     let mut point = black;
     let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();
@@ -307,10 +357,12 @@ fn resolve<S: Simd>(simd: S, context: &Context, node: &Node<S>, object: U<S>, hi
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
         let body = &context.world.objects[id as usize];
-        let (t0, t1) = body.shape.span(simd, node.origin, node.direction);
-        let outside = t0.simd_gt(zero) & !node.from.simd_eq(U::<S>::splat(simd, id));
-        t = here.select(outside.select(t0, t1).max(zero), t);
-        let mut at = node.origin + node.direction * Lane(t);
+        if let Shape::Sphere { .. } = body.shape {
+            let (t0, t1, _) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
+            let outside = t0.simd_gt(zero) & !ray.from.simd_eq(U::<S>::splat(simd, id));
+            t = here.select(outside.select(t0, t1).max(zero), t);
+        }
+        let mut at = ray.origin + ray.direction * Lane(t);
         if let Shape::Plane { normal, offset } = body.shape {
             // Back onto the plane, so that its texture is a slice at one height.
             at = at - V3::splat(simd, normal) * Lane(at.dot1(normal) - offset);
@@ -374,9 +426,7 @@ fn remember<S: Simd>(
         let here = late & object.simd_eq(U::<S>::splat(simd, id)).to_bitmask();
         late &= !here;
         let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-        store(point.x, &mut points[0], 0);
-        store(point.y, &mut points[1], 0);
-        store(point.z, &mut points[2], 0);
+        point.store(&mut points, 0);
         texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
         for lane in Bits(here) {
             let numbers = &mut out[lane].numbers;

@@ -6,6 +6,7 @@
 
 use crate::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
 
 /// A convex body.
@@ -56,6 +57,18 @@ pub enum Shape {
     },
 }
 
+/// How exact the entry into a ball has to be, and the exit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ball {
+    /// To a few ulps of themselves.
+    Exact,
+    /// To a few ulps of the distance to the centre: enough to tell which body is nearest, at half the price.
+    Rough,
+    /// Both are where the line is nearest to the centre, without a root: enough to tell whether the ball lies between two
+    /// points outside of it.
+    Middle,
+}
+
 /// Beyond this a ray has left the scene.
 pub const FAR: f32 = 1e30;
 
@@ -70,36 +83,35 @@ impl Shape {
         }
     }
 
-    /// Where the line `o + t d`, `|d| = 1`, is inside the body: `t0 <= t1`, or `(FAR, 0)` where it never is.
+    /// Where the line `o + t d`, `|d| = 1`, is inside the body, from `t0` to `t1 >= t0`, and whether it ever is.
     ///
     /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
     /// nearest point does not cancel as `b^2 - 4ac` does far away.
     #[inline(always)]
-    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
+    pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>, M<S>) {
         let zero = F::<S>::splat(simd, 0.0);
         match *self {
             Shape::Sphere { center, radius } => {
                 let (q, b, apart) = past(o, d, center);
                 let disc = F::<S>::splat(simd, radius * radius) - apart;
-                let s = disc.max(zero).sqrt();
-                let hit = disc.simd_gt(zero);
-                // The root on the far side of the nearest point is exact; the other follows from their product.
-                let far = b + s.copysign(b);
-                let near = (q.dot(q) - radius * radius) / far;
-                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+                let (t0, t1) = match ball {
+                    Ball::Exact => roots::<S>(b, disc.max(zero), q.dot(q) - radius * radius),
+                    Ball::Rough => {
+                        let s = disc.max(zero).sqrt();
+                        (b - s, b + s)
+                    }
+                    Ball::Middle => (b, b),
+                };
+                (t0, t1, disc.simd_gt(zero))
             }
             Shape::Plane { normal, offset } => {
                 let speed = d.dot1(normal);
                 let height = o.dot1(normal) - offset;
                 let t = -height / speed;
-                let enters = speed.simd_lt(zero);
-                let leaves = speed.simd_gt(zero);
-                let below = height.simd_le(zero);
-                let far = F::<S>::splat(simd, FAR);
+                let (enters, leaves) = (speed.simd_lt(zero), speed.simd_gt(zero));
                 // Parallel to the plane a ray is inside all along or never.
-                let t0 = enters.select(t, (leaves | below).select(-far, far));
-                let t1 = leaves.select(t, (enters | below).select(far, zero));
-                (t0, t1)
+                let far = F::<S>::splat(simd, FAR);
+                (enters.select(t, -far), leaves.select(t, far), enters | leaves | height.simd_le(zero))
             }
             Shape::Globe { touch, normal, radius } => {
                 // With q = o - touch and the centre at touch - R n: |o - c|^2 - R^2 = |q|^2 + 2 R q.n, and R^2 - |m|^2
@@ -110,12 +122,9 @@ impl Shape {
                 let m = q - d * Lane(along);
                 let across = m.dot1(normal);
                 let disc = slope * slope * radius - across * 2.0 - m.dot(m) * (1.0 / radius);
-                let s = (disc.max(zero) * radius).sqrt();
-                let b = -(along + slope * radius);
-                let hit = disc.simd_gt(zero);
-                let far = b + s.copysign(b);
-                let near = (q.dot(q) + q.dot1(normal) * (2.0 * radius)) / far;
-                (hit.select(far.min(near), F::<S>::splat(simd, FAR)), hit.select(far.max(near), zero))
+                let product = q.dot(q) + q.dot1(normal) * (2.0 * radius);
+                let (t0, t1) = roots::<S>(-(along + slope * radius), disc.max(zero) * radius, product);
+                (t0, t1, disc.simd_gt(zero))
             }
             Shape::Block { center, half, turn } => {
                 let (o, d) = (turned(turn, o.sub1(center)), turned(turn, d));
@@ -123,8 +132,7 @@ impl Shape {
                 let (y0, y1) = slab(simd, o.y, d.y, half.y);
                 let (z0, z1) = slab(simd, o.z, d.z, half.z);
                 let (t0, t1) = (x0.max(y0).max(z0), x1.min(y1).min(z1));
-                let hit = t0.simd_le(t1);
-                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
+                (t0, t1, t0.simd_le(t1))
             }
             Shape::Cylinder { center, axis, half, radius } => {
                 let q = o.sub1(center);
@@ -139,41 +147,13 @@ impl Shape {
                 let disc = F::<S>::splat(simd, radius * radius) - m.dot(m);
                 let s = (disc.max(zero) / a).sqrt();
                 let (t0, t1) = (c0.max(b - s), c1.min(b + s));
-                let hit = disc.simd_gt(zero) & t0.simd_le(t1);
-                (hit.select(t0, F::<S>::splat(simd, FAR)), hit.select(t1, zero))
+                (t0, t1, disc.simd_gt(zero) & t0.simd_le(t1))
             }
         }
     }
 
-    /// [`Shape::span`] with an absolute error of a few ulps of the distance to the centre: enough to tell which body is
-    /// nearest, at half the price for a ball.
-    #[inline(always)]
-    pub fn span_roughly<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>) -> (F<S>, F<S>) {
-        let Shape::Sphere { center, radius } = *self else { return self.span(simd, o, d) };
-        let zero = F::<S>::splat(simd, 0.0);
-        let (_, b, apart) = past(o, d, center);
-        let disc = F::<S>::splat(simd, radius * radius) - apart;
-        let s = disc.max(zero).sqrt();
-        let hit = disc.simd_gt(zero);
-        (hit.select(b - s, F::<S>::splat(simd, FAR)), hit.select(b + s, zero))
-    }
-
-    /// Does the body meet the open segment from `o` along `d` to distance `reach`? Both ends lie outside of it.
-    ///
-    /// For a ball that needs no root: its nearest point to the line lies between the ends and inside the ball.
-    #[inline(always)]
-    pub fn blocks<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, reach: F<S>) -> M<S> {
-        let zero = F::<S>::splat(simd, 0.0);
-        if let Shape::Sphere { center, radius } = *self {
-            let (_, b, apart) = past(o, d, center);
-            return apart.simd_lt(F::<S>::splat(simd, radius * radius)) & b.simd_gt(zero) & b.simd_lt(reach);
-        }
-        let (t0, t1) = self.span(simd, o, d);
-        t1.simd_gt(zero) & t0.simd_lt(reach)
-    }
-
     /// Unit outward normal at a point of the surface.
-    #[inline(always)]
+    #[simd]
     pub fn normal<S: Simd>(&self, simd: S, p: V3<S>) -> V3<S> {
         match *self {
             Shape::Sphere { center, .. } => unit(simd, p.sub1(center)),
@@ -206,6 +186,15 @@ impl Shape {
             }
         }
     }
+}
+
+/// The roots `b - sqrt(disc)` and `b + sqrt(disc)`, whose product is known.
+#[inline(always)]
+fn roots<S: Simd>(b: F<S>, disc: F<S>, product: F<S>) -> (F<S>, F<S>) {
+    // The root on the far side of the nearest point is exact; the other follows from their product.
+    let far = b + disc.sqrt().copysign(b);
+    let near = product / far;
+    (far.min(near), far.max(near))
 }
 
 /// How a line passes a point: from the point to the line's origin, how far along the line it is nearest, and the square of

@@ -1,7 +1,7 @@
 //! The land: a hill with a chapel in a valley with a lake, woods, and mountains all around.
 
 use super::{PAINTS, paint};
-use crate::noise::{self, noise, turbulence};
+use crate::noise::octaves;
 use crate::raster::mesh::Mesh;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
@@ -12,11 +12,6 @@ pub const WATER: f32 = -9.5;
 /// How far the land reaches, metres.
 pub const EDGE: f32 = 6078.0;
 
-#[inline(never)]
-fn fbm(p: Vec3, octaves: u32) -> f32 {
-    noise::fbm(p, octaves)
-}
-
 /// Height of the ground at a place, metres.
 #[inline(never)]
 pub fn height(x: f32, z: f32) -> f32 {
@@ -24,30 +19,30 @@ pub fn height(x: f32, z: f32) -> f32 {
     let r2 = x * x + z * z;
     let r = r2.sqrt();
     // Metres from the valley's winding middle, which leaves the mountains open to the east and to the west.
-    let across = z - 0.2 * x - 130.0 - 70.0 * noise(p * 0.0035);
+    let across = z - 0.2 * x - 130.0 - 140.0 * octaves(p * 0.0035, 1, false);
     let valley = |width: f32| 1.0 / (1.0 + across * across / (width * width));
     let hill = 11.0 / (1.0 + r2 / 3600.0);
     // Where the chapel stands the ground is even.
     let calm = r2 / (r2 + 3000.0);
-    let rolling = fbm(p * 0.003, 4) * (30.0 + 0.06 * r) * calm;
+    let rolling = octaves(p * 0.003, 4, false) * (30.0 + 0.06 * r) * calm;
     let rise = ((r - 700.0) / 4200.0).clamp(0.0, 1.0);
     let rise = rise * rise * (3.0 - 2.0 * rise) * (1.0 - 0.85 * valley(700.0));
-    let ridges = 1.0 - 2.2 * turbulence(p * 0.00035 + 7.7, 6);
+    let ridges = 1.0 - 2.2 * octaves(p * 0.00035 + 7.7, 6, true);
     hill + rolling - 13.0 * valley(45.0) + rise * (250.0 + 1000.0 * ridges)
 }
 
 /// Which way is up from the ground at a place, over `reach` metres.
 #[inline(never)]
 pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
-    let slope = |dx: f32, dz: f32| height(x - dx, z - dz) - height(x + dx, z + dz);
-    vec3(slope(reach, 0.0), 2.0 * reach, slope(0.0, reach)).normalize()
+    let y = height(x, z);
+    vec3(y - height(x + reach, z), reach, y - height(x, z + reach)).normalize()
 }
 
 /// More than 0 where woods grow; below -0.2 are the widest meadows.
 pub fn wooded(x: f32, z: f32) -> f32 {
     let p = vec3(x, 9.1, z);
     // None around the chapel, more the farther away.
-    fbm(p * 0.006, 3) - 0.03 - 12.0 / (12.0 + p.length())
+    octaves(p * 0.006, 3, false) - 0.03 - 12.0 / (12.0 + p.length())
 }
 
 /// Rings of points around the middle.

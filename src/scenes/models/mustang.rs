@@ -1,8 +1,10 @@
 //! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
 
+use super::{BODY, END, TURN, build};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::{Mesh, Paint};
-use glam::{Mat3, Vec3, vec3};
+use crate::scenes::script::{AGAIN, COS, COUNT, MUL, REPEAT, SIN, Script, get, script, set};
+use glam::{Vec3, vec3};
 
 /// Bare metal, olive drab, the canopy, yellow, white, black.
 pub static PAINTS: [Paint; 6] = [
@@ -177,52 +179,50 @@ const STICK: Body = Body {
     taper: 0.0,
 };
 
-/// Columns: where a body's x, y and z point to.
-const fn axes(x: Vec3, y: Vec3, z: Vec3) -> Mat3 {
-    Mat3::from_cols(x, y, z)
-}
+static BODIES: [Body; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
+
+/// Decimetres.
+#[rustfmt::skip]
+const PARTS: &[u8] = script![
+    [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, TURN],
+    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 0.0, BODY],
+    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 1.0, BODY],
+    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 2.0, BODY],
+    // Five degrees of dihedral are a shear.
+    [0.0, -1.0, 0.0, 1.0, 0.35, 0.25, MUL, 0.0, 0.0, 0.0, 1.0, TURN],
+    [0.0, -5.2, 0.0, 0.4, 5.0, 1.25, 3.0, BODY],
+    [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, TURN],
+    [0.0, 4.2, 5.0, 10.0, MUL, 0.4, 5.0, 1.25, 4.0, BODY],
+    [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, TURN],
+    [0.0, 0.0, 5.0, 10.0, MUL, 0.4, 2.0, 1.25, 5.0, BODY],
+    // The exhausts, and three guns.
+    [4.2, 1.4, -18.5, 5.0, 4.0, 5.0, 10.0, MUL, 6.0, BODY],
+    [20.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY],
+    [22.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY],
+    [24.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY, END],
+];
 
 /// All but the propeller: smooth, about 2,000 triangles. The origin is the centre of mass, on the thrust line.
 pub fn airframe() -> Mesh {
-    const ALONG: Mat3 = axes(vec3(0.01, 0.0, 0.0), vec3(0.0, 0.0, -0.05), vec3(0.0, 0.01, 0.0));
-    // Five degrees of dihedral are a shear.
-    const WINGS: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.004_374, 0.0), vec3(0.0, 0.0, 0.0125));
-    const TAIL: Mat3 = axes(vec3(0.0, -0.004, 0.0), vec3(0.05, 0.0, 0.0), vec3(0.0, 0.0, 0.0125));
-    const UP: Mat3 = axes(vec3(0.004, 0.0, 0.0), vec3(0.0, 0.02, 0.0), vec3(0.0, 0.0, 0.0125));
-    const GUN: Mat3 = axes(vec3(0.025, 0.0, 0.0), vec3(0.0, 0.025, 0.0), vec3(0.0, 0.0, 0.2));
-    static PARTS: [(&Body, Mat3, Vec3); 10] = [
-        (&FUSELAGE, ALONG, Vec3::ZERO),
-        (&CANOPY, ALONG, Vec3::ZERO),
-        (&SCOOP, ALONG, Vec3::ZERO),
-        (&WING, WINGS, vec3(0.0, -0.52, 0.0)),
-        (&STABILISER, TAIL, vec3(0.0, 0.42, 5.0)),
-        (&FIN, UP, vec3(0.0, 0.0, 5.0)),
-        // The exhausts, and three guns.
-        (&STICK, axes(vec3(0.05, 0.0, 0.0), vec3(0.0, 0.04, 0.0), vec3(0.0, 0.0, 0.5)), vec3(0.42, 0.14, -1.85)),
-        (&STICK, GUN, vec3(2.0, -0.35, -1.0)),
-        (&STICK, GUN, vec3(2.2, -0.35, -1.0)),
-        (&STICK, GUN, vec3(2.4, -0.35, -1.0)),
-    ];
     let mut mesh = Mesh::painted(&PAINTS);
-    for (body, turn, at) in &PARTS {
-        mesh.body(body, turn, *at, 0);
-    }
+    build(&mut mesh, &mut Script::new(PARTS, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
     mesh.mirror();
     mesh.smooth();
     mesh
 }
 
-/// Where the propeller turns, around z.
-pub const HUB: Vec3 = vec3(0.0, 0.0, -3.15);
+/// Decimetres. Blades with a pitch of 35 degrees.
+#[rustfmt::skip]
+const BLADES: &[u8] = script![
+    [4.0, REPEAT, COUNT, 1.57, MUL, set(5), get(5), COS, set(4), get(5), SIN, set(5)],
+    [get(4), 0.57, MUL, get(5), -0.57, MUL, -0.82, get(5), 2.0, MUL, get(4), 2.0, MUL, 0.0],
+    [get(4), 0.82, MUL, get(5), -0.82, MUL, 0.57, TURN],
+    [0.0, 0.0, -3.15, 10.0, MUL, 1.0, 1.0, 1.0, 7.0, BODY, AGAIN, END],
+];
 
-/// Four blades around the origin, flat.
+/// Four blades around the z axis, where they turn, flat.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    for (x, y) in [(0.0, 0.02), (0.02, 0.0), (0.0, -0.02), (-0.02, 0.0)] {
-        let out = vec3(x, y, 0.0);
-        // A pitch of 35 degrees.
-        let wide = vec3(0.41 * y, -0.41 * x, 0.0057);
-        mesh.body(&BLADE, &axes(out.cross(wide) * 50.0, out, wide), Vec3::ZERO, 0);
-    }
+    build(&mut mesh, &mut Script::new(BLADES, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
     mesh
 }

@@ -1,11 +1,12 @@
 //! Firs and broadleaves, and where they stand.
 
 use super::land::{self, height, wooded};
-use super::{PAINTS, paint};
+use super::{BODY, END, PAINTS, RANDOM, ROTATE, STREAM, build, paint};
 use crate::hash::rnd;
 use crate::raster::form::Body;
 use crate::raster::mesh::Mesh;
-use glam::{Mat3, Vec3, vec3};
+use crate::scenes::script::{ADD, MUL, Script, Word, get, script, set};
+use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
 
 /// A tree of the woods.
@@ -20,9 +21,6 @@ pub struct Tree {
     /// A fir, or else a broadleaf.
     pub fir: bool,
 }
-
-/// Stream of random numbers.
-const STREAM: u32 = 5;
 
 // From the bark of its kind.
 const BARK: i8 = 0;
@@ -80,34 +78,41 @@ const CROWN: Body = round(
 const FAR_CROWN: Body =
     round(&[[-127, 0, 8, 8, BARK], [-60, 0, 60, 60, LEAF], [40, 0, 80, 80, LEAF], [100, 0, 0, 0, LEAF]], 5);
 
-/// The parts of trees: hundredths of their units in the tree's height; how far up and out the middle is, in units.
+static BODIES: [Body; 5] = [FIR_TREE, FAR_FIR, FAR_CROWN, TRUNK, CROWN];
+
+/// Broadleaves and firs, near and far. The unit is the tree's height.
 #[rustfmt::skip]
-static PARTS: [(&Body, [f32; 3]); 8] = [
-    (&FIR_TREE, [1.0, 0.0, 0.0]),
-    (&FAR_FIR, [1.0, 0.0, 0.0]),
-    (&FAR_CROWN, [0.45, 122.0, 0.0]),
-    (&TRUNK, [1.0, 0.0, 0.0]),
-    (&CROWN, [0.26, 176.0, 77.0]),
-    (&CROWN, [0.26, 210.0, 77.0]),
-    (&CROWN, [0.26, 244.0, 77.0]),
-    (&CROWN, [0.26, 280.0, 15.0]),
+static KINDS: [&[u8]; 4] = [
+    script![
+        part(3.0, 0.0, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 3.0, BODY, 0.26, 0.1, MUL, set(5)],
+        part(4.0, 2.095, 0.77), crown(1.76),
+        part(5.0, 4.19, 0.77), crown(2.1),
+        part(6.0, 0.0, 0.77), crown(2.44),
+        part(7.0, 2.095, 0.15), crown(2.8), [END],
+    ],
+    script![part(0.0, 0.0, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.0, BODY, END]],
+    script![part(2.0, 4.19, 0.0), [0.0, 1.22, 0.45, MUL, 0.0, 0.045, 0.045, 0.045, 2.0, BODY, END]],
+    script![part(1.0, 2.095, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 1.0, BODY, END]],
 ];
+
+/// Turned by a random number and an angle more; so many radii of a crown away.
+#[rustfmt::skip]
+const fn part(number: Word, angle: Word, out: Word) -> [Word; 10] {
+    [number, RANDOM, get(4), angle, ADD, 0.0, out, 0.26, MUL, ROTATE]
+}
+
+/// So many radii above the ground.
+#[rustfmt::skip]
+const fn crown(up: Word) -> [Word; 10] {
+    [0.0, up, 0.26, MUL, 0.0, get(5), get(5), get(5), 4.0, BODY]
+}
 
 /// Adds a tree; `far` is one of 20 triangles or so.
 pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
     let first = mesh.points.len();
-    let parts = match (tree.fir, far) {
-        (true, false) => 0..1,
-        (true, true) => 1..2,
-        (false, true) => 2..3,
-        (false, false) => 3..8,
-    };
-    for i in parts {
-        let (body, [size, up, out]) = PARTS[i];
-        let angle = rnd(STREAM, tree.seed, i as u32) + TAU / 3.0 * i as u32 as f32;
-        let turn = Mat3::from_rotation_y(angle) * (0.01 * size * tree.height);
-        mesh.body(body, &turn, tree.foot + turn * vec3(0.0, up, out), paint::BARK + tree.seed as u16 % 3 * 3);
-    }
+    let bark = paint::BARK + tree.seed as u16 % 3 * 3;
+    let mut script = Script::new(KINDS[tree.fir as usize + 2 * far as usize], [bark as f32, 0.0]);
+    build(mesh, &mut script, &BODIES, tree.foot, tree.height, tree.seed);
     mesh.weather(first, 0.08 * tree.height, 4.0 / tree.height);
 }
 

@@ -1,7 +1,7 @@
 //! The intro's executable before it is packed: cargo, with everything that makes it small.
 
+use crate::library;
 use crate::toolchain::Toolchain;
-use crate::x11;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -48,23 +48,20 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
         made.map_err(|error| format!("cannot make {}: {error}", path.display()))
     };
     let (root, target) = (whole(root)?, whole(target)?);
-    let crates = target.join("x11-dl");
-    x11::cut(&metadata(&root, toolchain)?, &crates)?;
+    let library = target.join("library");
+    library::cut(&library::sources(&toolchain.sysroot), &library)?;
     let mut cargo = toolchain.cargo(&root);
+    // A cargo that knows this no more builds the library as it is, for some more bytes.
+    cargo.env("__CARGO_TESTS_ONLY_SRC_ROOT", &library);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
-    cargo.args(["--no-default-features", "--features", "x11,day"]);
+    cargo.args(["--no-default-features", "--features", "day"]);
     cargo.arg("-Zprofile-rustflags");
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
     cargo.arg("--target-dir").arg(&target);
     for setting in SETTINGS {
         cargo.args(["--config", setting]);
     }
-    cargo.arg("--config").arg(format!("paths=[{:?}]", crates.display().to_string()));
     cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
-    // minifb's one file in C asks for -O3; the last word counts.
-    cargo.env("CFLAGS", "-Os");
-    // x11-dl would note where this machine keeps its libraries; the loader knows better on the next.
-    cargo.env("PKG_CONFIG", "false");
     // The executable's own files are the shell around the renderer, where size alone counts; and it is linked.
     // The linker has no part in FLAGS: cargo names crates by their flags, and no name may depend on a path.
     cargo.args(["--", "-Copt-level=z", "-Clinker=tools/pack/cc"]);
@@ -72,14 +69,8 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     Ok(target.join(TARGET).join("release/paprsek"))
 }
 
-fn metadata(root: &Path, toolchain: &Toolchain) -> Result<String, String> {
-    let mut cargo = toolchain.cargo(root);
-    cargo.args(["metadata", "--format-version=1", "--locked", "--filter-platform", TARGET]);
-    String::from_utf8(run(cargo.stdout(Stdio::piped()))?).map_err(|_| "cargo metadata is not UTF-8".into())
-}
-
-/// Runs cargo, whose own messages go where ours go; gives what it printed.
-fn run(cargo: &mut Command) -> Result<Vec<u8>, String> {
-    let said = cargo.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot run cargo: {error}"))?;
-    if said.status.success() { Ok(said.stdout) } else { Err("cargo failed".into()) }
+/// Runs cargo, whose own messages go where ours go.
+fn run(cargo: &mut Command) -> Result<(), String> {
+    let status = cargo.stdout(Stdio::null()).status().map_err(|error| format!("cannot run cargo: {error}"))?;
+    if status.success() { Ok(()) } else { Err("cargo failed".into()) }
 }

@@ -150,14 +150,6 @@ pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
 
     let sections = sections(elf)?;
     needless::clear(&mut bytes, &sections, all.iter().any(|s| s.kind == GNU_EH_FRAME));
-    for function in needless::unreached(elf) {
-        let load =
-            loads.iter().find(|s| function.start >= s.address && function.end - s.address <= s.file.len() as u64);
-        if let Some(s) = load {
-            let offset = |address: u64| s.file.start + (address - s.address) as usize;
-            bytes[offset(function.start)..offset(function.end)].fill(0);
-        }
-    }
     // What the file says of its sections is only trusted within the segment that can be executed.
     let within = executable.file.clone();
     let code = code_sections(&sections)

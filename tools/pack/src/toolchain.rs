@@ -1,5 +1,6 @@
 //! A Rust toolchain that has the sources of its standard library, which is built anew for size.
 
+use crate::library;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,7 +33,7 @@ impl Toolchain {
 
     /// The toolchain at `sysroot`, if it will do.
     fn at(sysroot: PathBuf) -> Option<Toolchain> {
-        sysroot.join("lib/rustlib/src/rust/library/std/Cargo.toml").exists().then_some(())?;
+        library::sources(&sysroot).join("std/Cargo.toml").exists().then_some(())?;
         let version = said(Command::new(sysroot.join("bin/rustc")).arg("--version"))?;
         (minor(&version)? >= OLDEST).then_some(Toolchain { sysroot })
     }

@@ -1,9 +1,6 @@
 //! What is loaded but never read: zeros in its place cost nearly nothing.
 
 use super::Section;
-use object::read::elf::ElfFile64;
-use object::{Object, ObjectSymbol};
-use std::ops::Range;
 
 /// Types of sections.
 const HASH: u64 = 5;
@@ -33,24 +30,6 @@ pub fn clear(bytes: &mut [u8], sections: &[Section], unwinds: bool) {
             _ => {}
         }
     }
-}
-
-/// Addresses of functions that are never reached, as far as symbols tell.
-///
-/// A thread of the standard library that ends takes its guard page out of a tree, for the handler that tells stack
-/// overflows from other faults. Where that handler is not linked nothing was put in, and an empty tree has no nodes:
-/// what takes nodes apart is 1.2 kB packed.
-pub fn unreached(elf: &[u8]) -> Vec<Range<u64>> {
-    let Ok(file) = ElfFile64::<object::Endianness>::parse(elf) else { return Vec::new() };
-    let named = |symbol: &object::read::elf::ElfSymbol64<'_, '_>, words: &[&str]| {
-        symbol.name().is_ok_and(|name| words.iter().all(|word| name.contains(word)))
-    };
-    if file.symbols().any(|s| named(&s, &["14stack_overflow", "14signal_handler"])) {
-        return Vec::new();
-    }
-    let of_nodes = ["11collections5btree", "14stack_overflow11thread_info10ThreadInfo"];
-    let nodes = file.symbols().filter(|s| s.kind() == object::SymbolKind::Text && named(s, &of_nodes));
-    nodes.filter_map(|s| Some(s.address()..s.address().checked_add(s.size())?)).collect()
 }
 
 /// Is a dynamic symbol in a section of this file?
