@@ -1,6 +1,6 @@
 //! Clouds in a tile: rays at the corners of cells of pixels, interpolated between where that is as good.
 
-use super::march::{OPAQUE, march};
+use super::march::march;
 use super::{Clouds, Seen};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
@@ -180,11 +180,11 @@ fn see<S: Simd>(
         let mut light = V3::splat(simd, Vec3::ZERO);
         let mut transmittance = one;
         for Seen { cloud, steps, fades, veil, .. } in near {
-            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, *steps);
+            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, [*steps, clouds.quality.opaque]);
             let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
-            if transmittance.simd_lt(OPAQUE).all_true() {
+            if transmittance.simd_lt(clouds.quality.hidden).all_true() {
                 break;
             }
         }

@@ -35,11 +35,9 @@ pub struct Look {
     pub phase: [f32; 2],
 }
 
-/// No more than this is seen of what lies behind the last step.
-pub const OPAQUE: f32 = 1.0 / 256.0;
-
 /// Premultiplied light of a cloud along unit directions `d` from `eye`, and the transmittance; nothing beyond `limit`
-/// metres. The way through the cube is cut into `steps`, whose middles stand for them, as far as light comes through.
+/// metres. The way through the cube is cut into `steps`, whose middles stand for them, as far as more than `opaque` comes
+/// through.
 ///
 /// Beer and Lambert: `1 - exp(-extinction density length)` of a step is what it hides.
 #[simd]
@@ -50,7 +48,7 @@ pub fn march<S: Simd>(
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
-    steps: f32,
+    [steps, opaque]: [f32; 2],
 ) -> (V3<S>, F<S>) {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let q = (eye - cloud.centre) / cloud.size;
@@ -88,7 +86,7 @@ pub fn march<S: Simd>(
             transmittance -= hides;
         }
         step += (leap * reach).floor().max(one);
-        step = transmittance.simd_lt(OPAQUE).select(F::<S>::splat(simd, steps), step);
+        step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
     }
     let [low, high] = look.ambient;
     let c = d.dot1(look.towards).max(zero);

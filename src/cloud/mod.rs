@@ -22,11 +22,15 @@ use march::{Cloud, Look};
 pub struct CloudQuality {
     /// Steps through a cube.
     pub steps: u32,
-    /// The same by a cube's edge on the screen: steps a pixel, where that is less.
+    /// The same by a cube's edge on the screen: steps a pixel, where that is less; infinite for never.
     pub detail: f32,
+    /// A ray ends in a cloud where less than this share of the light comes through, and 0 is nowhere;
+    pub opaque: f32,
+    /// and before further clouds likewise.
+    pub hidden: f32,
     /// Edge of the coarsest cell of pixels whose corners are cast, a power of two up to 16; 1 casts a ray for every pixel.
     pub cell: usize,
-    /// A cell is interpolated where its middle is off by at most this, linear light.
+    /// A cell is interpolated where its middle is off by at most this, linear light; cells of 1 never are.
     pub threshold: f32,
     /// Samples of a pixel along each axis, where every pixel has a ray.
     pub grid: usize,
@@ -35,8 +39,15 @@ pub struct CloudQuality {
 impl CloudQuality {
     /// As the renderer's quality says.
     pub fn new(quality: &Quality) -> CloudQuality {
-        let detail = if quality.cell > 1 { 0.25 } else { f32::INFINITY };
-        CloudQuality { steps: 100, detail, cell: quality.cell, threshold: quality.threshold, grid: quality.grid }
+        CloudQuality {
+            steps: quality.cloud_steps,
+            detail: quality.cloud_detail,
+            opaque: quality.cloud_opaque,
+            hidden: quality.cloud_opaque,
+            cell: quality.cell,
+            threshold: quality.threshold,
+            grid: quality.grid,
+        }
     }
 }
 
