@@ -61,6 +61,7 @@ impl Kind {
         let scale = 2.0 / edge as u32 as f32;
         let squash = 100.0 / kind.flat as f32;
         let mut density = vec![0; edge * edge * edge];
+        let (mut ground, mut base) = ([[9.0; BLOCK]; 2], [0.0; BLOCK]);
         for (block, density) in density.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
             let [mut x, mut y, mut z] = [[0.0; BLOCK]; 3];
             let mut inside = [0.0; BLOCK];
@@ -104,7 +105,11 @@ impl Kind {
                 }
                 (frequency, amplitude) = (frequency * 2.03, amplitude * 0.5);
             }
-            let base = sample(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
+            // Blocks above one another have the same.
+            if ground != [x, z] {
+                ground = [x, z];
+                base = sample(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
+            }
             for (i, density) in density.iter_mut().enumerate() {
                 let base = (y[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
                 *density = ((distance[i] * (-1.0 / 0.12)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
