@@ -12,6 +12,8 @@ use fearless_simd_macros::simd;
 pub enum Transfer {
     /// `round(255 c^(1/2.2))`, no dither: what the bench scenes specify.
     Gamma22,
+    /// `round(255 c)`, no dither: likewise, where it is display light that is mixed.
+    Linear,
     /// The piecewise sRGB curve with an unbiased dither.
     Srgb,
 }
@@ -44,6 +46,7 @@ fn clamp(x: f32) -> f64 {
 pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -> u32 {
     let (value, threshold) = match transfer {
         Transfer::Gamma22 => (gamma22_encode(linear), 0.5),
+        Transfer::Linear => (clamp(linear) as f32, 0.5),
         Transfer::Srgb => (srgb_encode(linear), dither(x, y, channel)),
     };
     (255.0 * value as f64 + threshold as f64) as u32
@@ -84,6 +87,8 @@ struct Curve {
 
 const GAMMA22: Curve =
     Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0, round: 0.5, dither: 0.0 };
+/// All toe.
+const LINEAR: Curve = Curve { toe: 255.0, toe_end: 1.0, ..GAMMA22 };
 const SRGB: Curve = Curve {
     exponent: 1.0 / 2.4,
     scale: 255.0 * 1.055,
@@ -103,6 +108,7 @@ const SRGB: Curve = Curve {
 pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
     let curve = match transfer {
         Transfer::Gamma22 => GAMMA22,
+        Transfer::Linear => LINEAR,
         Transfer::Srgb => SRGB,
     };
     let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));

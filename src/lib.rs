@@ -4,6 +4,7 @@
 
 pub mod block;
 pub mod camera;
+pub mod cloud;
 pub mod color;
 pub mod hash;
 pub mod lanes;

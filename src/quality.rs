@@ -21,6 +21,12 @@ pub struct Quality {
     pub coverage: usize,
     /// Texels along an edge of the shadow maps of scenes that leave it to the quality; 0 traces shadows instead.
     pub shadow_map: u32,
+    /// Steps through a cloud's cube of voxels: the error falls with their square.
+    pub cloud_steps: u32,
+    /// Steps for each pixel of the cube's edge on the screen, where that makes fewer; infinite for never.
+    pub cloud_detail: f32,
+    /// Share of the light below which nothing that comes through clouds is looked for; 0 looks for all.
+    pub cloud_opaque: f32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -36,6 +42,9 @@ impl Quality {
         grid: 1,
         coverage: 1,
         shadow_map: 1024,
+        cloud_steps: 100,
+        cloud_detail: 0.25,
+        cloud_opaque: 1.0 / 256.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
@@ -50,6 +59,9 @@ impl Quality {
         grid: 1,
         coverage: 1,
         shadow_map: 0,
+        cloud_steps: 800,
+        cloud_detail: f32::INFINITY,
+        cloud_opaque: 0.0,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.

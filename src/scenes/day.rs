@@ -14,6 +14,7 @@ use crate::raster::{Body, Drawn, World};
 use crate::sky::backdrop::{Backdrop, Look};
 use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
+use crate::texture::Texture;
 use crate::tile::Picture;
 use crate::timeline::{self, ease};
 use crate::view::View;
@@ -100,7 +101,7 @@ const fn pale(color: Word) -> [Word; 5] {
 }
 
 /// The bodies: the land, the lake, the woods, the chapel; last the aeroplane and its propeller, which move.
-fn bodies() -> &'static Vec<Body> {
+pub(super) fn bodies() -> &'static Vec<Body> {
     static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
     BODIES.get_or_init(|| {
         let mut meshes = land::ground();
@@ -116,8 +117,8 @@ fn bodies() -> &'static Vec<Body> {
     })
 }
 
-fn picture(shot: &Shot) -> Picture {
-    let (day, hour) = clock(shot.time);
+/// What the plan has for a day: the camera at an hour, the date and the textures.
+pub(super) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Texture>) {
     let mut plan = Script::new(PLAN, [day as u32 as f32, 0.0]);
     let (mut key, mut date, mut textures) = ([0.0; 9], 0.0, Vec::new());
     loop {
@@ -128,9 +129,14 @@ fn picture(shot: &Shot) -> Picture {
                 let numbers = plan.numbers[VARIABLES..].first_chunk().unwrap();
                 textures.push(texture(numbers, &Mat3::IDENTITY, Vec3::ZERO));
             }
-            _ => break,
+            _ => return (key, date, textures),
         }
     }
+}
+
+fn picture(shot: &Shot) -> Picture {
+    let (day, hour) = clock(shot.time);
+    let (key, date, textures) = plan(day, hour);
     let [_, x, y, z, tx, ty, tz, fov, _] = key.map(|n| 10.0 * n);
     let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
     let camera = shot.camera(camera);

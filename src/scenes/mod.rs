@@ -1,6 +1,12 @@
 //! One file a scene; only scenes know more than one renderer.
 
 #[cfg(feature = "day")]
+pub mod clouds;
+#[cfg(feature = "bench-scenes")]
+pub mod cumulus;
+#[cfg(feature = "bench-scenes")]
+pub mod cumulus_set;
+#[cfg(feature = "day")]
 pub mod day;
 pub mod intro;
 pub mod lumen;
@@ -90,6 +96,8 @@ pub const ALL: &[Scene] = &[
     lumen::LUMEN,
     #[cfg(feature = "day")]
     day::DAY,
+    #[cfg(feature = "day")]
+    clouds::CLOUDS,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]
@@ -102,6 +110,12 @@ pub const ALL: &[Scene] = &[
     shadow::SHADOW_CUBE,
     #[cfg(feature = "bench-scenes")]
     sky::SKY,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::CUMULUS,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::CUMULUS_INSIDE,
+    #[cfg(feature = "bench-scenes")]
+    cumulus::SKY_OF_CLOUDS,
 ];
 
 /// The intro's own show: what plays when no scene is named.

@@ -1,0 +1,135 @@
+//! Clouds: cubes of voxels, lit by the sun, through which rays are cast.
+//!
+//! A cloud is drawn after solids and before the sky: what it hides counts as covered, so the sky fills what is left.
+
+mod cells;
+pub mod field;
+pub mod march;
+pub mod shape;
+pub mod sunlight;
+pub mod voxels;
+
+use crate::camera::Camera;
+use crate::quality::Quality;
+use crate::tile::{Layer, Stats, Tile};
+use crate::view::View;
+use fearless_simd::{Level, dispatch};
+use glam::Vec3;
+use march::{Cloud, Look};
+
+/// Speed against error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudQuality {
+    /// Steps through a cube.
+    pub steps: u32,
+    /// The same by a cube's edge on the screen: steps a pixel, where that is less; infinite for never.
+    pub detail: f32,
+    /// A ray ends in a cloud where less than this share of the light comes through, and 0 is nowhere;
+    pub opaque: f32,
+    /// and before further clouds likewise.
+    pub hidden: f32,
+    /// Edge of the coarsest cell of pixels whose corners are cast, a power of two up to 16; 1 casts a ray for every pixel.
+    pub cell: usize,
+    /// A cell is interpolated where its middle is off by at most this, linear light; cells of 1 never are.
+    pub threshold: f32,
+    /// Samples of a pixel along each axis, where every pixel has a ray.
+    pub grid: usize,
+}
+
+impl CloudQuality {
+    /// As the renderer's quality says.
+    pub fn new(quality: &Quality) -> CloudQuality {
+        CloudQuality {
+            steps: quality.cloud_steps,
+            detail: quality.cloud_detail,
+            opaque: quality.cloud_opaque,
+            hidden: quality.cloud_opaque,
+            cell: quality.cell,
+            threshold: quality.threshold,
+            grid: quality.grid,
+        }
+    }
+}
+
+/// Clouds before a camera, as a layer of a picture.
+pub struct Clouds {
+    /// Nearest first.
+    clouds: Vec<Seen>,
+    look: Look,
+    view: View,
+    quality: CloudQuality,
+}
+
+/// A cloud as it is seen from where the eye is.
+struct Seen {
+    cloud: Cloud,
+    distance: f32,
+    /// Steps through the cube.
+    steps: f32,
+    /// The share of its light that comes through the air, and the light that air adds to what is hidden.
+    fades: f32,
+    veil: Vec3,
+}
+
+impl Clouds {
+    /// The layer for clouds in any order. The air between has the light `haze` of a direction, and leaves 1/e of a
+    /// cloud's own at `range` metres.
+    pub fn new(
+        clouds: Vec<Cloud>,
+        look: Look,
+        haze: impl Fn(Vec3) -> Vec3,
+        range: f32,
+        view: View,
+        quality: CloudQuality,
+    ) -> Clouds {
+        let Camera { eye, forward, .. } = *view.camera();
+        let mut seen: Vec<Seen> = Vec::new();
+        for cloud in clouds {
+            let way = cloud.centre - eye;
+            if way.dot(forward) < -ROOT * cloud.size {
+                continue;
+            }
+            let distance = way.length();
+            let fades = (-distance / range).exp();
+            let veil = haze(way / distance.max(1e-3)) * (1.0 - fades);
+            let pixels = 2.0 * cloud.size / (distance * view.pixel());
+            let steps = (quality.steps as f32).min((pixels * quality.detail).max(8.0).ceil());
+            let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
+            seen.insert(at, Seen { cloud, distance, steps, fades, veil });
+        }
+        Clouds { clouds: seen, look, view, quality }
+    }
+
+    /// The clouds that rays through a tile may meet, nearest first.
+    fn near(&self, tile: &Tile) -> Vec<&Seen> {
+        let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
+        let ray = |dx: f32, dy: f32| self.view.ray(x + dx * Tile::SIZE as f32, y + dy * Tile::SIZE as f32).normalize();
+        let axis = ray(0.5, 0.5);
+        let mut cos = 1.0f32;
+        for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            cos = cos.min(ray(dx, dy).dot(axis));
+        }
+        let sin = (1.0 - cos * cos).sqrt();
+        // A ball around the cube against a cone around the tile.
+        let meets = |seen: &&Seen| {
+            let way = seen.cloud.centre - self.view.camera().eye;
+            let along = way.dot(axis);
+            let across = (way.length_squared() - along * along).max(0.0).sqrt();
+            across * cos - along * sin <= ROOT * seen.cloud.size
+        };
+        self.clouds.iter().filter(meets).collect()
+    }
+}
+
+/// From a cube's middle to its corner, halves of its edge.
+const ROOT: f32 = 1.732_051;
+
+impl Layer for Clouds {
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        let near = self.near(tile);
+        if !near.is_empty() {
+            dispatch!(level, simd => cells::draw(simd, self, &near, tile));
+        }
+        Stats::default()
+    }
+}
