@@ -93,6 +93,7 @@ fn picture(shot: &Shot) -> Picture {
         bodies,
         textures: day::plan(0, 0.0).2,
         lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
+        veil: None,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze {
             color: haze,
