@@ -23,7 +23,10 @@ use std::sync::{Arc, Mutex};
 
 /// The part.
 pub const CLOUDS: Scene =
-    Scene { name: "clouds", about: "a flight through clouds, from dawn to noon", duration: 50.0, picture };
+    Scene { name: "clouds", about: "a flight through clouds, from dawn to noon", duration: LENGTH, picture };
+
+/// Seconds that it takes.
+pub const LENGTH: f64 = 50.0;
 
 const FIELD: Field = Field {
     seed: 5,
@@ -80,8 +83,8 @@ fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
 }
 
 fn picture(shot: &Shot) -> Picture {
-    let hour = 4.1 + 7.9 * (shot.time / 50.0).powf(1.6);
-    let (keys, since) = timeline::cut(SHOTS, 50.0, shot.time);
+    let hour = 4.1 + 7.9 * (shot.time / LENGTH).powf(1.6);
+    let (keys, since) = timeline::cut(SHOTS, LENGTH, shot.time);
     let [x, y, z, heading, along, up, right, follows, before, fov] = keys.map(|n| n as f32);
     let since = since as f32;
     let course = Mat3::from_rotation_y(heading * -0.001);
