@@ -8,7 +8,17 @@ use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 
-const BENCH: [&str; 6] = ["spheres", "spheres-flat", "spheres-glass", "shadow", "shadow-cube", "sky"];
+const BENCH: [&str; 9] = [
+    "spheres",
+    "spheres-flat",
+    "spheres-glass",
+    "shadow",
+    "shadow-cube",
+    "sky",
+    "cumulus",
+    "cumulus-inside",
+    "sky-of-clouds",
+];
 
 fn scene(name: &str) -> Scene {
     scenes::named(name).unwrap()

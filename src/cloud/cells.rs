@@ -176,7 +176,7 @@ fn see<S: Simd>(
         let ray = clouds.view.rays(simd, load(simd, x, i), load(simd, y, i));
         let length = ray.dot(ray).sqrt();
         let d = ray * Lane(one / length);
-        let limit = load::<S, F<S>>(simd, depth, i) * length;
+        let mut limit = load::<S, F<S>>(simd, depth, i) * length;
         let mut light = V3::splat(simd, Vec3::ZERO);
         let mut transmittance = one;
         for Seen { cloud, steps, fades, veil, sunlit, .. } in near {
@@ -185,9 +185,12 @@ fn see<S: Simd>(
             let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
-            if transmittance.simd_lt(clouds.quality.hidden).all_true() {
+            // Each lane for itself, lest its light depends on its neighbours.
+            let ends = transmittance.simd_lt(clouds.quality.hidden);
+            if ends.all_true() {
                 break;
             }
+            limit = ends.select(F::<S>::splat(simd, 0.0), limit);
         }
         for (sum, value) in sum.iter_mut().zip([light.x, light.y, light.z, transmittance]) {
             store(load::<S, F<S>>(simd, sum, i) + value, sum, i);

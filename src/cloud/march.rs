@@ -57,7 +57,7 @@ pub fn march<S: Simd>(
     let [z0, z1] = slab(simd, q.z, d.z);
     let entry = x0.max(y0).max(z0).max(zero);
     let exit = x1.min(y1).min(z1).min(limit * (1.0 / cloud.size));
-    let (mut light, mut height, mut lit, mut transmittance) = (zero, zero, zero, one);
+    let (mut light, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
     if missed.all_true() {
@@ -69,7 +69,7 @@ pub fn march<S: Simd>(
     // Voxels that one step crosses at most, along an axis.
     let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
     let reach = one / missed.select(one, stride);
-    let depth = length * (-cloud.extinction * LOG2_E / 255.0);
+    let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
     while step.simd_lt(steps).any_true() {
         let way = missed.select(zero, entry + (step + 0.5) * length);
         let p = d * Lane(way);
@@ -78,12 +78,14 @@ pub fn march<S: Simd>(
         let leap = cloud.voxels.leap(simd, u);
         if leap.simd_eq(zero).any_true() {
             let [density, sunlit] = cloud.voxels.look_up(simd, u);
-            let passes = math::exp2(simd, density * depth);
-            let hides = step.simd_lt(steps).select(transmittance * (one - passes), zero);
+            // From the depth so far, since 1 - exp(-x) of a thin step would be all rounding.
+            depth += step.simd_lt(steps).select(density * thickness, zero);
+            let passes = math::exp2(simd, depth);
+            let hides = transmittance - passes;
             light += hides;
             height += hides * p.y;
             lit += hides * sunlit;
-            transmittance -= hides;
+            transmittance = passes;
         }
         step += (leap * reach).floor().max(one);
         step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
@@ -102,8 +104,9 @@ pub fn march<S: Simd>(
 /// Where rays enter and leave the space between -1 and 1 along an axis.
 #[inline(always)]
 fn slab<S: Simd>(simd: S, q: f32, d: F<S>) -> [F<S>; 2] {
-    // What runs along the slab is in it or is not; a ray on the very face would be 0 / 0.
-    let inverse = F::<S>::splat(simd, 1.0) / d.simd_eq(0.0).select(d + 1e-20, d);
+    // What runs along the slab is in it or is not; a ray on the very face would be 0 / 0, or 0 times infinity.
+    let least = F::<S>::splat(simd, 1e-20);
+    let inverse = F::<S>::splat(simd, 1.0) / d.abs().simd_lt(least).select(least, d);
     let (a, b) = (inverse * (-1.0 - q), inverse * (1.0 - q));
     [a.min(b), a.max(b)]
 }

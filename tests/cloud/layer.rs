@@ -1,0 +1,185 @@
+//! Clouds in a tile: solids before, in and behind them, cells of pixels, and one cloud before another.
+
+use super::common::levels;
+use super::oracle::{DAY, FURNACE, ball, cloud, filled, span, truth};
+use fearless_simd::Level;
+use glam::{Vec3, vec3};
+use paprsek::camera::Camera;
+use paprsek::cloud::march::{Cloud, Look};
+use paprsek::cloud::{CloudQuality, Clouds};
+use paprsek::quality::Quality;
+use paprsek::scenes;
+use paprsek::tile::{Frame, Layer, Renderer, Tile};
+use paprsek::view::View;
+
+/// A sum of a hundred roundings, and places that are good to 1e-5.
+const EXACT: f64 = 3e-5;
+
+fn view() -> View {
+    View::new(Camera::look_at(vec3(0.0, 0.0, 3.0), Vec3::ZERO, 0.9, 0.0), 64, 64)
+}
+
+/// Every pixel, nothing left out.
+fn exact() -> CloudQuality {
+    CloudQuality::new(&Quality::EXACT)
+}
+
+/// Solids by coverage and depth along the view axis, with the clouds over them. They are not all of one colour.
+fn tile(clouds: Vec<Cloud>, look: Look, quality: CloudQuality, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
+    let layer = Clouds::new(clouds, look, |_| Vec3::ONE, f32::INFINITY, view(), quality);
+    let mut tile = Tile::at(0, 0, 64, 64);
+    for at in 0..Tile::AREA {
+        let (covers, depth) = solid(at);
+        (tile.red[at], tile.green[at], tile.blue[at]) = (0.5 * covers, 0.25 * covers, 3.0 * covers);
+        (tile.coverage[at], tile.closeness[at]) = (covers, if covers > 0.0 { 1.0 / depth } else { 0.0 });
+    }
+    layer.draw(Level::new(), &mut tile);
+    tile
+}
+
+fn bits(tile: &Tile) -> Vec<u32> {
+    let planes = [&tile.red, &tile.green, &tile.blue, &tile.coverage, &tile.closeness];
+    planes.iter().flat_map(|plane| plane.iter().map(|x| x.to_bits())).collect()
+}
+
+#[test]
+fn an_empty_cloud_leaves_the_picture_as_it_is() {
+    let solid = |at: usize| ((at % 5) as f32 * 0.25, 2.0 + (at % 7) as f32 * 0.3);
+    for quality in [exact(), CloudQuality::new(&Quality::FAST), CloudQuality::new(&Quality::REFERENCE)] {
+        let without = bits(&tile(vec![], DAY, quality, solid));
+        for empty in [cloud(filled(32, |_| 0), 30.0), cloud(filled(32, |_| 255), 0.0)] {
+            assert!(bits(&tile(vec![empty; 2], DAY, quality, solid)) == without, "{quality:?}");
+        }
+    }
+}
+
+#[test]
+fn solids_end_rays_by_their_depth() {
+    const EXTINCTION: f32 = 0.8;
+    // The cube is from 2 to 4 metres away along the view axis: before it, in it, behind it.
+    let solid = |at: usize| ([1.0, 0.75, 0.25, 0.0][at % 4], [0.5, 1.99, 2.5, 3.0, 3.9, 4.5, 90.0][at / 4 % 7]);
+    let cloud = cloud(filled(32, |_| 255), EXTINCTION);
+    let found = tile(vec![cloud], FURNACE, exact(), solid);
+    let mut seen = 0;
+    for at in 0..Tile::AREA {
+        let ray = view().ray((at % 64) as f32 + 0.5, (at / 64) as f32 + 0.5).as_dvec3();
+        let (covers, depth) = solid(at);
+        let (covers, length) = (covers as f64, ray.length());
+        let (entry, exit) = span(vec3(0.0, 0.0, 3.0).as_dvec3(), ray / length).unwrap_or((0.0, 0.0));
+        let [behind, before] =
+            [exit, exit.min(depth as f64 * length)].map(|end| (-EXTINCTION as f64 * (end - entry).max(0.0)).exp());
+        seen += (before > behind && before < 1.0 && covers > 0.0) as u32;
+        let white = covers * (1.0 - before) + (1.0 - covers) * (1.0 - behind);
+        let expected = [0.5, 0.25, 3.0].map(|own| covers * own * before + white);
+        for (plane, exact) in [&found.red, &found.green, &found.blue].into_iter().zip(expected) {
+            assert!((plane[at] as f64 - exact).abs() < EXACT, "pixel {at}: {} for {exact}", plane[at]);
+        }
+        let exact = covers + (1.0 - covers) * (1.0 - behind);
+        assert!(
+            (found.coverage[at] as f64 - exact).abs() < EXACT,
+            "pixel {at}: {} covered for {exact}",
+            found.coverage[at]
+        );
+    }
+    assert!(seen > 200, "{seen} solids are in the cloud");
+}
+
+#[test]
+fn clouds_hide_each_other_in_any_order() {
+    let at = |z: f32, x: f32, extinction: f32| Cloud {
+        centre: vec3(x, 0.1, z),
+        size: 0.6,
+        ..cloud(ball(32, 3.0), extinction)
+    };
+    let clouds = [at(1.0, 0.1, 3.0), at(-0.5, -0.2, 9.0), at(-2.0, 0.4, 1.0)];
+    let found = tile(clouds.to_vec(), DAY, CloudQuality { steps: 100, ..exact() }, |_| (0.0, 0.0));
+    for order in [[2, 1, 0], [1, 2, 0], [0, 2, 1]] {
+        let again =
+            tile(order.map(|i| clouds[i].clone()).to_vec(), DAY, CloudQuality { steps: 100, ..exact() }, |_| {
+                (0.0, 0.0)
+            });
+        assert!(bits(&again) == bits(&found), "{order:?}");
+    }
+    for at in (0..Tile::AREA).step_by(3) {
+        let d = view().ray((at % 64) as f32 + 0.5, (at / 64) as f32 + 0.5).normalize();
+        let (mut light, mut left) = (glam::DVec3::ZERO, 1.0);
+        for cloud in &clouds {
+            let (own, passes) = truth(cloud, &DAY, vec3(0.0, 0.0, 3.0), d, 100);
+            (light, left) = (light + own * left, left * passes);
+        }
+        let error = (vec3(found.red[at], found.green[at], found.blue[at]).as_dvec3() - light).abs().max_element();
+        assert!(
+            error < EXACT && (found.coverage[at] as f64 - 1.0 + left).abs() < EXACT,
+            "pixel {at}: off by {error:.1e}"
+        );
+    }
+}
+
+#[test]
+fn exact_takes_no_shortcut() {
+    for quality in [Quality::EXACT, Quality::REFERENCE] {
+        let CloudQuality { detail, opaque, hidden, cell, .. } = CloudQuality::new(&quality);
+        assert_eq!((detail, opaque, hidden, cell), (f32::INFINITY, 0.0, 0.0, 1));
+    }
+    // Cells that always are cut give each pixel's own ray.
+    let clouds = || vec![cloud(ball(32, 4.0), 5.0)];
+    let solid = |_| (0.0, 0.0);
+    let every = bits(&tile(clouds(), DAY, exact(), solid));
+    let corners = tile(clouds(), DAY, CloudQuality { cell: 8, threshold: -1.0, ..exact() }, solid);
+    assert!(bits(&corners) == every);
+}
+
+#[test]
+fn cells_are_off_by_less_than_their_threshold() {
+    let clouds = || vec![cloud(ball(32, 9.0), 5.0)];
+    let every = tile(clouds(), FURNACE, CloudQuality { steps: 100, ..exact() }, |_| (0.0, 0.0));
+    let mut last = f32::INFINITY;
+    for threshold in [0.1, 0.03, 0.01, 0.003] {
+        let cells = tile(clouds(), FURNACE, CloudQuality { steps: 100, cell: 8, threshold, ..exact() }, |_| (0.0, 0.0));
+        let squares: f32 = every.red.iter().zip(cells.red.iter()).map(|(a, b)| (a - b) * (a - b)).sum();
+        let error = (squares / Tile::AREA as f32).sqrt();
+        println!("threshold {threshold}: rms {error}");
+        assert!(error < 0.5 * threshold && error < last, "{threshold}: {error}");
+        last = error;
+    }
+}
+
+#[test]
+fn fast_is_close_to_exact() {
+    // The target of adaptive pictures. Clouds of few pixels get few steps, so this is for the size that is played.
+    const DECIBELS: f64 = 40.0;
+    let mut renderer = Renderer::new(2).unwrap();
+    for name in ["cumulus", "cumulus-inside", "sky-of-clouds"] {
+        let mut pictures = [Quality::FAST, Quality::EXACT].map(|quality| {
+            let mut frame = Frame::new(1280, 720);
+            renderer.render(&scenes::named(name).unwrap(), 2.0, &quality, &mut frame);
+            frame.pixels.iter().flat_map(|p| p.to_be_bytes()).map(f64::from).collect::<Vec<_>>()
+        });
+        let (fast, exact) = pictures.split_at_mut(1);
+        let squares: f64 = fast[0].iter().zip(&exact[0]).map(|(a, b)| (a - b) * (a - b)).sum();
+        // One byte of four is nothing.
+        let decibels = 10.0 * (255.0 * 255.0 * 0.75 * fast[0].len() as f64 / squares).log10();
+        println!("{name}: {decibels:.1} dB");
+        assert!(decibels > DECIBELS, "{name}: {decibels:.1} dB");
+    }
+}
+
+#[test]
+fn every_level_draws_the_same_bits() {
+    let clouds =
+        || vec![cloud(ball(32, 4.0), 5.0), Cloud { centre: vec3(0.5, 0.5, -1.0), ..cloud(ball(16, 2.0), 3.0) }];
+    for quality in [Quality::FAST, Quality::REFERENCE].map(|quality| CloudQuality::new(&quality)) {
+        let mut first = None;
+        for (name, level) in levels() {
+            let layer =
+                Clouds::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudQuality { steps: 100, ..quality });
+            let mut tile = Tile::at(0, 0, 64, 50);
+            for at in 0..Tile::AREA {
+                tile.coverage[at] = (at % 3) as f32 * 0.5;
+                tile.closeness[at] = 0.3;
+            }
+            layer.draw(level, &mut tile);
+            assert!(*first.get_or_insert_with(|| bits(&tile)) == bits(&tile), "{name}");
+        }
+    }
+}
