@@ -143,6 +143,7 @@ impl Stage {
                 textures: Vec::new(),
                 lights,
                 ambient: [Vec3::splat(0.1); 2],
+                veil: None,
                 haze: Haze { color: fog, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
                 zenith: fog,
                 film: false,

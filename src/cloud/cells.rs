@@ -1,6 +1,6 @@
 //! Clouds in a tile: rays at the corners of cells of pixels, interpolated between where that is as good.
 
-use super::march::march;
+use super::march::{Look, march};
 use super::{Clouds, Seen};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
@@ -179,8 +179,9 @@ fn see<S: Simd>(
         let mut limit = load::<S, F<S>>(simd, depth, i) * length;
         let mut light = V3::splat(simd, Vec3::ZERO);
         let mut transmittance = one;
-        for Seen { cloud, steps, fades, veil, .. } in near {
-            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, [*steps, clouds.quality.opaque]);
+        for Seen { cloud, steps, fades, veil, sunlit, .. } in near {
+            let look = Look { sun: clouds.look.sun * *sunlit, ..clouds.look };
+            let (color, passes) = march(simd, cloud, &look, eye, d, limit, [*steps, clouds.quality.opaque]);
             let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;

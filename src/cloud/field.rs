@@ -26,9 +26,17 @@ pub struct Field {
 }
 
 impl Field {
-    /// The clouds around `eye` after the wind has carried all of them by `drift` metres.
-    pub fn around(&self, eye: Vec3, drift: Vec2, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
+    /// How far the wind has carried the field at `time` seconds, metres: the faster the higher, and in gusts, whose speed
+    /// of 2 cos(t / 3) metres a second is here what it sums up to.
+    pub fn drift(&self, time: f32) -> Vec2 {
+        let strength = (self.height * 0.002).sqrt();
+        Vec2::new(8.0 * time + 6.0 * (time / 3.0).sin(), 4.0 * time) * strength
+    }
+
+    /// The clouds around `eye` at `time` seconds.
+    pub fn around(&self, eye: Vec3, time: f32, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
         let mut clouds = Vec::new();
+        let drift = self.drift(time);
         let reach = (self.range / self.spacing).ceil() as i32;
         let middle = ((Vec2::new(eye.x, eye.z) - drift) / self.spacing).floor();
         for j in -reach..=reach {
@@ -39,7 +47,9 @@ impl Field {
                 if r(0) >= self.share {
                     continue;
                 }
-                let size = self.size[0] + self.size[1] * r(1) * r(1);
+                // Each swells and shrinks in its own time.
+                let swell = 1.0 + 0.06 * (0.15 * time + 40.0 * r(5)).sin();
+                let size = (self.size[0] + self.size[1] * r(1) * r(1)) * swell;
                 let at = |axis: usize| (place[axis] as f32 + 0.2 + 0.6 * r(2 + axis as u32)) * self.spacing;
                 let centre = vec3(at(0) + drift.x, self.height + 0.45 * size, at(1) + drift.y);
                 // By distance over the ground, so that none comes or goes as the eye climbs.

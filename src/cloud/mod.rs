@@ -5,11 +5,13 @@
 mod cells;
 pub mod field;
 pub mod march;
+pub mod shadow;
 pub mod shape;
 pub mod sunlight;
 pub mod voxels;
 
 use crate::camera::Camera;
+use crate::lanes;
 use crate::quality::Quality;
 use crate::tile::{Layer, Stats, Tile};
 use crate::view::View;
@@ -69,6 +71,8 @@ struct Seen {
     /// The share of its light that comes through the air, and the light that air adds to what is hidden.
     fades: f32,
     veil: Vec3,
+    /// The share of the sun's light that comes to it.
+    sunlit: f32,
 }
 
 impl Clouds {
@@ -95,9 +99,18 @@ impl Clouds {
             let pixels = 2.0 * cloud.size / (distance * view.pixel());
             let steps = (quality.steps as f32).min((pixels * quality.detail).max(8.0).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
-            seen.insert(at, Seen { cloud, distance, steps, fades, veil });
+            seen.insert(at, Seen { cloud, distance, steps, fades, veil, sunlit: 1.0 });
         }
         Clouds { clouds: seen, look, view, quality }
+    }
+
+    /// Takes from the clouds the sun's light that others keep from them, down to a quarter: air and clouds send some on.
+    pub fn shade(&mut self, others: &[Cloud]) {
+        for seen in &mut self.clouds {
+            let passes =
+                dispatch!(lanes::best(), simd => shadow::share(simd, others, self.look.towards, seen.cloud.centre));
+            seen.sunlit = 0.25 + 0.75 * passes;
+        }
     }
 
     /// The clouds that rays through a tile may meet, nearest first.

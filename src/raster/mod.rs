@@ -15,6 +15,7 @@ pub mod shade;
 pub mod shadow;
 pub mod traced;
 pub mod triangle;
+pub mod veil;
 
 use crate::block::{BLOCK, load, store};
 use crate::lanes::F;
@@ -33,6 +34,7 @@ use shade::{Context, Queue, collect, flush};
 use shadow::{DepthMap, Key, Plan};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use triangle::{Piece, SUB, Setup};
+use veil::Veil;
 
 /// A mesh in the world.
 #[derive(Clone)]
@@ -81,6 +83,8 @@ pub struct World {
     pub textures: Vec<Texture>,
     /// The lights.
     pub lights: Vec<Light>,
+    /// What suns shine through, beside the surfaces.
+    pub veil: Option<Veil>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
     /// The haze before what is far, and the sky at the horizon that gloss mirrors.

@@ -2,7 +2,7 @@
 
 use super::bins::{Id, NOTHING, TEXTURE, parts};
 use super::fill::{STEPS, Sample, Visible};
-use super::light::{Light, Sight};
+use super::light::{Light, Sight, Source};
 use super::triangle::{SUB, Triangle};
 use super::{BENCH, Raster, World};
 use crate::block::{BLOCK, load, store};
@@ -190,7 +190,7 @@ fn film<S: Simd>(simd: S, light: F<S>) -> F<S> {
 /// Shades a queue and adds its light to its pixels.
 #[simd]
 pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Queue, tile: &mut Tile) {
-    let Context { world, sights, rasters, .. } = *context;
+    let Context { world, sights, .. } = *context;
     let count = queue.count.min(BLOCK);
     queue.count -= count;
     // What stands behind the last is left over from others.
@@ -218,7 +218,7 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
     }
     for (light, sight) in world.lights.iter().zip(sights) {
         if light.meets(simd, low, high) {
-            shine(simd, light, sight, rasters, queue);
+            shine(simd, context, light, sight, queue);
         }
     }
     finish(simd, context, queue);
@@ -312,11 +312,15 @@ fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Que
 /// Adds what a light gives to a queue.
 #[simd]
 #[inline(never)]
-fn shine<S: Simd>(simd: S, light: &Light, sight: &Sight, rasters: &[Raster], queue: &mut Queue) {
+fn shine<S: Simd>(simd: S, context: &Context, light: &Light, sight: &Sight, queue: &mut Queue) {
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
-        store3(load3(simd, &queue.light, i) + light.at(simd, sight, rasters, p, n), &mut queue.light, i);
+        let mut gives = light.at(simd, sight, context.rasters, p, n);
+        if let (Source::Sun(_), Some(veil)) = (light.source, &context.world.veil) {
+            gives = gives * Lane(veil.at(simd, p));
+        }
+        store3(load3(simd, &queue.light, i) + gives, &mut queue.light, i);
         i += 1;
     }
 }

@@ -6,34 +6,56 @@ use crate::cloud::field::Field;
 use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
-use crate::cloud::{CloudQuality, Clouds, sunlight};
+use crate::cloud::{CloudQuality, Clouds, shadow, sunlight};
 use crate::color::Transfer;
 use crate::lanes;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::{Drawn, World};
+use crate::raster::Drawn;
+use crate::raster::veil::Veil;
 use crate::sky::backdrop::{self, Backdrop};
 use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
 use crate::tile::Picture;
+use crate::timeline;
 use crate::view::View;
 use fearless_simd::dispatch;
-use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
-use std::f32::consts::TAU;
+use glam::{Mat3, Vec2, Vec3, vec3};
 use std::sync::{Arc, Mutex};
 
 /// The part.
 pub const CLOUDS: Scene =
-    Scene { name: "clouds", about: "a flight through clouds, from dawn to noon", duration: 50.0, picture };
+    Scene { name: "clouds", about: "a flight through clouds, from dawn to noon", duration: LENGTH, picture };
+
+/// Seconds that it takes.
+pub const LENGTH: f64 = 50.0;
 
 const FIELD: Field = Field {
     seed: 5,
     spacing: 520.0,
     share: 0.55,
     height: 640.0,
-    size: [110.0, 170.0],
+    size: [110.0, 190.0],
     range: 5200.0,
     extinction: 26.0,
 };
+
+/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, thousandths of a radian
+/// from east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
+/// how far before the aeroplane it looks, metres; the vertical field of view, degrees.
+#[rustfmt::skip]
+static SHOTS: &[(f64, [i16; 10])] = &[
+    // Into a cloud, before the rising sun; through it, and into the next; out of that, and past.
+    (0.0, [-1230, 725, -110, -150, -24, 5, 9, 78, 10, 50]),
+    (9.0, [-600, 725, -190, -150, 7, 0, 0, 100, 100, 60]),
+    (16.0, [-110, 725, -285, -150, 250, -8, 20, 0, 0, 45]),
+    // Over the lake.
+    (23.0, [-200, 770, 60, 0, -24, 12, -12, 100, 12, 50]),
+    // After whoever looks, out of a cloud.
+    (30.0, [1446, 735, 410, 0, 30, -2, 6, 100, 0, 45]),
+    // In and out, from afar.
+    (37.0, [548, 745, 965, 0, 20, -14, 150, 95, 0, 20]),
+    // Above all.
+    (43.0, [-1200, 970, 300, 0, -24, 15, 8, 100, 12, 60]),
+];
 
 /// Shapes lit by a sun that is `towards`: made again when it has moved by some half of a degree.
 fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
@@ -61,62 +83,48 @@ fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
 }
 
 fn picture(shot: &Shot) -> Picture {
-    let time = shot.time as f32;
-    let hour = 4.75 + 7.25 * (shot.time / 50.0).powf(1.6);
-    let way = |t: f32| {
-        vec3(70.0 * t, 690.0 + 60.0 * (0.21 * t).sin() - 40.0 * (0.13 * t).cos(), 260.0 * (0.05 * t).sin() - 300.0)
-    };
-    let place = way(time);
-    let ahead = (way(time + 0.5) - place).normalize();
-    let bend = (way(time + 1.5) - way(time + 1.0)).normalize() - ahead;
+    let hour = 4.1 + 7.9 * (shot.time / LENGTH).powf(1.6);
+    let (keys, since) = timeline::cut(SHOTS, LENGTH, shot.time);
+    let [x, y, z, heading, along, up, right, follows, before, fov] = keys.map(|n| n as f32);
+    let since = since as f32;
+    let course = Mat3::from_rotation_y(heading * -0.001);
+    let way = |t: f32| course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z);
+    let place = way(since);
+    let ahead = (way(since + 0.5) - place).normalize();
+    let bend = (way(since + 1.5) - way(since + 1.0)).normalize() - ahead;
     let side = ahead.cross(Vec3::Y).normalize();
-    let bank = (bend.dot(side) * 6.0).clamp(-0.9, 0.9);
+    let bank = bend.dot(side) * 6.0;
     let turn = Mat3::from_cols(side, side.cross(ahead), -ahead) * Mat3::from_rotation_z(-bank);
-    let orbit = 0.35 * (0.17 * time).sin() + 0.5;
-    let eye = place - ahead * (16.0 * orbit.cos())
-        + side * (16.0 * orbit.sin())
-        + Vec3::Y * (3.5 + 2.0 * (0.23 * time).sin());
-    let camera = Camera::look_at(eye, place + ahead * 9.0, 50f32.to_radians(), -0.25 * bank);
+    let eye = way(since * follows * 0.01) + course * vec3(along, up, right);
+    // Whoever looks far ahead sits in it.
+    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * -0.01);
     let camera = shot.camera(camera);
     let dome = Dome::new(Sky::new(9671.5 + (hour - 1.0) / 24.0, &Place::PLZEN), DomeQuality::new(&shot.quality));
     let now = dome.lighting();
-    let mut bodies = day::bodies().clone();
-    let turns = 5.0 * shot.time;
-    let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
-    let aeroplane = bodies.len() - 2;
-    for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
-        body.put(Affine3A::from_mat3_translation(turn, place));
-    }
-    let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
-    let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
-    let world = World {
-        bodies,
-        textures: day::plan(0, 0.0).2,
-        lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
-        ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
-        haze: Haze {
-            color: haze,
-            density: 1.0 / 5000.0,
-            glow: (towards, (glow - haze).max(Vec3::ZERO)),
-            image: Vec3::ZERO,
-        },
-        zenith: dome.radiance(Vec3::Y),
-        film: true,
-        background: None,
-    };
+    let clouds = FIELD.around(eye, shot.time as f32, &shapes(now.direction));
+    let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, shot.time);
+    world.haze.density = 1.0 / 5000.0;
+    // It moves by whole texels, and its slope ends before the sun is level.
+    let texel = 64.0;
+    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - Veil::SIDE as f32 * 0.5) * texel;
+    let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
+    let passes = dispatch!(lanes::best(), simd => shadow::map(simd, &clouds, now.direction, corner, texel, Veil::SIDE));
+    world.veil = Some(Veil { passes, corner, texel, slope });
     let view = View::new(camera, shot.width, shot.height);
     let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
-    let drift = Vec2::new(9.0, 4.0) * time;
-    let field = FIELD.around(eye, drift, &shapes(now.direction));
+    // What is brightest without glare is to be no more than white.
+    let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
+    let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
     let look = Look {
-        ambient: [now.ground * 0.5 + now.sky * 0.35, now.sky * 0.9],
+        ambient: [ground * 0.5 + sky * 0.4, sky * 0.85],
         towards: now.direction,
-        sun: now.color * 0.8,
-        phase: [0.8, 0.9],
+        sun: sun * 0.75,
+        phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let clouds = Clouds::new(field, look, air, 6000.0, view, CloudQuality::new(&shot.quality));
+    let mut seen = Clouds::new(clouds.clone(), look, air, 6000.0, view, CloudQuality::new(&shot.quality));
+    seen.shade(&clouds);
     let look = backdrop::Look { behind: true, shimmer: shot.time, ..backdrop::Look::default() };
     let backdrop = Backdrop::new(dome, camera, shot.width, shot.height, look);
-    Picture { layers: vec![Box::new(drawn), Box::new(clouds), Box::new(backdrop)], transfer: Transfer::Srgb }
+    Picture { layers: vec![Box::new(drawn), Box::new(seen), Box::new(backdrop)], transfer: Transfer::Srgb }
 }

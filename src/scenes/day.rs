@@ -134,6 +134,34 @@ pub(super) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Texture>) {
     }
 }
 
+/// The land under a sky at `time` seconds, with the aeroplane there; its light has no shadows yet.
+#[inline(never)]
+pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
+    let now = dome.lighting();
+    let mut bodies = bodies().clone();
+    // Turns a second, five.
+    let turns = 5.0 * time;
+    let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
+    let aeroplane = bodies.len() - 2;
+    for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
+        body.put(Affine3A::from_mat3_translation(turn, place));
+    }
+    let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
+    let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
+    let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
+    World {
+        bodies,
+        textures,
+        lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
+        veil: None,
+        ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
+        haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },
+        zenith: dome.radiance(Vec3::Y),
+        film: true,
+        background: None,
+    }
+}
+
 fn picture(shot: &Shot) -> Picture {
     let (day, hour) = clock(shot.time);
     let (key, date, textures) = plan(day, hour);
@@ -144,19 +172,12 @@ fn picture(shot: &Shot) -> Picture {
     let midnight = 9671.5 - HOUR + date as f64;
     let dome = Dome::new(Sky::new(midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
     let now = dome.lighting();
-    let mut bodies = bodies().clone();
     // Over the hill in some seconds, again and again.
     let flights = shot.time / 15.0;
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
     let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
-    // Turns a second, five.
-    let turns = 5.0 * shot.time;
-    let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
-    let aeroplane = bodies.len() - 2;
-    for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
-        body.put(Affine3A::from_mat3_translation(turn, place));
-    }
+    let mut world = world(&dome, textures, turn, place, shot.time);
     let aspect = shot.width as u32 as f32 / shot.height as u32 as f32;
     let size = if shot.quality.shadow_map == 0 { 1024 } else { shot.quality.shadow_map };
     let plan = Plan {
@@ -167,7 +188,7 @@ fn picture(shot: &Shot) -> Picture {
         traced: shot.quality.shadow_map == 0,
         smooth: true,
     };
-    let mut lights = vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: Some(plan) }];
+    world.lights[0].shadow = Some(plan);
     // Somebody lights a lamp when it gets dark.
     let dark = ease(-0.02, 0.1, -dome.sky.sun.y as f64);
     if dark > 0.0 {
@@ -180,21 +201,8 @@ fn picture(shot: &Shot) -> Picture {
             smooth: true,
         };
         let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
-        lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
+        world.lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
     }
-    let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
-    let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
-    let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
-    let world = World {
-        bodies,
-        textures,
-        lights,
-        ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
-        haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },
-        zenith: dome.radiance(Vec3::Y),
-        film: true,
-        background: None,
-    };
     let view = View::new(camera, shot.width, shot.height);
     let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
     let look = Look { behind: true, shimmer: shot.time, ..Look::default() };

@@ -1,8 +1,8 @@
 //! The show: parts, one after another, each a scene of its own. It fades to black before a part ends.
 
-#[cfg(feature = "day")]
-use super::day;
 use super::{Scene, Shot, lumen};
+#[cfg(feature = "day")]
+use super::{clouds, day};
 use crate::tile::{Layer, Picture, Stats, Tile};
 use crate::timeline::{self, ease};
 use fearless_simd::Level;
@@ -19,10 +19,12 @@ pub const PARTS: &[(f64, (Scene, f64))] = &[
     (56.0, (day::DAY, 0.0)),
     #[cfg(feature = "day")]
     (56.0 + day::LENGTH, (day::DAY, 2.0 * day::LENGTH)),
+    #[cfg(feature = "day")]
+    (56.0 + 2.0 * day::LENGTH, (clouds::CLOUDS, 0.0)),
 ];
 
 /// Seconds that the show takes.
-const END: f64 = 56.0 + if cfg!(feature = "day") { 120.0 } else { 0.0 };
+const END: f64 = 56.0 + if cfg!(feature = "day") { 2.0 * 60.0 + 50.0 } else { 0.0 };
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;
