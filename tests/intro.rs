@@ -37,7 +37,7 @@ fn capture(mut program: Command, words: &[&str]) -> Vec<u8> {
 #[test]
 fn it_shows_the_plain_build_s_pictures() {
     let Some(intro) = intro() else { return };
-    let show = ["--from", "1", "--to", "175", "--fps", "0.12", "--size", "160x90"];
+    let show = ["--from", "1", "--to", "225", "--fps", "0.1", "--size", "160x90"];
     let fade = ["--from", "55.6", "--to", "56", "--fps", "25", "--size", "160x90"];
     let runs = [
         show.to_vec(),
