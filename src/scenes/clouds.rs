@@ -7,13 +7,8 @@ use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
 use crate::cloud::{CloudQuality, Clouds, shadow, sunlight};
-use crate::color::Transfer;
 use crate::lanes;
-use crate::raster::Drawn;
 use crate::raster::veil::Veil;
-use crate::sky::backdrop::{self, Backdrop};
-use crate::sky::dome::{Dome, DomeQuality, Sky};
-use crate::sky::place::Place;
 use crate::tile::Picture;
 use crate::timeline;
 use crate::view::View;
@@ -99,19 +94,22 @@ fn picture(shot: &Shot) -> Picture {
     // Whoever looks far ahead sits in it.
     let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * -0.01);
     let camera = shot.camera(camera);
-    let dome = Dome::new(Sky::new(9671.5 + (hour - 1.0) / 24.0, &Place::PLZEN), DomeQuality::new(&shot.quality));
+    let dome = day::sky(shot, 9671.5 + (hour - 1.0) / 24.0);
     let now = dome.lighting();
     let clouds = FIELD.around(eye, shot.time as f32, &shapes(now.direction));
     let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, shot.time);
-    world.haze.density = 1.0 / 5000.0;
     // It moves by whole texels, and its slope ends before the sun is level.
-    let texel = 64.0;
-    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - Veil::SIDE as f32 * 0.5) * texel;
+    let texel = 80.0;
+    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - Veil::SIDE as u32 as f32 * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
-    let passes = dispatch!(lanes::best(), simd => shadow::map(simd, &clouds, now.direction, corner, texel, Veil::SIDE));
+    let mut points = Vec::new();
+    for number in 0..Veil::SIDE * Veil::SIDE {
+        let [x, z] = [number % Veil::SIDE, number / Veil::SIDE].map(|k| k as u32 as f32 * texel);
+        points.push(vec3(corner.x + x, 0.0, corner.y + z));
+    }
+    let passes = shadow::shares(&clouds, now.direction, &points);
     world.veil = Some(Veil { passes, corner, texel, slope });
     let view = View::new(camera, shot.width, shot.height);
-    let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
     // What is brightest without glare is to be no more than white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
     let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
@@ -122,9 +120,7 @@ fn picture(shot: &Shot) -> Picture {
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let mut seen = Clouds::new(clouds.clone(), look, air, 6000.0, view, CloudQuality::new(&shot.quality));
+    let mut seen = Clouds::new(clouds.clone(), look, air, 9000.0, view, CloudQuality::new(&shot.quality));
     seen.shade(&clouds);
-    let look = backdrop::Look { behind: true, shimmer: shot.time, ..backdrop::Look::default() };
-    let backdrop = Backdrop::new(dome, camera, shot.width, shot.height, look);
-    Picture { layers: vec![Box::new(drawn), Box::new(seen), Box::new(backdrop)], transfer: Transfer::Srgb }
+    day::show(shot, dome, world, view, Some(Box::new(seen)))
 }
