@@ -14,6 +14,7 @@ use crate::timeline;
 use crate::view::View;
 use fearless_simd::dispatch;
 use glam::{Mat3, Vec2, Vec3, vec3};
+use std::f32::consts::FRAC_PI_2;
 use std::sync::{Arc, Mutex};
 
 /// The part.
@@ -33,23 +34,23 @@ const FIELD: Field = Field {
     extinction: 26.0,
 };
 
-/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, thousandths of a radian
-/// from east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
+/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, radians from
+/// east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
 /// how far before the aeroplane it looks, metres; the vertical field of view, degrees.
 #[rustfmt::skip]
-static SHOTS: &[(f64, [i16; 10])] = &[
+static SHOTS: &[(f64, [f32; 10])] = &[
     // Into a cloud, before the rising sun; through it, and into the next; out of that, and past.
-    (0.0, [-1230, 725, -110, -150, -24, 5, 9, 78, 10, 50]),
-    (6.5, [-626, 725, -190, -150, 7, 0, 0, 100, 100, 60]),
-    (13.0, [-134, 725, -285, -150, 250, -8, 20, 0, 0, 45]),
+    (0.0, [-1230.0, 725.0, -110.0, -0.15, -24.0, 5.0, 9.0, 78.0, 10.0, 50.0]),
+    (6.5, [-626.0, 725.0, -190.0, -0.15, 7.0, 0.0, 0.0, 100.0, 100.0, 60.0]),
+    (13.0, [-134.0, 725.0, -285.0, -0.15, 250.0, -8.0, 20.0, 0.0, 0.0, 45.0]),
     // Over the lake.
-    (20.0, [-200, 770, 60, 0, -24, 12, -12, 100, 12, 50]),
+    (20.0, [-200.0, 770.0, 60.0, 0.0, -24.0, 12.0, -12.0, 100.0, 12.0, 50.0]),
     // After whoever looks, out of a cloud.
-    (28.0, [1530, 735, 410, 0, 30, -2, 6, 100, 0, 45]),
+    (28.0, [1530.0, 735.0, 410.0, 0.0, 30.0, -2.0, 6.0, 100.0, 0.0, 45.0]),
     // In and out, from afar.
-    (34.0, [524, 745, 928, 0, 20, -14, 150, 95, 0, 20]),
+    (34.0, [524.0, 745.0, 928.0, 0.0, 20.0, -14.0, 150.0, 95.0, 0.0, 20.0]),
     // Above all.
-    (41.0, [-1200, 970, 300, 0, -24, 15, 8, 100, 12, 60]),
+    (41.0, [-1200.0, 970.0, 300.0, 0.0, -24.0, 15.0, 8.0, 100.0, 12.0, 60.0]),
 ];
 
 /// Shapes lit by a sun that is `towards`: made again when it has moved by some half of a degree.
@@ -77,22 +78,26 @@ fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
     shapes
 }
 
+/// Where a shot's aeroplane is so many seconds after its start: it winds along its heading.
+#[inline(never)]
+fn way(&[x, y, z, heading, ..]: &[f32; 10], t: f32) -> Vec3 {
+    let course = Mat3::from_rotation_y(-heading);
+    course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z)
+}
+
 fn picture(shot: &Shot) -> Picture {
     let hour = 4.1 + 7.9 * (shot.time / LENGTH).powf(1.6);
     let (keys, since) = timeline::cut(SHOTS, LENGTH, shot.time);
-    let [x, y, z, heading, along, up, right, follows, before, fov] = keys.map(|n| n as f32);
+    let [.., along, up, right, follows, before, fov] = *keys;
     let since = since as f32;
-    let course = Mat3::from_rotation_y(heading * -0.001);
-    let way = |t: f32| course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z);
-    let place = way(since);
-    let ahead = (way(since + 0.5) - place).normalize();
-    let bend = (way(since + 1.5) - way(since + 1.0)).normalize() - ahead;
-    let side = ahead.cross(Vec3::Y).normalize();
-    let bank = bend.dot(side) * 6.0;
-    let turn = Mat3::from_cols(side, side.cross(ahead), -ahead) * Mat3::from_rotation_z(-bank);
-    let eye = way(since * follows * 0.01) + course * vec3(along, up, right);
+    let (place, next) = (way(keys, since), way(keys, since + 0.5));
+    // As steep as it turns.
+    let bank = 0.42 * (0.35 * since + 0.26).sin();
+    let Camera { right: x, up: y, forward: ahead, .. } = Camera::look_at(place, next, FRAC_PI_2, bank);
+    let turn = Mat3::from_cols(x, y, -ahead);
+    let eye = way(keys, since * follows * 0.01) + Mat3::from_rotation_y(-keys[3]) * vec3(along, up, right);
     // Whoever looks far ahead sits in it.
-    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * -0.01);
+    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * 0.01);
     let camera = shot.camera(camera);
     let dome = day::sky(shot, 9671.5 + (hour - 1.0) / 24.0);
     let now = dome.lighting();
