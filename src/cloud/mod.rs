@@ -11,7 +11,6 @@ pub mod sunlight;
 pub mod voxels;
 
 use crate::camera::Camera;
-use crate::lanes;
 use crate::quality::Quality;
 use crate::tile::{Layer, Stats, Tile};
 use crate::view::View;
@@ -106,10 +105,12 @@ impl Clouds {
 
     /// Takes from the clouds the sun's light that others keep from them, down to a quarter: air and clouds send some on.
     pub fn shade(&mut self, others: &[Cloud]) {
-        for seen in &mut self.clouds {
-            let passes =
-                dispatch!(lanes::best(), simd => shadow::share(simd, others, self.look.towards, seen.cloud.centre));
-            seen.sunlit = 0.25 + 0.75 * passes;
+        let mut points = Vec::new();
+        for seen in &self.clouds {
+            points.push(seen.cloud.centre);
+        }
+        for (seen, share) in self.clouds.iter_mut().zip(shadow::shares(others, self.look.towards, &points)) {
+            seen.sunlit = 0.25 + 0.75 * share;
         }
     }
 

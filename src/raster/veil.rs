@@ -1,6 +1,6 @@
 //! What the sun shines through on its way to the surfaces, and has no edges: a coarse map of the light that is left.
 
-use crate::lanes::{F, U, V3};
+use crate::lanes::{F, V3};
 use fearless_simd::prelude::*;
 use glam::Vec2;
 
@@ -27,22 +27,18 @@ impl Veil {
         let (zero, most) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, Veil::SIDE as u32 as f32 - 1.01));
         let x = ((p.x - p.y * self.slope.x - self.corner.x) * (1.0 / self.texel)).max(zero).min(most);
         let z = ((p.z - p.y * self.slope.y - self.corner.y) * (1.0 / self.texel)).max(zero).min(most);
-        let (column, row) = (x.floor(), z.floor());
         let lanes = F::<S>::LEN;
-        let mut at = [0; 16];
-        (column + row * Veil::SIDE as u32 as f32).to_int::<U<S>>().store_slice(&mut at[..lanes]);
-        let mut corners = [[0.0; 16]; 4];
-        for (lane, at) in at[..lanes].iter().enumerate() {
-            for (corner, step) in corners.iter_mut().zip([0, 1, Veil::SIDE, Veil::SIDE + 1]) {
-                corner[lane] = self.passes[*at as usize + step];
-            }
+        let [mut columns, mut rows] = [[0.0; 16]; 2];
+        x.store_slice(&mut columns[..lanes]);
+        z.store_slice(&mut rows[..lanes]);
+        for (x, z) in columns[..lanes].iter_mut().zip(&rows) {
+            let (column, row) = (*x as u32, *z as u32);
+            let texels = &self.passes[column as usize + row as usize * Veil::SIDE..][..Veil::SIDE + 2];
+            let (u, v) = (*x - column as f32, *z - row as f32);
+            let near = texels[0] + (texels[1] - texels[0]) * u;
+            let far = texels[Veil::SIDE] + (texels[Veil::SIDE + 1] - texels[Veil::SIDE]) * u;
+            *x = near + (far - near) * v;
         }
-        let [a, b, c, d] = [0, 1, 2, 3].map(
-            #[inline(always)]
-            |k: usize| F::<S>::from_slice(simd, &corners[k][..lanes]),
-        );
-        let (x, z) = (x - column, z - row);
-        let (near, far) = (a + (b - a) * x, c + (d - c) * x);
-        near + (far - near) * z
+        F::<S>::from_slice(simd, &columns[..lanes])
     }
 }

@@ -7,18 +7,14 @@ use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
 use crate::cloud::{CloudQuality, Clouds, shadow, sunlight};
-use crate::color::Transfer;
 use crate::lanes;
-use crate::raster::Drawn;
 use crate::raster::veil::Veil;
-use crate::sky::backdrop::{self, Backdrop};
-use crate::sky::dome::{Dome, DomeQuality, Sky};
-use crate::sky::place::Place;
 use crate::tile::Picture;
 use crate::timeline;
 use crate::view::View;
 use fearless_simd::dispatch;
 use glam::{Mat3, Vec2, Vec3, vec3};
+use std::f32::consts::FRAC_PI_2;
 use std::sync::{Arc, Mutex};
 
 /// The part.
@@ -38,23 +34,23 @@ const FIELD: Field = Field {
     extinction: 26.0,
 };
 
-/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, thousandths of a radian
-/// from east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
+/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, radians from
+/// east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
 /// how far before the aeroplane it looks, metres; the vertical field of view, degrees.
 #[rustfmt::skip]
-static SHOTS: &[(f64, [i16; 10])] = &[
+static SHOTS: &[(f64, [f32; 10])] = &[
     // Into a cloud, before the rising sun; through it, and into the next; out of that, and past.
-    (0.0, [-1230, 725, -110, -150, -24, 5, 9, 78, 10, 50]),
-    (9.0, [-600, 725, -190, -150, 7, 0, 0, 100, 100, 60]),
-    (16.0, [-110, 725, -285, -150, 250, -8, 20, 0, 0, 45]),
+    (0.0, [-1230.0, 725.0, -110.0, -0.15, -24.0, 5.0, 9.0, 78.0, 10.0, 50.0]),
+    (6.5, [-626.0, 725.0, -190.0, -0.15, 7.0, 0.0, 0.0, 100.0, 100.0, 60.0]),
+    (13.0, [-134.0, 725.0, -285.0, -0.15, 250.0, -8.0, 20.0, 0.0, 0.0, 45.0]),
     // Over the lake.
-    (23.0, [-200, 770, 60, 0, -24, 12, -12, 100, 12, 50]),
+    (20.0, [-200.0, 770.0, 60.0, 0.0, -24.0, 12.0, -12.0, 100.0, 12.0, 50.0]),
     // After whoever looks, out of a cloud.
-    (30.0, [1446, 735, 410, 0, 30, -2, 6, 100, 0, 45]),
+    (28.0, [1530.0, 735.0, 410.0, 0.0, 30.0, -2.0, 6.0, 100.0, 0.0, 45.0]),
     // In and out, from afar.
-    (37.0, [548, 745, 965, 0, 20, -14, 150, 95, 0, 20]),
+    (34.0, [524.0, 745.0, 928.0, 0.0, 20.0, -14.0, 150.0, 95.0, 0.0, 20.0]),
     // Above all.
-    (43.0, [-1200, 970, 300, 0, -24, 15, 8, 100, 12, 60]),
+    (41.0, [-1200.0, 970.0, 300.0, 0.0, -24.0, 15.0, 8.0, 100.0, 12.0, 60.0]),
 ];
 
 /// Shapes lit by a sun that is `towards`: made again when it has moved by some half of a degree.
@@ -82,36 +78,43 @@ fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
     shapes
 }
 
+/// Where a shot's aeroplane is so many seconds after its start: it winds along its heading.
+#[inline(never)]
+fn way(&[x, y, z, heading, ..]: &[f32; 10], t: f32) -> Vec3 {
+    let course = Mat3::from_rotation_y(-heading);
+    course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z)
+}
+
 fn picture(shot: &Shot) -> Picture {
     let hour = 4.1 + 7.9 * (shot.time / LENGTH).powf(1.6);
     let (keys, since) = timeline::cut(SHOTS, LENGTH, shot.time);
-    let [x, y, z, heading, along, up, right, follows, before, fov] = keys.map(|n| n as f32);
+    let [.., along, up, right, follows, before, fov] = *keys;
     let since = since as f32;
-    let course = Mat3::from_rotation_y(heading * -0.001);
-    let way = |t: f32| course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z);
-    let place = way(since);
-    let ahead = (way(since + 0.5) - place).normalize();
-    let bend = (way(since + 1.5) - way(since + 1.0)).normalize() - ahead;
-    let side = ahead.cross(Vec3::Y).normalize();
-    let bank = bend.dot(side) * 6.0;
-    let turn = Mat3::from_cols(side, side.cross(ahead), -ahead) * Mat3::from_rotation_z(-bank);
-    let eye = way(since * follows * 0.01) + course * vec3(along, up, right);
+    let (place, next) = (way(keys, since), way(keys, since + 0.5));
+    // As steep as it turns.
+    let bank = 0.42 * (0.35 * since + 0.26).sin();
+    let Camera { right: x, up: y, forward: ahead, .. } = Camera::look_at(place, next, FRAC_PI_2, bank);
+    let turn = Mat3::from_cols(x, y, -ahead);
+    let eye = way(keys, since * follows * 0.01) + Mat3::from_rotation_y(-keys[3]) * vec3(along, up, right);
     // Whoever looks far ahead sits in it.
-    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * -0.01);
+    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * 0.01);
     let camera = shot.camera(camera);
-    let dome = Dome::new(Sky::new(9671.5 + (hour - 1.0) / 24.0, &Place::PLZEN), DomeQuality::new(&shot.quality));
+    let dome = day::sky(shot, 9671.5 + (hour - 1.0) / 24.0);
     let now = dome.lighting();
     let clouds = FIELD.around(eye, shot.time as f32, &shapes(now.direction));
     let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, shot.time);
-    world.haze.density = 1.0 / 5000.0;
     // It moves by whole texels, and its slope ends before the sun is level.
-    let texel = 64.0;
-    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - Veil::SIDE as f32 * 0.5) * texel;
+    let texel = 80.0;
+    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - Veil::SIDE as u32 as f32 * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
-    let passes = dispatch!(lanes::best(), simd => shadow::map(simd, &clouds, now.direction, corner, texel, Veil::SIDE));
+    let mut points = Vec::new();
+    for number in 0..Veil::SIDE * Veil::SIDE {
+        let [x, z] = [number % Veil::SIDE, number / Veil::SIDE].map(|k| k as u32 as f32 * texel);
+        points.push(vec3(corner.x + x, 0.0, corner.y + z));
+    }
+    let passes = shadow::shares(&clouds, now.direction, &points);
     world.veil = Some(Veil { passes, corner, texel, slope });
     let view = View::new(camera, shot.width, shot.height);
-    let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
     // What is brightest without glare is to be no more than white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
     let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
@@ -122,9 +125,7 @@ fn picture(shot: &Shot) -> Picture {
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let mut seen = Clouds::new(clouds.clone(), look, air, 6000.0, view, CloudQuality::new(&shot.quality));
+    let mut seen = Clouds::new(clouds.clone(), look, air, 9000.0, view, CloudQuality::new(&shot.quality));
     seen.shade(&clouds);
-    let look = backdrop::Look { behind: true, shimmer: shot.time, ..backdrop::Look::default() };
-    let backdrop = Backdrop::new(dome, camera, shot.width, shot.height, look);
-    Picture { layers: vec![Box::new(drawn), Box::new(seen), Box::new(backdrop)], transfer: Transfer::Srgb }
+    day::show(shot, dome, world, view, Some(Box::new(seen)))
 }

@@ -15,7 +15,7 @@ use crate::sky::backdrop::{Backdrop, Look};
 use crate::sky::dome::{Dome, DomeQuality, Sky};
 use crate::sky::place::Place;
 use crate::texture::Texture;
-use crate::tile::Picture;
+use crate::tile::{Layer, Picture};
 use crate::timeline::{self, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
@@ -134,6 +134,24 @@ pub(super) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Texture>) {
     }
 }
 
+/// The sky of a day, from J2000.
+#[inline(never)]
+pub(super) fn sky(shot: &Shot, day: f64) -> Dome {
+    Dome::new(Sky::new(day, &Place::PLZEN), DomeQuality::new(&shot.quality))
+}
+
+/// The picture of a world under a sky, with what is between.
+#[inline(never)]
+pub(super) fn show(shot: &Shot, dome: Dome, world: World, view: View, between: Option<Box<dyn Layer>>) -> Picture {
+    let look = Look { behind: true, shimmer: shot.time, ..Look::default() };
+    let backdrop = Backdrop::new(dome, *view.camera(), shot.width, shot.height, look);
+    let mut layers: Vec<Box<dyn Layer>> =
+        vec![Box::new(Drawn::new(world, view, shot.width, shot.height, shot.quality))];
+    layers.extend(between);
+    layers.push(Box::new(backdrop));
+    Picture { layers, transfer: Transfer::Srgb }
+}
+
 /// The land under a sky at `time` seconds, with the aeroplane there; its light has no shadows yet.
 #[inline(never)]
 pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
@@ -170,7 +188,7 @@ fn picture(shot: &Shot) -> Picture {
     let camera = shot.camera(camera);
     // Days from J2000, Central European Time.
     let midnight = 9671.5 - HOUR + date as f64;
-    let dome = Dome::new(Sky::new(midnight + hour * HOUR, &Place::PLZEN), DomeQuality::new(&shot.quality));
+    let dome = sky(shot, midnight + hour * HOUR);
     let now = dome.lighting();
     // Over the hill in some seconds, again and again.
     let flights = shot.time / 15.0;
@@ -203,9 +221,5 @@ fn picture(shot: &Shot) -> Picture {
         let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
         world.lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
     }
-    let view = View::new(camera, shot.width, shot.height);
-    let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
-    let look = Look { behind: true, shimmer: shot.time, ..Look::default() };
-    let backdrop = Backdrop::new(dome, camera, shot.width, shot.height, look);
-    Picture { layers: vec![Box::new(drawn), Box::new(backdrop)], transfer: Transfer::Srgb }
+    show(shot, dome, world, View::new(camera, shot.width, shot.height), None)
 }
