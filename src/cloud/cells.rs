@@ -1,5 +1,6 @@
 //! Clouds in a tile: rays at the corners of cells of pixels, interpolated between where that is as good.
 
+use super::imposter;
 use super::march::march;
 use super::{Clouds, Seen};
 use crate::block::{BLOCK, load, store};
@@ -179,8 +180,14 @@ fn see<S: Simd>(
         let limit = load::<S, F<S>>(simd, depth, i) * length;
         let mut light = V3::splat(simd, Vec3::ZERO);
         let mut transmittance = one;
-        for Seen { cloud, steps, fades, veil, .. } in near {
-            let (color, passes) = march(simd, cloud, &clouds.look, eye, d, limit, [*steps, clouds.quality.opaque]);
+        for seen in near {
+            let Seen { cloud, steps, fades, veil, .. } = seen;
+            let passage = if seen.imposters.is_empty() || seen.cut::<S>(limit) {
+                march(simd, cloud, eye, d, limit, [*steps, clouds.quality.opaque])
+            } else {
+                imposter::look_up(simd, seen, eye, d, limit, clouds.quality.opaque)
+            };
+            let (color, passes) = passage.shine(simd, &clouds.look, d);
             let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;

@@ -4,18 +4,22 @@
 
 mod cells;
 pub mod field;
+mod imposter;
 pub mod march;
 pub mod shape;
 pub mod sunlight;
 pub mod voxels;
 
 use crate::camera::Camera;
+use crate::lanes::F;
 use crate::quality::Quality;
-use crate::tile::{Layer, Stats, Tile};
+use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, dispatch, prelude::*};
 use glam::Vec3;
+use imposter::Imposter;
 use march::{Cloud, Look};
+use std::sync::Arc;
 
 /// Speed against error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +38,8 @@ pub struct CloudQuality {
     pub threshold: f32,
     /// Samples of a pixel along each axis, where every pixel has a ray.
     pub grid: usize,
+    /// How far imposters may be off, pixels; 0 for none.
+    pub imposter: f32,
 }
 
 impl CloudQuality {
@@ -47,6 +53,7 @@ impl CloudQuality {
             cell: quality.cell,
             threshold: quality.threshold,
             grid: quality.grid,
+            imposter: quality.cloud_imposter,
         }
     }
 }
@@ -69,6 +76,9 @@ struct Seen {
     /// The share of its light that comes through the air, and the light that air adds to what is hidden.
     fades: f32,
     veil: Vec3,
+    /// Pictures that stand for it, and their weights; the rest to 1 is the cloud itself.
+    imposters: Vec<(Arc<Imposter>, f32)>,
+    direct: f32,
 }
 
 impl Clouds {
@@ -95,7 +105,7 @@ impl Clouds {
             let pixels = 2.0 * cloud.size / (distance * view.pixel());
             let steps = (quality.steps as f32).min((pixels * quality.detail).max(8.0).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
-            seen.insert(at, Seen { cloud, distance, steps, fades, veil });
+            seen.insert(at, Seen { cloud, distance, steps, fades, veil, imposters: Vec::new(), direct: 1.0 });
         }
         Clouds { clouds: seen, look, view, quality }
     }
@@ -121,10 +131,24 @@ impl Clouds {
     }
 }
 
+impl Seen {
+    /// Do some rays end within it?
+    fn cut<S: Simd>(&self, limit: F<S>) -> bool {
+        let reach = self.cloud.voxels.reach() * self.cloud.size;
+        (limit.simd_gt(self.distance - reach) & limit.simd_lt(self.distance + reach)).any_true()
+    }
+}
+
 /// From a cube's middle to its corner, halves of its edge.
 const ROOT: f32 = 1.732_051;
 
 impl Layer for Clouds {
+    fn prepare(&mut self, crew: &Crew) {
+        if self.quality.imposter > 0.0 {
+            imposter::prepare(self, crew);
+        }
+    }
+
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         let near = self.near(tile);
         if !near.is_empty() {
