@@ -182,15 +182,17 @@ fn see<S: Simd>(
         let mut transmittance = one;
         for seen in near {
             let Seen { cloud, steps, fades, veil, .. } = seen;
-            let passage = if seen.imposters.is_empty() || seen.cut::<S>(limit) {
+            let passage = if seen.imposters.is_empty() {
                 march(simd, cloud, eye, d, limit, [*steps, clouds.quality.opaque])
             } else {
                 imposter::look_up(simd, seen, eye, d, limit, clouds.quality.opaque)
             };
             let (color, passes) = passage.shine(simd, &clouds.look, d);
             let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
-            light = light + color * Lane(transmittance);
-            transmittance *= passes;
+            // A lane ends by itself, so that its neighbours and their number do not matter.
+            let open = transmittance.simd_ge(clouds.quality.hidden);
+            light = light + (color * Lane(transmittance)).masked(simd, open);
+            transmittance *= open.select(passes, one);
             if transmittance.simd_lt(clouds.quality.hidden).all_true() {
                 break;
             }

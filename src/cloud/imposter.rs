@@ -116,7 +116,7 @@ impl Imposter {
     }
 }
 
-/// What rays along unit directions `d` meet of a cloud that has pictures; nothing beyond `limit`, which is not in it.
+/// What rays along unit directions `d` meet of a cloud that has pictures; nothing beyond `limit`.
 #[simd]
 pub fn look_up<S: Simd>(simd: S, seen: &Seen, eye: Vec3, d: V3<S>, limit: F<S>, opaque: f32) -> Passage<S> {
     let zero = F::<S>::splat(simd, 0.0);
@@ -161,7 +161,20 @@ pub fn look_up<S: Simd>(simd: S, seen: &Seen, eye: Vec3, d: V3<S>, limit: F<S>, 
     }
     // Where a ray passes by a picture, nothing is hidden.
     let transmittance = sums[0] + share;
-    Passage { light: -transmittance + 1.0, upper: sums[1], lit: sums[2], transmittance }
+    let met = Passage { light: -transmittance + 1.0, upper: sums[1], lit: sums[2], transmittance };
+    let reach = seen.cloud.voxels.reach() * seen.cloud.size;
+    let cut = limit.simd_gt(seen.distance - reach) & limit.simd_lt(seen.distance + reach);
+    if !cut.any_true() {
+        return met;
+    }
+    // Before what is in the cloud rays are cast.
+    let cast = march(simd, &seen.cloud, eye, d, limit, [seen.steps, opaque]);
+    Passage {
+        light: cut.select(cast.light, met.light),
+        upper: cut.select(cast.upper, met.upper),
+        lit: cut.select(cast.lit, met.lit),
+        transmittance: cut.select(cast.transmittance, met.transmittance),
+    }
 }
 
 /// Weights of a point of a lattice and of the next, at a share of the way between them.

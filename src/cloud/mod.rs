@@ -11,11 +11,10 @@ pub mod sunlight;
 pub mod voxels;
 
 use crate::camera::Camera;
-use crate::lanes::F;
 use crate::quality::Quality;
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
-use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd::{Level, dispatch};
 use glam::Vec3;
 use imposter::Imposter;
 use march::{Cloud, Look};
@@ -128,14 +127,6 @@ impl Clouds {
             across * cos - along * sin <= ROOT * seen.cloud.size
         };
         self.clouds.iter().filter(meets).collect()
-    }
-}
-
-impl Seen {
-    /// Do some rays end within it?
-    fn cut<S: Simd>(&self, limit: F<S>) -> bool {
-        let reach = self.cloud.voxels.reach() * self.cloud.size;
-        (limit.simd_gt(self.distance - reach) & limit.simd_lt(self.distance + reach)).any_true()
     }
 }
 
