@@ -2,13 +2,14 @@
 //! frame, by the bound in pixels; and frames a second and loading time against the number of clouds, as in a thesis of
 //! 2010. Writes `imposters.md` and `imposters-*.svg`.
 //!
-//! `cargo run --release --example imposters -- [--quick] [--out DIR]`, DIR `docs/report`.
+//! `cargo run --release --example imposters -- [--quick] [--frames N] [--out DIR]`: N 600, of which other scenes have fewer,
+//! DIR `docs/report`.
 
 mod count;
 #[path = "../shadows/plot.rs"]
 mod plot;
 
-use lexopt::{Arg, Parser};
+use lexopt::{Arg, Parser, ValueExt};
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
@@ -142,11 +143,12 @@ fn report(
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut quick, mut out) = (false, PathBuf::from("docs/report"));
+    let (mut quick, mut frames, mut out) = (false, 600usize, PathBuf::from("docs/report"));
     let mut parser = Parser::from_env();
     while let Some(argument) = parser.next()? {
         match argument {
-            Arg::Long("quick") => quick = true,
+            Arg::Long("quick") => (quick, frames) = (true, 30),
+            Arg::Long("frames") => frames = parser.value()?.parse()?,
             Arg::Long("out") => out = parser.value()?.into(),
             other => return Err(other.unexpected().into()),
         }
@@ -161,11 +163,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         "{}x{}, {THREADS} threads, {level}. Direct: rays are cast in every frame. With a bound, pictures stand for clouds while the eye moves by so little that nothing in them is off by more, and are kept from frame to frame; all bounds take turns in every frame, so what compares is the ratio to direct. PSNR is to the direct frame. The change is that from one frame to the next, codes of 255.",
         SIZE.0, SIZE.1
     )?;
-    let frames = if quick { [30, 10] } else { [600, 60] };
     let sets = [
-        ("sky-of-clouds", "fast", Quality::FAST, 2.0, frames),
-        ("sky-of-clouds", "default", Quality::DEFAULT, 2.0, [frames[0] / 4, frames[1] / 2]),
-        ("clouds", "default", Quality::DEFAULT, 20.0, [frames[0] / 4, frames[1] / 2]),
+        ("sky-of-clouds", "fast", Quality::FAST, 2.0, [frames, frames.div_ceil(6)]),
+        ("sky-of-clouds", "default", Quality::DEFAULT, 2.0, [frames.div_ceil(4), frames.div_ceil(12)]),
+        ("clouds", "default", Quality::DEFAULT, 20.0, [frames.div_ceil(6), frames.div_ceil(12)]),
     ];
     let mut curves = Vec::new();
     for (scene, name, quality, start, frames) in sets {
