@@ -20,3 +20,7 @@ pub mod tile;
 pub mod timeline;
 pub mod trace;
 pub mod view;
+
+/// Are the bench scenes there? What they alone ask for, the intro does without: in the rasterizer a background, light
+/// without film, and lookups of depth maps in which each texel counts alike; pictures that stand for clouds.
+const BENCH: bool = cfg!(feature = "bench-scenes");

@@ -27,6 +27,8 @@ pub struct Quality {
     pub cloud_detail: f32,
     /// Share of the light below which nothing that comes through clouds is looked for; 0 looks for all.
     pub cloud_opaque: f32,
+    /// Pixels by which pictures that stand for clouds may be off; 0 for none, where rays are cast in every frame.
+    pub cloud_imposter: f32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -45,6 +47,7 @@ impl Quality {
         cloud_steps: 100,
         cloud_detail: 0.25,
         cloud_opaque: 1.0 / 256.0,
+        cloud_imposter: 0.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
@@ -62,6 +65,7 @@ impl Quality {
         cloud_steps: 800,
         cloud_detail: f32::INFINITY,
         cloud_opaque: 0.0,
+        cloud_imposter: 0.0,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.

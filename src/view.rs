@@ -38,6 +38,17 @@ impl View {
         self.camera.up.length() * self.pixel
     }
 
+    /// Unit normals, to the inside, of the planes through the eye and the picture's left, right, lower and upper edges.
+    pub fn sides(&self) -> [Vec3; 4] {
+        let c = &self.camera;
+        let aspect = self.half.0 + c.shift;
+        let side = |across: Vec3, most: f32| {
+            let length = across.length();
+            (across / length + c.forward * (most * length)).normalize()
+        };
+        [side(c.right, aspect - c.shift), side(-c.right, aspect + c.shift), side(c.up, 1.0), side(-c.up, 1.0)]
+    }
+
     /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
     #[inline(always)]
     pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {

@@ -1,7 +1,9 @@
 //! Clouds in a tile: rays at the corners of cells of pixels, interpolated between where that is as good.
 
+use super::imposter;
 use super::march::{Look, march};
-use super::{Clouds, Seen};
+use super::{Clouds, ROOT, Seen};
+use crate::BENCH;
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
 use crate::tile::Tile;
@@ -14,8 +16,8 @@ const SIDE: usize = Tile::SIZE + 1;
 
 /// Points of a tile.
 struct Lattice {
-    /// Premultiplied light and transmittance.
-    values: Vec<[f32; 4]>,
+    /// Premultiplied light and transmittance; and beyond how many metres no cloud hides anything.
+    values: Vec<[f32; 5]>,
     /// Has a point been cast, or is it to be?
     known: Vec<bool>,
     /// Edge of the cell that begins at a point.
@@ -39,7 +41,7 @@ pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) 
     const POINTS: usize = SIDE * SIDE;
     let mut size = clouds.quality.cell;
     let mut lattice = Lattice {
-        values: vec![[0.0; 4]; POINTS],
+        values: vec![[0.0; 5]; POINTS],
         known: vec![false; POINTS],
         sizes: vec![size; POINTS],
         wanted: Vec::new(),
@@ -92,7 +94,7 @@ pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) 
 }
 
 /// Fills a cell's points between its corners.
-fn interpolate(lattice: &mut Lattice, at: usize, size: usize, [a, b, c, d]: [[f32; 4]; 4]) {
+fn interpolate(lattice: &mut Lattice, at: usize, size: usize, [a, b, c, d]: [[f32; 5]; 4]) {
     let share = 1.0 / size as u32 as f32;
     for part in 0..size * size {
         let (x, y) = (part % size, part / size);
@@ -101,18 +103,19 @@ fn interpolate(lattice: &mut Lattice, at: usize, size: usize, [a, b, c, d]: [[f3
             let (above, below) = (a[k] + (b[k] - a[k]) * u, c[k] + (d[k] - c[k]) * u);
             lattice.values[at + x + y * SIDE][k] = above + (below - above) * v;
         }
+        lattice.values[at + x + y * SIDE][4] = a[4].max(b[4]).max(c[4]).max(d[4]);
     }
 }
 
-/// From the lattice to the tile; before solids a ray is cast for each pixel.
+/// From the lattice to the tile; where solids may be before what clouds hide, a ray is cast for each pixel.
 #[simd]
 fn finish<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile, lattice: &mut Lattice) {
     let free = lattice.values.clone();
     for y in 0..tile.height {
         for x in 0..tile.width {
-            lattice.values[x + y * SIDE] = [0.0, 0.0, 0.0, 1.0];
-            if tile.coverage[x + y * Tile::SIZE] > 0.0 {
-                lattice.wanted.push(x + y * SIDE);
+            let (at, point) = (x + y * Tile::SIZE, x + y * SIDE);
+            if tile.coverage[at] > 0.0 && tile.closeness[at] * free[point][4] > 1.0 {
+                lattice.wanted.push(point);
             }
         }
     }
@@ -136,7 +139,7 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice:
     let grid = clouds.quality.grid as u32;
     let step = 1.0 / grid as f32;
     for points in lattice.wanted.chunks(BLOCK) {
-        let mut sum = [[0.0; BLOCK]; 4];
+        let mut sum = [[0.0; BLOCK]; 5];
         for part in 0..grid * grid {
             let [mut x, mut y] = [[0.0; BLOCK]; 2];
             let mut depth = [f32::INFINITY; BLOCK];
@@ -152,14 +155,14 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice:
         }
         for (i, point) in points.iter().enumerate() {
             for (k, sum) in sum.iter().enumerate() {
-                lattice.values[*point][k] = sum[i] * (step * step);
+                lattice.values[*point][k] = sum[i] * if k < 4 { step * step } else { 1.0 };
             }
         }
     }
     lattice.wanted.clear();
 }
 
-/// Adds light and transmittance of the first `count` of 64 points of the picture, in pixels.
+/// Adds light and transmittance of the first `count` of 64 points of the picture, in pixels, and puts clouds' end off.
 #[simd]
 fn see<S: Simd>(
     simd: S,
@@ -167,7 +170,7 @@ fn see<S: Simd>(
     near: &[&Seen],
     [x, y, depth]: [&[f32; BLOCK]; 3],
     count: usize,
-    sum: &mut [[f32; BLOCK]; 4],
+    sum: &mut [[f32; BLOCK]; 5],
 ) {
     let eye = clouds.view.camera().eye;
     let one = F::<S>::splat(simd, 1.0);
@@ -178,13 +181,19 @@ fn see<S: Simd>(
         let d = ray * Lane(one / length);
         let mut limit = load::<S, F<S>>(simd, depth, i) * length;
         let mut light = V3::splat(simd, Vec3::ZERO);
-        let mut transmittance = one;
-        for Seen { cloud, steps, fades, veil, sunlit, .. } in near {
-            let look = Look { sun: clouds.look.sun * *sunlit, ..clouds.look };
-            let (color, passes) = march(simd, cloud, &look, eye, d, limit, [*steps, clouds.quality.opaque]);
-            let color = V3::splat(simd, *veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, *fades));
+        let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[4], i));
+        for seen in near {
+            let passage = if !BENCH || seen.imposters.is_empty() {
+                march(simd, &seen.cloud, eye, d, limit, [seen.steps, clouds.quality.opaque])
+            } else {
+                imposter::look_up(simd, seen, eye, d, limit, clouds.quality.opaque)
+            };
+            let look = Look { sun: clouds.look.sun * seen.sunlit, ..clouds.look };
+            let (color, passes) = passage.shine(simd, &look, d);
+            let color = V3::splat(simd, seen.veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, seen.fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
+            end = passes.simd_lt(one).select(end.max(seen.distance + ROOT * seen.cloud.size), end);
             // Each lane for itself, lest its light depends on its neighbours.
             let ends = transmittance.simd_lt(clouds.quality.hidden);
             if ends.all_true() {
@@ -195,6 +204,7 @@ fn see<S: Simd>(
         for (sum, value) in sum.iter_mut().zip([light.x, light.y, light.z, transmittance]) {
             store(load::<S, F<S>>(simd, sum, i) + value, sum, i);
         }
+        store(end, &mut sum[4], i);
         i += 1;
     }
 }

@@ -35,21 +35,46 @@ pub struct Look {
     pub phase: [f32; 2],
 }
 
-/// Premultiplied light of a cloud along unit directions `d` from `eye`, and the transmittance; nothing beyond `limit`
-/// metres. The way through the cube is cut into `steps`, whose middles stand for them, as far as more than `opaque` comes
-/// through.
+/// What rays meet in a cloud, apart from its light's colours.
+pub struct Passage<S: Simd> {
+    /// The share that is hidden; of that what is lit from above, as the height in the cube has it; and by the sun, of 255.
+    pub light: F<S>,
+    /// See there.
+    pub upper: F<S>,
+    /// See there.
+    pub lit: F<S>,
+    /// The share that comes through.
+    pub transmittance: F<S>,
+}
+
+impl<S: Simd> Passage<S> {
+    /// Premultiplied light towards where rays along unit directions `d` come from, and the transmittance.
+    #[inline(always)]
+    pub fn shine(self, simd: S, look: &Look, d: V3<S>) -> (V3<S>, F<S>) {
+        let [low, high] = look.ambient;
+        let c = d.dot1(look.towards).max(0.0);
+        let c2 = c * c;
+        let phase = c2 * c2 * c2 * look.phase[1] + look.phase[0];
+        let color = V3::splat(simd, low) * Lane(self.light)
+            + V3::splat(simd, high - low) * Lane(self.upper)
+            + V3::splat(simd, look.sun * (1.0 / 255.0)) * Lane(self.lit * phase);
+        (color, self.transmittance)
+    }
+}
+
+/// What rays from `eye` along unit directions `d` meet of a cloud, nothing beyond `limit` metres. The way through the cube
+/// is cut into `steps`, whose middles stand for them, as far as more than `opaque` comes through.
 ///
 /// Beer and Lambert: `1 - exp(-extinction density length)` of a step is what it hides.
 #[simd]
 pub fn march<S: Simd>(
     simd: S,
     cloud: &Cloud,
-    look: &Look,
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
     [steps, opaque]: [f32; 2],
-) -> (V3<S>, F<S>) {
+) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let q = (eye - cloud.centre) / cloud.size;
     let [x0, x1] = slab(simd, q.x, d.x);
@@ -61,7 +86,7 @@ pub fn march<S: Simd>(
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
     if missed.all_true() {
-        return (V3 { x: zero, y: zero, z: zero }, one);
+        return Passage { light: zero, upper: zero, lit: zero, transmittance: one };
     }
     let mut step = missed.select(F::<S>::splat(simd, steps), zero);
     let most = (cloud.voxels.edge() - 1) as u32 as f32;
@@ -90,15 +115,8 @@ pub fn march<S: Simd>(
         step += (leap * reach).floor().max(one);
         step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
     }
-    let [low, high] = look.ambient;
-    let c = d.dot1(look.towards).max(zero);
-    let c2 = c * c;
-    let phase = c2 * c2 * c2 * look.phase[1] + look.phase[0];
     let upper = (height + light * q.y) * 0.5 + light * 0.5;
-    let color = V3::splat(simd, low) * Lane(light)
-        + V3::splat(simd, high - low) * Lane(upper)
-        + V3::splat(simd, look.sun * (1.0 / 255.0)) * Lane(lit * phase);
-    (color, transmittance)
+    Passage { light, upper, lit, transmittance }
 }
 
 /// Where rays enter and leave the space between -1 and 1 along an axis.

@@ -4,19 +4,23 @@
 
 mod cells;
 pub mod field;
+mod imposter;
 pub mod march;
 pub mod shadow;
 pub mod shape;
 pub mod sunlight;
 pub mod voxels;
 
+use crate::BENCH;
 use crate::camera::Camera;
 use crate::quality::Quality;
-use crate::tile::{Layer, Stats, Tile};
+use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch};
 use glam::Vec3;
+use imposter::Imposter;
 use march::{Cloud, Look};
+use std::sync::Arc;
 
 /// Speed against error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +39,8 @@ pub struct CloudQuality {
     pub threshold: f32,
     /// Samples of a pixel along each axis, where every pixel has a ray.
     pub grid: usize,
+    /// How far imposters may be off, pixels; 0 for none.
+    pub imposter: f32,
 }
 
 impl CloudQuality {
@@ -48,6 +54,7 @@ impl CloudQuality {
             cell: quality.cell,
             threshold: quality.threshold,
             grid: quality.grid,
+            imposter: quality.cloud_imposter,
         }
     }
 }
@@ -72,6 +79,9 @@ struct Seen {
     veil: Vec3,
     /// The share of the sun's light that comes to it.
     sunlit: f32,
+    /// Pictures that stand for it, and their weights; the rest to 1 is the cloud itself.
+    imposters: Vec<(Arc<Imposter>, f32)>,
+    direct: f32,
 }
 
 impl Clouds {
@@ -98,7 +108,8 @@ impl Clouds {
             let pixels = 2.0 * cloud.size / (distance * view.pixel());
             let steps = (quality.steps as f32).min((pixels * quality.detail).max(8.0).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
-            seen.insert(at, Seen { cloud, distance, steps, fades, veil, sunlit: 1.0 });
+            let unlit = Seen { cloud, distance, steps, fades, veil, sunlit: 1.0, imposters: Vec::new(), direct: 1.0 };
+            seen.insert(at, unlit);
         }
         Clouds { clouds: seen, look, view, quality }
     }
@@ -139,6 +150,12 @@ impl Clouds {
 const ROOT: f32 = 1.732_051;
 
 impl Layer for Clouds {
+    fn prepare(&mut self, crew: &Crew) {
+        if BENCH && self.quality.imposter > 0.0 {
+            imposter::prepare(self, crew);
+        }
+    }
+
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         let near = self.near(tile);
         if !near.is_empty() {

@@ -2,6 +2,7 @@
 
 use crate::lanes::{F, U, V3};
 use fearless_simd::prelude::*;
+use glam::Vec3;
 
 /// Cells along an edge of a block, for which one leap is known.
 const LEAP: usize = 4;
@@ -18,13 +19,15 @@ pub struct Voxels {
     cells: Vec<[u32; 2]>,
     /// How far around a block of cells nothing is, cells.
     leaps: Vec<u8>,
+    /// From the cube's middle to the farthest point where something is, halves of the edge.
+    reach: f32,
 }
 
 impl Voxels {
     /// Voxels without light from `edge^3` densities; `light` may then be written, and [`Self::pack`] called.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
-        let mut voxels = Voxels { edge, density, light, cells: Vec::new(), leaps: Vec::new() };
+        let mut voxels = Voxels { edge, density, light, cells: Vec::new(), leaps: Vec::new(), reach: 0.0 };
         voxels.measure();
         voxels.pack();
         voxels
@@ -33,6 +36,11 @@ impl Voxels {
     /// Points along an edge.
     pub fn edge(&self) -> usize {
         self.edge
+    }
+
+    /// From the cube's middle to the farthest point where something is, halves of the edge.
+    pub fn reach(&self) -> f32 {
+        self.reach
     }
 
     /// Makes what lookups read, after density or light have changed.
@@ -55,6 +63,10 @@ impl Voxels {
         for (index, density) in self.density.iter().enumerate() {
             if *density > 0 {
                 let place = [index % self.edge, index / self.edge % self.edge, index / (self.edge * self.edge)];
+                let half = self.edge as u32 as f32 * 0.5;
+                // Between points it ends at the next one, where nothing is.
+                let at = Vec3::from(place.map(|i| i as u32 as f32 + 0.5 - half));
+                self.reach = self.reach.max((at.length() + 1.0) / half);
                 // A point belongs to the cells before it, too.
                 for corner in 0..8 {
                     let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
@@ -123,7 +135,7 @@ impl Voxels {
 
 /// Four bytes, interpolated.
 #[inline(always)]
-fn square<S: Simd>(word: U<S>, x: F<S>, y: F<S>) -> F<S> {
+pub fn square<S: Simd>(word: U<S>, x: F<S>, y: F<S>) -> F<S> {
     let a = (word & 255).to_float::<F<S>>();
     let b = (word >> 8 & 255).to_float::<F<S>>();
     let c = (word >> 16 & 255).to_float::<F<S>>();

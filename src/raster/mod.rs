@@ -17,6 +17,7 @@ pub mod traced;
 pub mod triangle;
 pub mod veil;
 
+use crate::BENCH;
 use crate::block::{BLOCK, load, store};
 use crate::lanes::F;
 use crate::quality::Quality;
@@ -69,10 +70,6 @@ impl PartialEq for Body {
         Arc::ptr_eq(&self.mesh, &other.mesh) && self.place == other.place
     }
 }
-
-/// Are the bench scenes there? What they alone ask for, the intro does without: a background, light without film, lookups
-/// of depth maps in which each texel counts alike.
-const BENCH: bool = cfg!(feature = "bench-scenes");
 
 /// All that the rasterizer draws.
 #[derive(Clone)]

@@ -3,8 +3,9 @@
 //! L. Williams, "Casting curved shadows on curved surfaces", 1978; percentage-closer filtering after W. Reeves,
 //! D. Salesin, R. Cook, "Rendering antialiased shadows with depth maps", 1987.
 
+use super::Body;
 use super::project::Projection;
-use super::{BENCH, Body};
+use crate::BENCH;
 use crate::lanes::{Bits, F, M};
 use crate::tile::Tile;
 use fearless_simd::f32x4;

@@ -8,7 +8,7 @@ use crate::cloud::march::Look;
 use crate::cloud::{CloudQuality, Clouds};
 use crate::color::Transfer;
 use crate::lanes::{F, Lane, V3};
-use crate::tile::{Layer, Picture, Stats, Tile};
+use crate::tile::{Crew, Layer, Picture, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
@@ -85,6 +85,10 @@ struct Cumuli {
 }
 
 impl Layer for Cumuli {
+    fn prepare(&mut self, crew: &Crew) {
+        self.clouds.prepare(crew);
+    }
+
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         tile.solids_matter = true;
         tile.clear();
