@@ -9,7 +9,7 @@ pub const CONTEXTS: usize = 16;
 /// Inputs of a mixer: three vectors of the contexts, one of the match and a constant.
 const VECTORS: usize = 4;
 /// Their weights at first.
-const WEIGHTS: [Vector; VECTORS] = [[1000; 16], [400; 16], [1300; 16], [4000; 16]];
+const WEIGHTS: [i16; VECTORS] = [1000, 400, 1300, 4000];
 /// Mixers whose results the last ones mix.
 const MIXERS: usize = 6;
 /// Sets of weights of each, one of which is chosen for each bit.
@@ -113,8 +113,10 @@ impl Model {
         self.code = [0, !0, 0];
         self.partial = 1;
         self.logistic.fill();
-        self.weights.as_flattened_mut().fill(WEIGHTS);
-        self.last.as_flattened_mut().fill([[(16384 / MIXERS) as i16; 16]]);
+        for (i, weights) in self.weights.as_flattened_mut().as_flattened_mut().iter_mut().enumerate() {
+            weights.fill(WEIGHTS[i % VECTORS]);
+        }
+        self.last.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill((16384 / MIXERS) as i16);
         self.contexts();
         for &byte in primer {
             for i in (0..8).rev() {
