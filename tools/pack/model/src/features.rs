@@ -10,10 +10,10 @@ pub const FEATURES: usize = 32;
 ///
 /// Everywhere: 0 to 5 the last bytes, 30 what the longest match predicts. In code: 6 the field, 7 the bytes of
 /// it so far; 8 to 11 of the current instruction opcode, operands byte, hash of all so far, REX or VEX;
-/// 12 to 15 the same of the one before; 20 the register that the last instruction's operands byte names first; 21 the
+/// 12 to 15 the same of the one before; 19 the last two opcodes, 27 the last four; 20 the register that the last instruction's operands byte names first; 21 the
 /// highest bits of registers; 22 bytes until the next place that is jumped to, at most 16; 23 what the bytes to come of
-/// a displacement or distance were when the same addressing mode had one last; 27 the last four opcodes; 28 the opcode
-/// that last wrote what VEX names; 29 the operands byte that followed the same opcode last, 31 the addressing mode.
+/// a displacement or distance were when the same addressing mode had one last; 28 the opcode that last wrote what VEX
+/// names; 29 the operands byte that followed the same opcode last, 31 the addressing mode.
 /// In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
 pub struct Features {
@@ -102,6 +102,7 @@ impl Features {
         if p.done {
             f[20] = p.modrm >> 3 & 7 | p.high << 1 & 8;
             f[27] = f[27] << 8 | p.op;
+            f[19] = f[27] & 0xffff;
             self.writers[f[20] as usize & 15] = opcode;
             f.copy_within(8..12, 12);
             f[8..12].fill(0);
