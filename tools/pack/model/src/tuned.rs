@@ -1,5 +1,5 @@
-//! The contexts. Found by random search (`cargo run -p pack --release --example tune`) in a
-//! program without the code of `x11_dl::Xlib::open`, so that its 66 kB of repetition have no say.
+//! The contexts. Found by random search (`cargo run -p pack --release --example tune`) in the intro itself: with
+//! them, other programs take 5 to 6 % less than with ten contexts of before, too.
 
 use crate::model::Sets;
 
