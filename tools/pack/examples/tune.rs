@@ -21,7 +21,7 @@ impl Random {
     }
 }
 
-type Text = (Vec<u8>, [u32; 2]);
+type Text = (Vec<u8>, [u32; 3]);
 
 fn bytes(sets: &Sets, texts: &[Text]) -> f64 {
     let cost = |text: &Text| costs(sets, &[], &text.0, text.1).iter().map(|c| c.0 as f64).sum::<f64>();
@@ -67,7 +67,8 @@ fn main() {
             t.bytes.drain(from..to);
             t.code.end -= to - from;
         }
-        texts.push((t.bytes, [t.code.start as u32, t.code.end as u32]));
+        let code = t.code();
+        texts.push((t.bytes, code));
     }
     let (start, mut best) = (Instant::now(), SETS);
     let mut least = bytes(&best, &texts);

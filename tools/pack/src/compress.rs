@@ -5,9 +5,9 @@ use pack_model::coder::Decoder;
 use pack_model::model::{Model, Sets};
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
-/// A model that knows nothing yet, on the heap: 70 MB that must not pass through the stack.
+/// A model that knows nothing yet, on the heap: 90 MB that must not pass through the stack.
 #[allow(unsafe_code)]
-fn model(sets: &Sets, primer: &[u8], code: [u32; 2]) -> Box<Model> {
+fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     let layout = Layout::new::<Model>();
     // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers and of one false.
     let mut model = unsafe {
@@ -17,13 +17,15 @@ fn model(sets: &Sets, primer: &[u8], code: [u32; 2]) -> Box<Model> {
         }
         Box::from_raw(memory.cast::<Model>())
     };
+    // As the program that is packed does.
+    assert!(is_x86_feature_detected!("avx2"), "packing needs a processor with AVX2");
     let at = primer.len() as u32;
-    model.start(sets, primer, [at + code[0], at + code[1]]);
+    model.start(sets, primer, [at + code[0], at + code[1], code[2]]);
     model
 }
 
-/// Codes `text`, whose instructions `code` counts from its start.
-pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<u8> {
+/// Codes `text`, whose instructions are from byte `code[0]` to `code[1]`, and at `code[2]` in memory.
+pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<u8> {
     let mut model = model(sets, primer, code);
     let mut encoder = Encoder::default();
     for byte in text {
@@ -38,7 +40,7 @@ pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<
 }
 
 /// What [`compress`], with the same primer, coded as `packed`, a text of `length` bytes.
-pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code: [u32; 2]) -> Vec<u8> {
+pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code: [u32; 3]) -> Vec<u8> {
     let mut model = model(sets, primer, code);
     let mut decoder = Decoder::new(packed);
     while model.position() < primer.len() + length {
@@ -49,7 +51,7 @@ pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code
 }
 
 /// Bits that each byte of `text` costs, and what kind of byte the model took it for.
-pub fn costs(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 2]) -> Vec<(f32, u32)> {
+pub fn costs(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<(f32, u32)> {
     let mut model = model(sets, primer, code);
     let mut costs = Vec::new();
     for byte in text {

@@ -49,6 +49,13 @@ pub struct Trimmed {
     pub loads: Vec<Segment>,
 }
 
+impl Trimmed {
+    /// Where the instructions are, as the model is told.
+    pub fn code(&self) -> [u32; 3] {
+        [self.code.start, self.code.end, self.code_address as usize].map(|word| word as u32)
+    }
+}
+
 /// A little-endian number of `size` bytes at `at`.
 fn number(bytes: &[u8], at: usize, size: usize) -> Result<u64, String> {
     let bytes = at.checked_add(size).and_then(|end| bytes.get(at..end)).ok_or("the file ends within a header")?;

@@ -42,15 +42,15 @@ fn prepare(file: &[u8], primer: &[u8]) -> Result<Trimmed, String> {
 pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     let [one, two] = stages(stub)?;
     let program = prepare(file, two)?;
-    let code = [program.code.start as u32, program.code.end as u32];
+    let code = program.code();
     let mut unpacker = one.to_vec();
     unpacker.extend(first::compress(two));
 
     let mut payload = Vec::new();
-    for offset in [program.bytes.len() as u32, code[0], code[1]] {
-        payload.extend((two.len() as u32 + offset).to_le_bytes());
+    let at = two.len() as u32;
+    for word in [at + program.bytes.len() as u32, at + code[0], at + code[1], code[2]] {
+        payload.extend(word.to_le_bytes());
     }
-    payload.extend((program.code_address as u32).to_le_bytes());
     let coded = compress(&SETS, two, &program.bytes, code);
     if decompress(&SETS, two, &coded, program.bytes.len(), code) != program.bytes {
         return Err("the coded program does not decode".into());
@@ -117,7 +117,7 @@ impl Costs {
 pub fn measure(file: &[u8], stub: &[u8]) -> Result<Costs, String> {
     let [_, primer] = stages(stub)?;
     let program = prepare(file, primer)?;
-    let code = [program.code.start as u32, program.code.end as u32];
+    let code = program.code();
     let bits = costs(&SETS, primer, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
     Ok(Costs { bits, loads: program.loads })
 }

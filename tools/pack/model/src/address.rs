@@ -1,7 +1,7 @@
 //! Distances of calls, jumps and RIP-relative operands as absolute addresses: what is called, or read, from
 //! many places is then the same four bytes each time, and the same as where its address stands in full.
 
-use crate::parse::Parser;
+use crate::parse::{IMM8, Parser};
 
 /// Whether distances become addresses or the other way round.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub fn convert(code: &mut [u8], address: u32, way: Way) {
     while let Some(&byte) = code.get(at) {
         parser.step(byte);
         at += 1;
-        if parser.relative == 0 || parser.relative != parser.field() {
+        if parser.relative == 0 || parser.relative == IMM8 || parser.relative != parser.field() {
             continue;
         }
         let Some(bytes) = code.get_mut(at..).and_then(|rest| rest.first_chunk_mut::<4>()) else { return };

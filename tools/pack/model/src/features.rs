@@ -1,6 +1,7 @@
 //! What may tell the next byte: features of the bytes before it. A context is a set of them.
 
-use crate::parse::{DISP8, IMM8, MODRM, Parser};
+use crate::model::MOST;
+use crate::parse::{DISP8, DISP32_LAST, IMM8, IMM32_LAST, MODRM, Parser};
 
 /// Number of features: a set of them is a `u32`.
 pub const FEATURES: usize = 32;
@@ -9,18 +10,28 @@ pub const FEATURES: usize = 32;
 ///
 /// Everywhere: 0 to 5 the last bytes, 30 what the longest match predicts. In code: 6 the field, 7 the bytes of
 /// it so far; 8 to 11 of the current instruction opcode, operands byte, hash of all so far, REX or VEX;
-/// 12 to 27 the same of the four before; 28 the last displacement in the same addressing mode, 29 the operands
-/// byte that followed the same opcode last, 31 the addressing mode. In data: 6 to 27 further bytes,
-/// 28 the word so far, 29 and 31 the position modulo 4 and 16.
+/// 12 to 15 the same of the one before; 19 the last two opcodes, 27 the last four; 20 the register that the last
+/// operands byte names first; 21 the highest bits of registers; 22 bytes until the next place that is jumped to, at
+/// most 16; 23 what the bytes to come of a displacement or distance were when the same addressing mode had one last;
+/// 28 the opcode that last wrote what VEX names; 29 the operands byte that followed the same opcode last, 31 the
+/// addressing mode. In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
 pub struct Features {
     /// The features themselves.
     pub f: [u32; FEATURES],
+    /// Address of the text's first byte, counted as its instructions are.
+    pub origin: u32,
     /// Where in an instruction the next byte stands.
     parser: Parser,
     word: u32,
-    displacements: [u32; 256],
+    /// The last bytes as a little-endian number.
+    number: u32,
+    numbers: [u32; 256],
     operands: [u32; 1024],
+    /// The opcode that last had each register first.
+    writers: [u32; 16],
+    /// Which positions are jumped to, from before.
+    targets: [bool; MOST],
 }
 
 /// Mixes a number into a hash.
@@ -31,8 +42,17 @@ pub fn hash(h: u32, value: u32) -> u32 {
 
 impl Features {
     /// Before the first byte.
-    pub const ZERO: Self =
-        Self { f: [0; FEATURES], parser: Parser::START, word: 0, displacements: [0; 256], operands: [0; 1024] };
+    pub const ZERO: Self = Self {
+        f: [0; FEATURES],
+        origin: 0,
+        parser: Parser::START,
+        word: 0,
+        number: 0,
+        numbers: [0; 256],
+        operands: [0; 1024],
+        writers: [0; 16],
+        targets: [false; MOST],
+    };
 
     /// A small number that says what is to come: in code the field, in data the position modulo 4. Below 32.
     pub fn place(&self, code: bool) -> u32 {
@@ -55,31 +75,55 @@ impl Features {
         }
         let p = &mut self.parser;
         let before = p.field();
-        let place = p.modrm as usize & 0xc7;
         p.step(byte);
-        let opcode = p.map << 8 | p.op;
-        let d = &mut self.displacements[place];
-        if (DISP8..IMM8).contains(&before) {
-            *d = *d << 8 | value;
+        let address = position.wrapping_add(self.origin);
+        self.number = self.number >> 8 | value << 24;
+        if before == DISP8 || before == IMM8 {
+            self.number = byte as i8 as u32;
         }
-        let o = &mut self.operands[opcode as usize & 1023];
+        let jump = p.relative >= IMM8 && matches!(before, IMM8 | IMM32_LAST);
+        if jump {
+            if before == IMM8 {
+                self.number = self.number.wrapping_add(address);
+            }
+            self.targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
+        }
+        if jump || matches!(before, DISP8 | DISP32_LAST) {
+            self.numbers[p.modrm as usize & 0xc7] = self.number;
+        }
+        let opcode = p.map << 8 | p.op;
         if before == MODRM {
-            *o = value;
+            self.operands[opcode as usize & 1023] = value;
         }
         f[10] = hash(f[10], value + 1);
         f[8] = opcode | p.prefix << 16;
         f[9] = p.modrm;
         f[11] = p.rex;
         if p.done {
-            f.copy_within(8..24, 12);
+            f[20] = p.modrm >> 3 & 7 | p.high << 1 & 8;
+            f[27] = f[27] << 8 | p.op;
+            f[19] = f[27] & 0xffff;
+            self.writers[f[20] as usize & 15] = opcode;
+            f.copy_within(8..12, 12);
             f[8..12].fill(0);
         }
         let p = if p.done { Parser::START } else { *p };
         let field = p.field();
-        f[7] = if matches!(field, 5..=7 | 10..=12) { hash(f[7], value + 1) } else { 0 };
-        f[6] = field | ((p.relative != 0) as u32) << 4 | p.map << 5;
         f[31] = p.modrm & 0xc7;
-        f[28] = self.displacements[f[31] as usize & 255];
+        if matches!(field, 5..=7 | 10..=12) {
+            f[7] = hash(f[7], value + 1);
+            f[23] >>= 8;
+        } else {
+            f[7] = 0;
+            f[23] = self.numbers[f[31] as usize & 255];
+            if p.relative == IMM8 {
+                f[23] = f[23].wrapping_sub(address.wrapping_add(1)) & 255;
+            }
+        }
+        f[6] = field | ((p.relative != 0) as u32) << 4 | p.map << 5;
+        f[21] = p.high;
+        f[28] = self.writers[((!p.rex >> 3) & 15) as usize];
+        f[22] = (0..16).find(|i| self.targets[(position + i) as usize & (MOST - 1)]).unwrap_or(16);
         f[29] = self.operands[(p.map << 8 | p.op) as usize & 1023];
     }
 }

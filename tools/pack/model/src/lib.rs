@@ -2,7 +2,7 @@
 //! the other must compute again, so there is one source of it. Integers only, no allocation, no `std`.
 //!
 //! Some contexts, each a subset of a few features of what came before ([`features`]), look up adaptive
-//! probabilities ([`slot`]); three mixers weigh them, and a fourth weighs the mixers ([`mix`]). The method is that
+//! probabilities ([`slot`]); six mixers weigh them, and three weigh the mixers ([`mix`]). The method is that
 //! of Mahoney's PAQ; that a parser of x86 ([`parse`]) sits inside the model, instead of a filter that splits
 //! streams, is that of its executable models.
 //!
@@ -26,6 +26,19 @@
 //!   and so it is now;
 //! - first mixers that learn faster at first: no difference;
 //! - matches of at least 4, 6 or 7 bytes instead of 5: 0.0 to 0.1 % more.
+//!
+//! Tried on one of 169 kB, which takes 52,066 bytes (55,481 with ten contexts and three mixers):
+//!
+//! - counts that stop at 30 instead of 127, in slots or in histories: 0.3 and 0.1 % more;
+//! - the linear input without regard to the count: 0.15 % more; other weights of it, or of the stretched one: more;
+//! - histories together with the count or the probability: no difference, 0.4 % more;
+//! - one final mixer instead of three: 0.3 % more; a fourth for the addressing mode or the register: more;
+//! - no mixer by the opcode: 0.2 % more; weights of a new row from a row for all: 0.2 % more;
+//! - mixers in floating point, a finer logistic table: 0.05 % less, nothing;
+//! - a line's neighbour never looked at: 0.7 % more; the older instead of the lesser line replaced: 0.7 % more; four
+//!   times the lines: 0.1 % less;
+//! - the match by place, or by what it predicts: 0.0 and 0.1 % more;
+//! - without the last register: 0.7 % more; without places that are jumped to: 0.7; without the last numbers: 0.6.
 #![no_std]
 
 pub mod address;

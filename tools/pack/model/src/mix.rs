@@ -50,47 +50,42 @@ impl Logistic {
     }
 }
 
-/// Eight 16-bit weights, 16384 being one, in two words: a form that safe code can load and store as one vector.
-pub type Weights = [i64; 2];
+/// Sixteen numbers. As weights, 16384 is one.
+pub type Vector = [i16; 16];
 
-/// Eight times the same weight.
-pub const fn all(weight: i16) -> Weights {
-    [weight as i64 * 0x0001_0001_0001_0001; 2]
-}
-
-#[target_feature(enable = "sse2")]
-fn vector(&[a, b, c, d, e, f, g, h]: &[i16; 8]) -> __m128i {
-    _mm_set_epi16(h, g, f, e, d, c, b, a)
-}
-
-/// The sum of `inputs`, each with its weight, clamped to what can be squashed.
-pub fn dot(inputs: &[[i16; 8]], weights: &[Weights]) -> i32 {
-    #[target_feature(enable = "sse2")]
-    fn vectors(inputs: &[[i16; 8]], weights: &[Weights]) -> i64 {
-        let mut sums = _mm_setzero_si128();
-        for (x, w) in inputs.iter().zip(weights) {
-            sums = _mm_add_epi32(sums, _mm_madd_epi16(vector(x), _mm_set_epi64x(w[1], w[0])));
+/// The sum of `x`, each with its weight, clamped to what can be squashed.
+pub fn dot(x: &[Vector], w: &[Vector]) -> i32 {
+    #[target_feature(enable = "avx2")]
+    fn vectors(x: &[Vector], w: &[Vector]) -> i64 {
+        let mut sums = _mm256_setzero_si256();
+        for (x, w) in x.iter().zip(w) {
+            // SAFETY: reads sixteen numbers where there are sixteen.
+            let [x, w] = [x, w].map(|v| unsafe { _mm256_loadu_si256(v.as_ptr().cast()) });
+            sums = _mm256_add_epi32(sums, _mm256_madd_epi16(x, w));
         }
+        let sums = _mm_add_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256::<1>(sums));
         _mm_cvtsi128_si64(_mm_add_epi32(sums, _mm_unpackhi_epi64(sums, sums)))
     }
-    // SAFETY: every x86-64 processor has SSE2.
-    let pair = unsafe { vectors(inputs, weights) };
+    // SAFETY: whoever starts a model has seen that the processor has AVX2.
+    let pair = unsafe { vectors(x, w) };
     ((pair as i32).wrapping_add((pair >> 32) as i32) >> 14).clamp(-STRETCH, STRETCH)
 }
 
-/// Moves the weights by `inputs` times the error, rounded to 65536ths. The error is that of a probability
+/// Moves the weights by `x` times the error, rounded to 65536ths. The error is that of a probability
 /// (65536ths), times the rate, within 16 bits.
-pub fn train(inputs: &[[i16; 8]], weights: &mut [Weights], error: i32) {
-    #[target_feature(enable = "sse2")]
-    fn vectors(inputs: &[[i16; 8]], weights: &mut [Weights], error: i16) {
-        for (x, w) in inputs.iter().zip(weights) {
-            let x = vector(x);
-            let twice = _mm_mulhi_epi16(_mm_add_epi16(x, x), _mm_set1_epi16(error));
-            let step = _mm_srai_epi16::<1>(_mm_add_epi16(twice, _mm_set1_epi16(1)));
-            let new = _mm_adds_epi16(_mm_set_epi64x(w[1], w[0]), step);
-            *w = [_mm_cvtsi128_si64(new), _mm_cvtsi128_si64(_mm_unpackhi_epi64(new, new))];
+pub fn train(x: &[Vector], w: &mut [Vector], error: i32) {
+    #[target_feature(enable = "avx2")]
+    fn vectors(x: &[Vector], w: &mut [Vector], error: i16) {
+        for (x, w) in x.iter().zip(w) {
+            // SAFETY: reads sixteen numbers where there are sixteen, as does the other.
+            let x = unsafe { _mm256_loadu_si256(x.as_ptr().cast()) };
+            let twice = _mm256_mulhi_epi16(_mm256_add_epi16(x, x), _mm256_set1_epi16(error));
+            let step = _mm256_srai_epi16::<1>(_mm256_add_epi16(twice, _mm256_set1_epi16(1)));
+            let new = _mm256_adds_epi16(unsafe { _mm256_loadu_si256(w.as_ptr().cast()) }, step);
+            // SAFETY: writes as many.
+            unsafe { _mm256_storeu_si256(w.as_mut_ptr().cast(), new) };
         }
     }
-    // SAFETY: every x86-64 processor has SSE2.
-    unsafe { vectors(inputs, weights, error as i16) }
+    // SAFETY: as above.
+    unsafe { vectors(x, w, error as i16) }
 }

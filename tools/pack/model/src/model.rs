@@ -1,25 +1,31 @@
 //! The predictor: the probability of the next bit, given all before.
 
 use crate::features::{Features, hash};
-use crate::mix::{Logistic, Weights, all, dot, train};
+use crate::mix::{Logistic, Vector, dot, train};
 use crate::slot;
 
-/// Contexts of a byte. The unpacker's time goes with it; one more makes 0.3 % less.
-pub const CONTEXTS: usize = 10;
-/// Inputs of a mixer, in vectors of eight: three of each context, the match, a constant.
-const VECTORS: usize = (3 * CONTEXTS + 2).div_ceil(8);
-const MATCH: usize = 3 * CONTEXTS;
-/// Mixers whose results the last one mixes.
-const MIXERS: usize = 3;
+/// Contexts of a byte, as many as a vector holds. The unpacker's time goes with it.
+pub const CONTEXTS: usize = 16;
+/// Inputs of a mixer: three vectors of the contexts, one of the match and a constant.
+const VECTORS: usize = 4;
+/// Their weights at first.
+const WEIGHTS: [i16; VECTORS] = [1000, 400, 1300, 4000];
+/// Mixers whose results the last ones mix.
+const MIXERS: usize = 6;
+/// Sets of weights of each, one of which is chosen for each bit.
+const ROWS: usize = 2048;
+/// Mixers of those results. Their own results are averaged.
+const LAST: usize = 3;
 /// Slots for four bits of a byte in one context: the first holds a check, the others are a tree of bits.
 type Line = [u32; 16];
-const LINE_BITS: u32 = 19;
+const LINE_BITS: u32 = 20;
+const LINES: u32 = 1 << LINE_BITS;
 /// Longest text, in bytes.
 pub const MOST: usize = 1 << 22;
 /// Bytes that a match must have in common at first.
 const MATCH_MIN: u32 = 5;
 /// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
-const RATES: [i32; 2] = [7, 3];
+const RATES: [i32; 2] = [7, 2];
 
 /// Which features make each context, in code and in data.
 pub type Sets = [[u32; CONTEXTS]; 2];
@@ -34,7 +40,7 @@ pub struct Model {
     bit: u32,
     /// Bytes coded so far.
     position: u32,
-    code: [u32; 2],
+    code: [u32; 3],
     /// 0 while the current byte is an instruction's, 1 while it is not.
     class: u32,
     /// Index in a line of the current bit's slot.
@@ -45,22 +51,25 @@ pub struct Model {
     predicted: u32,
     match_slot: u32,
     chosen: [u32; MIXERS],
+    chosen_last: [u32; LAST],
     place: u32,
-    probability: i32,
-    mixed: [[i16; 8]; 1],
-    inputs: [[i16; 8]; VECTORS],
+    results: [i32; LAST],
+    mixed: [Vector; 1],
+    inputs: [Vector; VECTORS],
     /// Hashes of the contexts: their top bits are the line, all of them the check.
     hashes: [u32; CONTEXTS],
+    /// The lines in use.
+    lines: [u32; CONTEXTS],
     sets: Sets,
     features: Features,
     logistic: Logistic,
-    weights: [[[Weights; VECTORS]; 512]; MIXERS],
-    last: [[Weights; 1]; 64],
+    weights: [[[Vector; VECTORS]; ROWS]; MIXERS],
+    last: [[[Vector; 1]; ROWS]; LAST],
     histories: [[[u32; 256]; CONTEXTS]; 2],
     matches: [u32; 64],
     heads: [u32; 1 << 16],
     text: [u8; MOST],
-    table: [Line; 1 << LINE_BITS],
+    table: [Line; LINES as usize],
 }
 
 impl Model {
@@ -69,7 +78,7 @@ impl Model {
         partial: 0,
         bit: 0,
         position: 0,
-        code: [0; 2],
+        code: [0; 3],
         class: 0,
         node: 0,
         match_at: 0,
@@ -77,32 +86,37 @@ impl Model {
         predicted: 0,
         match_slot: 0,
         chosen: [0; MIXERS],
+        chosen_last: [0; LAST],
         place: 0,
-        probability: 0,
-        mixed: [[0; 8]; 1],
-        inputs: [[0; 8]; VECTORS],
+        results: [0; LAST],
+        mixed: [[0; 16]; 1],
+        inputs: [[0; 16]; VECTORS],
         hashes: [0; CONTEXTS],
+        lines: [0; CONTEXTS],
         sets: [[0; CONTEXTS]; 2],
         features: Features::ZERO,
         logistic: Logistic::ZERO,
-        weights: [[[[0; 2]; VECTORS]; 512]; MIXERS],
-        last: [[[0; 2]; 1]; 64],
+        weights: [[[[0; 16]; VECTORS]; ROWS]; MIXERS],
+        last: [[[[0; 16]; 1]; ROWS]; LAST],
         histories: [[[0; 256]; CONTEXTS]; 2],
         matches: [0; 64],
         heads: [0; 1 << 16],
         text: [0; MOST],
-        table: [[0; 16]; 1 << LINE_BITS],
+        table: [[0; 16]; LINES as usize],
     };
 
-    /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions. Once, after zeros.
+    /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions, the first of them at the
+    /// address `code[2]`. Once, after zeros, where the processor has AVX2.
     /// The text begins with `primer`, instructions that both sides have: they teach, and need not be coded.
-    pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 2]) {
+    pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 3]) {
         self.sets = *sets;
-        self.code = [0, !0];
+        self.code = [0, !0, 0];
         self.partial = 1;
         self.logistic.fill();
-        self.weights.as_flattened_mut().as_flattened_mut().fill(const { all(1600) });
-        self.last.as_flattened_mut().fill(const { all((16384 / MIXERS) as i16) });
+        for (i, weights) in self.weights.as_flattened_mut().as_flattened_mut().iter_mut().enumerate() {
+            weights.fill(WEIGHTS[i % VECTORS]);
+        }
+        self.last.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill((16384 / MIXERS) as i16);
         self.contexts();
         for &byte in primer {
             for i in (0..8).rev() {
@@ -111,6 +125,7 @@ impl Model {
             }
         }
         self.code = code;
+        self.features.origin = code[2].wrapping_sub(code[0]);
     }
 
     fn byte(&self, at: u32) -> u32 {
@@ -166,18 +181,27 @@ impl Model {
     /// Finds the lines of the next four bits.
     #[inline(never)]
     fn look_up(&mut self) {
-        // Two loops, so that the processor waits for all lines at once.
-        let mut found = [0; CONTEXTS];
-        for (h, found) in self.hashes.iter_mut().zip(&mut found) {
-            *h = hash(*h, self.partial);
-            *found = self.table[(*h >> (32 - LINE_BITS)) as usize][0];
+        // Two loops, so that the processor waits for all lines at once. The first keeps the checks it finds.
+        for i in 0..CONTEXTS {
+            self.hashes[i] = hash(self.hashes[i], self.partial);
+            self.lines[i] = self.table[(self.hashes[i] >> (32 - LINE_BITS)) as usize][0];
         }
-        for (&check, found) in self.hashes.iter().zip(found) {
-            if found != check {
-                let line = &mut self.table[(check >> (32 - LINE_BITS)) as usize];
-                line.fill(0);
-                line[0] = check;
+        for i in 0..CONTEXTS {
+            let check = self.hashes[i];
+            let mut at = check >> (32 - LINE_BITS);
+            if self.lines[i] != check {
+                // The line beside it may be this context's, or know less.
+                let other = &self.table[(at ^ 1) as usize];
+                if other[0] == check || slot::count(other[1]) < slot::count(self.table[at as usize][1]) {
+                    at ^= 1;
+                }
+                let line = &mut self.table[at as usize];
+                if line[0] != check {
+                    line.fill(0);
+                    line[0] = check;
+                }
             }
+            self.lines[i] = at;
         }
     }
 
@@ -188,28 +212,49 @@ impl Model {
             self.look_up();
             self.node = 1;
         }
-        let inputs = self.inputs.as_flattened_mut();
+        let [direct, certain, indirect, more] = &mut self.inputs;
         let histories = &self.histories[self.class as usize & 1];
-        for (i, (&h, histories)) in self.hashes.iter().zip(histories).enumerate() {
-            let direct = self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
-            inputs[3 * i] = self.logistic.stretch(slot::probability(direct));
-            inputs[3 * i + 1] = ((slot::probability(direct) - 0x8000) >> 5) as i16;
-            inputs[3 * i + 2] = self.logistic.stretch(slot::probability(histories[slot::history(direct)]));
+        let mut known = 0;
+        for i in 0..CONTEXTS {
+            let slot = self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
+            let (p, n) = (slot::probability(slot), slot::count(slot));
+            known += (n != 0) as u32;
+            direct[i] = self.logistic.stretch(p);
+            certain[i] = (((p - 0x8000) * n.min(16)) >> 9) as i16;
+            indirect[i] = self.logistic.stretch(slot::probability(histories[i][slot::history(slot)]));
         }
         self.match_slot = 0;
         if self.predicted << self.bit >> 8 == self.partial {
             self.match_slot = self.match_length.min(31) * 2 + (self.predicted << self.bit >> 7 & 1);
         }
         // Slot 0 never learns, so it is even odds.
-        inputs[MATCH] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
-        inputs[MATCH + 1] = 1024;
-        self.chosen =
-            [self.partial | self.predicted & 256, self.place | self.bit << 6, self.features.f[0] | self.class << 8];
+        more[0] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
+        more[1] = 1024;
+        more[2] = if self.match_length > 9 { more[0] } else { 0 };
+        let (f, class) = (&self.features.f, self.class << 8);
+        self.chosen = [
+            self.partial | self.predicted & 256,
+            self.place | self.bit << 6,
+            f[0] | class,
+            known | self.place << 5,
+            f[6] & 127 | self.bit << 7 | class << 2,
+            // The opcode, before it is known the last instruction's.
+            if class != 0 {
+                f[29]
+            } else if f[8] != 0 {
+                f[8] & 1023
+            } else {
+                f[12] & 1023 | 1024
+            },
+        ];
+        self.chosen_last = [self.chosen[1], self.chosen[MIXERS - 1], self.match_length.min(15) | class];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
-            *mixed = dot(&self.inputs, &weights[row as usize & 511]) as i16;
+            *mixed = dot(&self.inputs, &weights[row as usize & (ROWS - 1)]) as i16;
         }
-        self.probability = self.logistic.squash(dot(&self.mixed, &self.last[self.place as usize & 63]));
-        self.probability as u32
+        for ((result, &row), last) in self.results.iter_mut().zip(&self.chosen_last).zip(&self.last) {
+            *result = dot(&self.mixed, &last[row as usize & (ROWS - 1)]);
+        }
+        self.logistic.squash(self.results.iter().sum::<i32>() / LAST as i32) as u32
     }
 
     /// Learns the bit.
@@ -218,14 +263,16 @@ impl Model {
         let target = (bit << 16) as i32;
         for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {
             let error = ((target - self.logistic.squash(mixed as i32)) * RATES[0]) >> 4;
-            train(&self.inputs, &mut weights[row as usize & 511], error);
+            train(&self.inputs, &mut weights[row as usize & (ROWS - 1)], error);
         }
-        train(&self.mixed, &mut self.last[self.place as usize & 63], ((target - self.probability) * RATES[1]) >> 4);
-        let histories = &mut self.histories[self.class as usize & 1];
-        for (&h, histories) in self.hashes.iter().zip(histories) {
-            let direct = &mut self.table[(h >> (32 - LINE_BITS)) as usize][self.node as usize & 15];
-            slot::update(&mut histories[slot::history(*direct)], bit);
-            slot::update(direct, bit);
+        for ((&result, &row), last) in self.results.iter().zip(&self.chosen_last).zip(&mut self.last) {
+            let error = ((target - self.logistic.squash(result)) * RATES[1]) >> 4;
+            train(&self.mixed, &mut last[row as usize & (ROWS - 1)], error);
+        }
+        for i in 0..CONTEXTS {
+            let slot = &mut self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
+            slot::update(&mut self.histories[self.class as usize & 1][i][slot::history(*slot)], bit);
+            slot::update(slot, bit);
         }
         if self.match_slot != 0 {
             slot::update(&mut self.matches[self.match_slot as usize & 63], bit);

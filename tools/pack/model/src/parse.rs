@@ -11,10 +11,14 @@ pub const SIB: u32 = 2;
 pub const DISP8: u32 = 3;
 /// The first of four bytes of a displacement; the others follow in numbers too.
 pub const DISP32: u32 = 4;
+/// The last of them.
+pub const DISP32_LAST: u32 = 7;
 /// An immediate, or a jump's distance, of one byte.
 pub const IMM8: u32 = 8;
 /// The first of four bytes of an immediate or of a distance.
 pub const IMM32: u32 = 9;
+/// The last of them.
+pub const IMM32_LAST: u32 = 12;
 /// The opcode after an escape byte or VEX.
 pub const OP_MORE: u32 = 15;
 
@@ -37,9 +41,11 @@ pub struct Parser {
     pub modrm: u32,
     /// REX, or the last byte of VEX.
     pub rex: u32,
+    /// Highest bits of registers: R 4, X 2, B 1.
+    pub high: u32,
     /// The last legacy prefix: `66`, `F2`, `F3`, a segment; `C5` for VEX.
     pub prefix: u32,
-    /// The field whose four bytes are relative to the end of the instruction, or 0.
+    /// The field whose bytes, four or one, are relative to the end of the instruction, or 0.
     pub relative: u32,
     /// The last byte ended an instruction, which the other fields still describe.
     pub done: bool,
@@ -109,7 +115,8 @@ fn has(table: &[u32; 16], index: u32) -> bool {
 
 impl Parser {
     /// At the start of an instruction.
-    pub const START: Self = Self { queue: 0, map: 0, op: 0, modrm: 0, rex: 0, prefix: 0, relative: 0, done: false };
+    pub const START: Self =
+        Self { queue: 0, map: 0, op: 0, modrm: 0, rex: 0, high: 0, prefix: 0, relative: 0, done: false };
 
     /// What comes next.
     pub fn field(&self) -> u32 {
@@ -133,7 +140,7 @@ impl Parser {
             OP | OP_MORE => {
                 if self.map == 0 {
                     match byte {
-                        0x40..=0x4f => self.rex = byte,
+                        0x40..=0x4f => (self.rex, self.high) = (byte, byte & 7),
                         // The segments that mean something, and 2E, which long NOPs have. F1 is rare.
                         0x2e | 0x64..=0x67 | 0xf0..=0xf3 => self.prefix = byte,
                         0xc4 => self.queue = AFTER_C4,
@@ -171,8 +178,13 @@ impl Parser {
                 }
             }
             SIB if byte & 7 == 5 && self.modrm < 0x40 => self.queue = self.queue << 16 | FOUR_OF_DISP,
-            13 => self.map = byte & 3,
-            14 => (self.rex, self.prefix) = (byte, 0xc5),
+            13 => (self.map, self.high, self.prefix) = (byte & 3, !byte >> 5 & 7, 0xc5),
+            14 => {
+                if self.prefix != 0xc5 {
+                    self.high = !byte >> 5 & 4;
+                }
+                (self.rex, self.prefix) = (byte, 0xc5);
+            }
             _ => {}
         }
         self.done = self.queue == 0;
@@ -189,6 +201,9 @@ impl Parser {
         let index = byte | self.map << 8;
         if self.map == 3 || self.map < 2 && has(&HAS_IMM8, index) {
             self.queue = IMM8 as u64;
+            if index & 0xf0 == 0x70 || index == 0xeb {
+                self.relative = IMM8;
+            }
         }
         if self.map < 2 && has(&HAS_IMM32, index) {
             self.queue = self.wide();

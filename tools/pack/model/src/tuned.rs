@@ -1,16 +1,16 @@
-//! The contexts. Found by random search (`cargo run -p pack --release --example tune`) in a
-//! program without the code of `x11_dl::Xlib::open`, so that its 66 kB of repetition have no say.
+//! The contexts. Found by random search (`cargo run -p pack --release --example tune`) in the intro itself: with
+//! them, other programs take 5 to 6 % less than with ten contexts of before, too.
 
 use crate::model::Sets;
 
 /// Which features ([`crate::features`]) make each context, in code and in data.
 pub const SETS: Sets = [
     [
-        0x00000040, 0xa0000000, 0x00000041, 0x00000440, 0x80000840, 0x90011480, 0x00003001, 0x000008c2, 0x00001040,
-        0x00000140,
+        0x00800040, 0x20000200, 0x00000041, 0x80200400, 0x80400840, 0x00501400, 0x00003041, 0x80009500, 0x000010c0,
+        0x00000040, 0x00000142, 0x08081140, 0x00080140, 0x00300040, 0x10800140, 0x80000080,
     ],
     [
-        0x00000000, 0x00000003, 0x00000007, 0x2000000e, 0x00008008, 0x00a08020, 0x00800000, 0x40000001, 0x10000000,
-        0x20000000,
+        0x00000000, 0x00000003, 0x00000007, 0x00000210, 0x20008048, 0x80000000, 0x00000026, 0x40000001, 0x10000000,
+        0x00000001, 0x0000000c, 0x00000002, 0x00a00000, 0x00000080, 0x40000008, 0x20000006,
     ],
 ];

@@ -31,7 +31,7 @@ fn main(stack: &sys::Stack) -> ! {
     }
     let text = model.text();
     if let Some(code) = text.get_mut(head.code[0] as usize..head.code[1] as usize) {
-        convert(code, head.address, Way::Relative);
+        convert(code, head.code[2], Way::Relative);
     }
     run::run(text.get(primer.len()..head.end as usize).unwrap_or(&[]), stack)
 }
@@ -46,8 +46,6 @@ fn is_right((image, sum): (&[u8], u32)) -> bool {
 struct Head {
     /// Length of the primer, which is this code, and of the program behind it.
     end: u32,
-    /// Where in both the program's instructions start and end.
-    code: [u32; 2],
-    /// Where the first instruction will be in memory.
-    address: u32,
+    /// Where in both the program's instructions start and end, and where the first one will be in memory.
+    code: [u32; 3],
 }
