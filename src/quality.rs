@@ -51,7 +51,8 @@ impl Quality {
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 6.0, subpixel: 1, coverage: 4, ..Quality::FAST };
+    pub const DEFAULT: Quality =
+        Quality { min_detail: 1.0 / 6.0, subpixel: 1, coverage: 4, cloud_detail: 0.5, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,

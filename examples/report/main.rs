@@ -63,7 +63,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut subjects = choose(&names)?;
     if effort.instants == QUICK.instants && names.is_empty() {
         // One of each kind of sweep.
-        subjects.retain(|subject| !["day, high sun", "sky at sunset", "sky at dusk"].contains(&subject.name));
+        subjects.retain(|subject| {
+            !["day, high sun", "cumulus", "clouds", "sky at sunset", "sky at dusk"].contains(&subject.name)
+        });
     }
     for subject in subjects {
         let mut bench = Bench::new(&effort, &subject, &mut renderers);

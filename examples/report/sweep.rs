@@ -51,6 +51,8 @@ pub enum Group {
     Shadows,
     /// The computed sky alone.
     Sky,
+    /// What rays are cast through clouds in.
+    Clouds,
 }
 
 /// One setting.
@@ -94,10 +96,11 @@ pub fn knobs() -> Vec<Sweep> {
     let detail = [0.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0];
     let (fast, default) = (("fast", Truth::Exact), ("default", Truth::Reference));
     let min_weight: Knob = ("min_weight", |q| q.min_weight, |q, value| q.min_weight = value);
+    let set_threshold: Knob = ("threshold", |q| q.threshold, |q, value| q.threshold = value);
     let map: Knob = ("shadow_map", |q| q.shadow_map as f32, |q, value| q.shadow_map = value as u32);
     let maps = [0.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0];
     let mut sweeps = vec![
-        sweep("threshold", fast, ("threshold", |q| q.threshold, |q, value| q.threshold = value), &threshold),
+        sweep("threshold", fast, set_threshold, &threshold),
         sweep(
             "cell",
             fast,
@@ -119,6 +122,19 @@ pub fn knobs() -> Vec<Sweep> {
     sweeps.push(Sweep { group: Group::Raster, ..coverage });
     for (file, base) in [("shadow-map", fast), ("shadow-map-default", default)] {
         sweeps.push(Sweep { group: Group::Shadows, ..sweep(file, base, map, &maps) });
+    }
+    let steps: Knob = ("cloud_steps", |q| q.cloud_steps as f32, |q, value| q.cloud_steps = value as u32);
+    let detail: Knob = ("cloud_detail", |q| q.cloud_detail, |q, value| q.cloud_detail = value);
+    let opaque: Knob = ("cloud_opaque", |q| q.cloud_opaque, |q, value| q.cloud_opaque = value);
+    let opaques = [0.0, 1.0 / 1024.0, 1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
+    for clouds in [
+        sweep("cloud-steps", fast, steps, &[12.0, 25.0, 50.0, 100.0, 200.0, 400.0]),
+        sweep("cloud-detail", fast, detail, &[0.0625, 0.125, 0.25, 0.5, 1.0, f32::INFINITY]),
+        sweep("cloud-detail-default", default, detail, &[0.125, 0.25, 0.5, 1.0, f32::INFINITY]),
+        sweep("cloud-opaque", fast, opaque, &opaques),
+        sweep("cloud-threshold", fast, set_threshold, &threshold),
+    ] {
+        sweeps.push(Sweep { group: Group::Clouds, ..clouds });
     }
     sweeps.push(dome("dome-cell", "cell", [0.0, 0.0055, 0.011, 0.022, 0.044, 0.088].map(|cell| (cell, None))));
     sweeps.push(dome("dome-steps", "steps", [24, 16, 10, 8, 6, 4].map(|steps| (0.0, Some(steps)))));
