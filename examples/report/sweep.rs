@@ -130,7 +130,6 @@ pub fn knobs() -> Vec<Sweep> {
     for clouds in [
         sweep("cloud-steps", fast, steps, &[12.0, 25.0, 50.0, 100.0, 200.0, 400.0]),
         sweep("cloud-detail", fast, detail, &[0.0625, 0.125, 0.25, 0.5, 1.0, f32::INFINITY]),
-        sweep("cloud-detail-default", default, detail, &[0.125, 0.25, 0.5, 1.0, f32::INFINITY]),
         sweep("cloud-opaque", fast, opaque, &opaques),
         sweep("cloud-threshold", fast, set_threshold, &threshold),
     ] {
