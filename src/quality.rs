@@ -45,14 +45,13 @@ impl Quality {
         coverage: 1,
         shadow_map: 1024,
         cloud_steps: 100,
-        cloud_detail: 0.25,
+        cloud_detail: 0.5,
         cloud_opaque: 1.0 / 256.0,
         cloud_imposter: 0.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
-    pub const DEFAULT: Quality =
-        Quality { min_detail: 1.0 / 6.0, subpixel: 1, coverage: 4, cloud_detail: 0.5, ..Quality::FAST };
+    pub const DEFAULT: Quality = Quality { min_detail: 1.0 / 6.0, subpixel: 1, coverage: 4, ..Quality::FAST };
     /// No shortcut, one sample at each pixel centre.
     pub const EXACT: Quality = Quality {
         cell: 1,

@@ -52,7 +52,8 @@ impl CloudQuality {
             opaque: quality.cloud_opaque,
             hidden: quality.cloud_opaque,
             cell: quality.cell,
-            threshold: quality.threshold,
+            // At the whole of it 0.6 instead of 0.2 % of the pixels of `sky-of-clouds` are off by more than 8 codes.
+            threshold: 0.5 * quality.threshold,
             grid: quality.grid,
             imposter: quality.cloud_imposter,
         }
