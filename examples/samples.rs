@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let picture = scene.picture(&Shot { time, width: *width, height: *height, quality, eye: Eye::MIDDLE });
+    let shot = Shot { time, width: *width, height: *height, quality, eye: Eye::MIDDLE, crew: renderer.crew() };
+    let picture = scene.picture(&shot);
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {
         *pixel = (*pixel >> 1) & 0x7f7f7f;

@@ -193,6 +193,11 @@ impl Renderer {
         self.crew.pool.threads()
     }
 
+    /// Who works: what a [`Shot`] needs.
+    pub fn crew(&self) -> &Crew {
+        &self.crew
+    }
+
     /// The SIMD level in use.
     pub fn level(&self) -> Level {
         self.crew.level
@@ -239,7 +244,7 @@ impl Renderer {
         let mut samples = 0;
         for number in 0..eyes {
             let eye = pair.eye(number as u32 as f32 - 0.5);
-            let picture = scene.picture(&Shot { time, width, height, quality, eye });
+            let picture = scene.picture(&Shot { time, width, height, quality, eye, crew: &self.crew });
             samples += self.draw_at(picture, number * width, width, frame).samples;
         }
         Stats { samples }

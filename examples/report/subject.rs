@@ -8,7 +8,7 @@ use paprsek::scenes::{self, Scene, Shot};
 use paprsek::sky::air::Air;
 use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
-use paprsek::tile::Picture;
+use paprsek::tile::{Crew, Picture};
 
 /// Something to draw.
 pub struct Subject {
@@ -67,10 +67,10 @@ impl Subject {
     }
 
     /// Ready to be drawn.
-    pub fn picture(&self, instant: usize, point: &Point, (width, height): (usize, usize)) -> Picture {
+    pub fn picture(&self, instant: usize, point: &Point, (width, height): (usize, usize), crew: &Crew) -> Picture {
         let (time, quality) = (self.times[instant], point.quality);
         if let Some(scene) = self.scene {
-            return scene.picture(&Shot { time, width, height, quality, eye: Eye::MIDDLE });
+            return scene.picture(&Shot { time, width, height, quality, eye: Eye::MIDDLE, crew });
         }
         let (sin, cos) = (time as f32).to_radians().sin_cos();
         let sky = Sky {

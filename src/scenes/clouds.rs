@@ -7,9 +7,8 @@ use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
 use crate::cloud::{CloudQuality, Clouds, shadow, sunlight};
-use crate::lanes;
 use crate::raster::veil::Veil;
-use crate::tile::Picture;
+use crate::tile::{Crew, Picture};
 use crate::timeline;
 use crate::view::View;
 use fearless_simd::dispatch;
@@ -54,13 +53,12 @@ static SHOTS: &[(f64, [f32; 10])] = &[
 ];
 
 /// Shapes lit by a sun that is `towards`: made again when it has moved by some half of a degree.
-fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
+fn shapes(crew: &Crew, towards: Vec3) -> Vec<Arc<Voxels>> {
     type Slot = (Vec3, Option<Arc<Voxels>>);
     static SLOTS: Mutex<[Slot; 6]> = Mutex::new([const { (Vec3::ZERO, None) }; 6]);
     let mut slots = SLOTS.lock().unwrap();
-    let level = lanes::best();
-    let mut shapes = Vec::new();
-    for (number, (lit, shape)) in slots.iter_mut().enumerate() {
+    let level = crew.level();
+    crew.each(slots.iter_mut().enumerate(), |(number, (lit, shape))| {
         // Each at a time of its own, lest all are made in one frame.
         let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
         if *lit != sun || shape.is_none() {
@@ -73,9 +71,8 @@ fn shapes(towards: Vec3) -> Vec<Arc<Voxels>> {
             *shape = Some(Arc::new(new));
             *lit = sun;
         }
-        shapes.extend(shape.clone());
-    }
-    shapes
+    });
+    slots.iter().filter_map(|(_, shape)| shape.clone()).collect()
 }
 
 /// Where a shot's aeroplane is so many seconds after its start: it winds along its heading.
@@ -101,7 +98,7 @@ fn picture(shot: &Shot) -> Picture {
     let camera = shot.camera(camera);
     let dome = day::sky(shot, 9671.5 + (hour - 1.0) / 24.0);
     let now = dome.lighting();
-    let clouds = FIELD.around(eye, shot.time as f32, &shapes(now.direction));
+    let clouds = FIELD.around(eye, shot.time as f32, &shapes(shot.crew, now.direction));
     let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, shot.time);
     // It moves by whole texels, and its slope ends before the sun is level.
     let texel = 80.0;

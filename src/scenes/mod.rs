@@ -29,7 +29,7 @@ use crate::color::Transfer;
 use crate::quality::Quality;
 #[cfg(feature = "bench-scenes")]
 use crate::raster::{self, Drawn};
-use crate::tile::Picture;
+use crate::tile::{Crew, Picture};
 use crate::trace::Traced;
 use crate::trace::world::World;
 #[cfg(feature = "bench-scenes")]
@@ -56,8 +56,8 @@ impl Scene {
 }
 
 /// One instant of a scene, and how it is to be drawn.
-#[derive(Clone, Copy, Debug)]
-pub struct Shot {
+#[derive(Clone, Copy)]
+pub struct Shot<'a> {
     /// Seconds since the scene's start.
     pub time: f64,
     /// Pixels in a row.
@@ -68,9 +68,11 @@ pub struct Shot {
     pub quality: Quality,
     /// Who looks: every scene passes its camera through [`Shot::camera`].
     pub eye: Eye,
+    /// Who makes what the scene still lacks.
+    pub crew: &'a Crew,
 }
 
-impl Shot {
+impl Shot<'_> {
     /// The scene's camera, moved to the eye that looks.
     pub fn camera(&self, camera: Camera) -> Camera {
         camera.at(self.eye)
