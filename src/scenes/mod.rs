@@ -12,6 +12,8 @@ pub mod intro;
 pub mod lumen;
 #[cfg(feature = "day")]
 pub mod models;
+#[cfg(feature = "bench-scenes")]
+pub mod particles;
 mod script;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
@@ -118,6 +120,10 @@ pub const ALL: &[Scene] = &[
     cumulus::CUMULUS_INSIDE,
     #[cfg(feature = "bench-scenes")]
     cumulus::SKY_OF_CLOUDS,
+    #[cfg(feature = "bench-scenes")]
+    particles::SNOW,
+    #[cfg(feature = "bench-scenes")]
+    particles::FIRE,
 ];
 
 /// The intro's own show: what plays when no scene is named.
