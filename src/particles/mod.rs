@@ -121,7 +121,8 @@ impl Particles {
         for lot in &self.lots {
             let mut link = lot.heads[number as usize];
             while let Some(&(sprite, next)) = lot.links.get(link as usize) {
-                list.push(&lot.sprites[sprite as usize]);
+                // Copied together: else each would be waited for as it is drawn, a third of the whole frame.
+                list.push(lot.sprites[sprite as usize]);
                 link = next;
             }
         }
@@ -135,7 +136,7 @@ impl Particles {
         let mut planes = vec![[0.0; Tile::AREA]; end];
         planes[PASSES].fill(1.0);
         let solids = self.solids && tile.closeness.iter().any(|c| *c > 0.0);
-        for sprite in list {
+        for sprite in &list {
             draw(simd, sprite, tile, solids, &mut planes[first..], first);
         }
         blend(simd, &planes, self.color, self.exposure, tile);

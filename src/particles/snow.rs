@@ -37,8 +37,6 @@ pub struct Flakes {
     pub radius: [f32; 2],
     /// See there.
     pub by: u32,
-    /// Do they turn as they sway?
-    pub tumble: bool,
     /// How they are seen.
     pub lens: Lens,
 }
@@ -163,8 +161,7 @@ impl Snow {
             let order = float(simd, i) * (1.0 / flakes.count as f32);
             alpha *= ((-order + (self.share + FADE)) * (1.0 / FADE)).max(zero).min(one);
         }
-        let narrow = if flakes.tumble { sin.abs() * 0.6 + 0.4 } else { one };
-        let turn = if flakes.tumble { [cos, sin, narrow] } else { [one, zero, one] };
+        let turn = [cos, sin, sin.abs() * 0.6 + 0.4];
         let mut streak = V3::splat(simd, self.streak);
         if BENCH {
             streak.y = streak.y * (faster * (1.0 / flakes.fall[0] as f32) + 1.0);

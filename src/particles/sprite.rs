@@ -54,7 +54,7 @@ pub struct Lens {
     pub aperture: f32,
     /// Metres up to which things are blurred.
     pub focus: f32,
-    /// Are sprites drawn as crystals from some pixels on?
+    /// Are sprites turned, and drawn as crystals from some pixels on?
     pub crystals: bool,
     /// Do sprites move while the shutter is open? Never, in a build without the bench scenes.
     pub streaks: bool,
@@ -128,24 +128,30 @@ impl Screen {
         let size = grains.radius * inverse * self.focal;
         let blur = (inverse - 1.0 / lens.focus).max(zero) * lens.aperture;
         let radius = (size + blur).max(F::<S>::splat(simd, lens.radius[0])).min(F::<S>::splat(simd, lens.radius[1]));
-        let share = size / radius;
+        let thin = one / radius;
+        let share = size * thin;
         let [near, far] = lens.near;
         let comes = ((depth - near) * (1.0 / (far - near))).max(zero).min(one);
         let mut share = (share * share).min(one) * (comes * comes * (comes * -2.0 + 3.0));
-        let [mut cos, mut sin, narrow] = grains.turn;
-        let (mut long, wide) = (radius, radius * narrow);
+        let (x, y) = (x + self.middle[0], y + self.middle[1]);
+        let (mut across, mut down) = (radius, radius);
+        let mut axes = [thin, zero, zero, thin];
         if BENCH && lens.streaks {
             let away = grains.streak.dot1(self.forward);
-            let (right, down) = (grains.streak.dot1(self.right), grains.streak.dot1(self.up));
-            let (dx, dy) = ((right - x * away) * inverse, (down - y * away) * inverse);
+            let (right, below) = (grains.streak.dot1(self.right), grains.streak.dot1(self.up));
+            let (dx, dy) =
+                ((right - (x - self.middle[0]) * away) * inverse, (below - (y - self.middle[1]) * away) * inverse);
             let length = (dx * dx + dy * dy).sqrt().max(F::<S>::splat(simd, 1e-6));
-            (cos, sin) = (dx / length, dy / length);
-            long += length;
+            let (cos, sin) = (dx / length, dy / length);
+            let long = radius + length;
             share *= radius / long;
+            (across, down) = (dx.abs() + radius, dy.abs() + radius);
+            axes = [cos / long, sin / long, -(sin * thin), cos * thin];
+        } else if lens.crystals {
+            let [cos, sin, narrow] = grains.turn;
+            let wide = thin / narrow;
+            axes = [cos * thin, sin * thin, -(sin * wide), cos * wide];
         }
-        let (x, y) = (x + self.middle[0], y + self.middle[1]);
-        let (a, b, c, d) = (cos * long, sin * wide, sin * long, cos * wide);
-        let (across, down) = ((a * a + b * b).sqrt(), (c * c + d * d).sqrt());
         let seen = depth.simd_gt(NEAREST)
             & (x + across).simd_gt(zero)
             & (x - across).simd_lt(self.size[0])
@@ -162,14 +168,14 @@ impl Screen {
         let numbers = [
             x,
             y,
-            cos / long,
-            sin / long,
-            -sin / wide,
-            cos / wide,
+            axes[0],
+            axes[1],
+            axes[2],
+            axes[3],
             across,
             down,
             depth,
-            one * self.focal / (radius * depth),
+            inverse * thin * self.focal,
             grains.alpha * share,
             ink.x,
             ink.y,
@@ -198,7 +204,7 @@ impl Screen {
 }
 
 /// Sorts sprites from far to near, by their bits, a byte at a time; equally far ones stay in their order.
-pub fn sort(list: &mut Vec<&Sprite>) {
+pub fn sort(list: &mut Vec<Sprite>) {
     for shift in [0, 8, 16, 24] {
         let digit = |sprite: &Sprite| !(sprite.depth.to_bits() >> shift) as u8 as usize;
         let mut starts = [0; 257];
@@ -209,9 +215,9 @@ pub fn sort(list: &mut Vec<&Sprite>) {
             starts[i] += starts[i - 1];
         }
         let mut sorted = list.clone();
-        for &sprite in list.iter() {
+        for sprite in list.iter() {
             let start = &mut starts[digit(sprite)];
-            sorted[*start] = sprite;
+            sorted[*start] = *sprite;
             *start += 1;
         }
         *list = sorted;

@@ -34,7 +34,6 @@ pub const FLAKES: Flakes = Flakes {
     pace: [0.8, 0.8],
     radius: [0.008, 0.010],
     by: 7,
-    tumble: false,
     lens: Lens { radius: [1.0, 24.0], near: [0.25, 1.0], ..LENS },
 };
 
