@@ -16,7 +16,7 @@ use fearless_simd_macros::simd;
 use fire::Fire;
 use glam::Vec3;
 use snow::Snow;
-use sprite::{LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
+use sprite::{Crystal, LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
 
 /// Particles of a vector.
 pub struct Grains<S: Simd> {
@@ -70,6 +70,8 @@ pub struct Particles {
     exposure: f32,
     /// Which planes sprites change.
     planes: (usize, usize),
+    /// What flakes are from close by.
+    pub crystal: Crystal,
     /// Do solids hide them?
     solids: bool,
 }
@@ -98,7 +100,7 @@ impl Particles {
         height: usize,
     ) -> Particles {
         let screen = Screen::new(view, width, height);
-        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, solids: true }
+        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids: true }
     }
 
     /// The same where no layer before it has solids: their depth is not read.
@@ -137,7 +139,7 @@ impl Particles {
         planes[PASSES].fill(1.0);
         let solids = self.solids && tile.closeness.iter().any(|c| *c > 0.0);
         for sprite in &list {
-            draw(simd, sprite, tile, solids, &mut planes[first..], first);
+            draw(simd, sprite, &self.crystal, tile, solids, &mut planes[first..], first);
         }
         blend(simd, &planes, self.color, self.exposure, tile);
     }

@@ -14,6 +14,8 @@ pub mod lumen;
 pub mod models;
 #[cfg(feature = "bench-scenes")]
 pub mod particles;
+#[cfg(all(feature = "bench-scenes", feature = "day"))]
+pub mod rain;
 mod script;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
@@ -124,6 +126,8 @@ pub const ALL: &[Scene] = &[
     particles::SNOW,
     #[cfg(feature = "bench-scenes")]
     particles::FIRE,
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
+    rain::RAIN,
 ];
 
 /// The intro's own show: what plays when no scene is named.
