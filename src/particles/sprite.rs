@@ -50,9 +50,9 @@ pub struct Lens {
     pub radius: [f32; 2],
     /// Metres along the view axis between which they come into sight.
     pub near: [f32; 2],
-    /// Radius of the circle of confusion for what is infinitely far from the focus, times its distance: pixels metres.
+    /// Radius of the lens, metres: what is nearer than its focus is blurred.
     pub aperture: f32,
-    /// Metres up to which things are blurred.
+    /// Metres.
     pub focus: f32,
     /// Are sprites turned, and drawn as crystals from some pixels on?
     pub crystals: bool,
@@ -126,7 +126,7 @@ impl Screen {
         let inverse = one / depth;
         let (x, y) = (at.dot1(self.right) * inverse, at.dot1(self.up) * inverse);
         let size = grains.radius * inverse * self.focal;
-        let blur = (inverse - 1.0 / lens.focus).max(zero) * lens.aperture;
+        let blur = (inverse - 1.0 / lens.focus).max(zero) * (lens.aperture * self.focal);
         let radius = (size + blur).max(F::<S>::splat(simd, lens.radius[0])).min(F::<S>::splat(simd, lens.radius[1]));
         let thin = one / radius;
         let share = size * thin;
