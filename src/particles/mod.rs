@@ -7,6 +7,7 @@
 pub mod fire;
 pub mod snow;
 pub mod sprite;
+pub mod strokes;
 
 use crate::lanes::{F, U, V3};
 use crate::tile::{Crew, Layer, Stats, Tile};
@@ -17,6 +18,7 @@ use fire::Fire;
 use glam::Vec3;
 use snow::Snow;
 use sprite::{Crystal, LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
+use strokes::Strokes;
 
 /// Particles of a vector.
 pub struct Grains<S: Simd> {
@@ -40,6 +42,8 @@ pub enum Emitter {
     Snow(Snow),
     /// Flames, sparks or smoke.
     Fire(Fire),
+    /// Writing.
+    Strokes(Strokes),
 }
 
 /// Particles that a job makes at a time.
@@ -88,6 +92,13 @@ impl Particles {
         let first = if fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
         let emitters = fires.into_iter().map(Emitter::Fire).collect();
         Particles::new(emitters, Vec3::ZERO, exposure, (first, LIGHT + 3), view, width, height)
+    }
+
+    /// Writing before all that is there.
+    pub fn writing(strokes: Strokes, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
+        let emitters = vec![Emitter::Strokes(strokes)];
+        let writing = Particles::new(emitters, Vec3::ZERO, exposure, (LIGHT, LIGHT + 3), view, width, height);
+        Particles { solids: false, ..writing }
     }
 
     fn new(
@@ -191,6 +202,7 @@ impl Emitter {
         match self {
             Emitter::Snow(snow) => snow.count(),
             Emitter::Fire(fire) => fire.count(),
+            Emitter::Strokes(strokes) => strokes.count(),
         }
     }
 }
@@ -206,6 +218,7 @@ fn emit<S: Simd>(simd: S, emitter: &Emitter, first: u32, screen: &Screen, sprite
         let (grains, lens, eye) = match emitter {
             Emitter::Snow(snow) => (snow.grains(simd, numbers), &snow.lens, Vec3::ZERO),
             Emitter::Fire(fire) => (fire.grains(simd, numbers), &fire.lens, screen.eye),
+            Emitter::Strokes(strokes) => (strokes.grains(simd, numbers), &strokes.lens, Vec3::ZERO),
         };
         let last = (1 << lanes.min(end - i)) - 1;
         screen.push(simd, grains, lens, eye, last, sprites);

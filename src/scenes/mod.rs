@@ -9,6 +9,7 @@ pub mod cumulus_set;
 #[cfg(feature = "day")]
 pub mod day;
 pub mod intro;
+pub mod letters;
 pub mod lumen;
 #[cfg(feature = "day")]
 pub mod models;
