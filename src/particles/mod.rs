@@ -9,6 +9,7 @@ pub mod snow;
 pub mod sprite;
 pub mod strokes;
 
+use crate::BENCH;
 use crate::lanes::{F, U, V3};
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
@@ -89,7 +90,7 @@ impl Particles {
 
     /// Flames and sparks in any order, or, if there is smoke, all of them from far to near.
     pub fn fire(fires: Vec<Fire>, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
-        let first = if fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
+        let first = if BENCH && fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
         let emitters = fires.into_iter().map(Emitter::Fire).collect();
         Particles::new(emitters, Vec3::ZERO, exposure, (first, LIGHT + 3), view, width, height)
     }
@@ -143,7 +144,7 @@ impl Particles {
             return;
         }
         let (first, end) = self.planes;
-        if end - first > 3 {
+        if BENCH && end - first > 3 {
             sort(&mut list);
         }
         let mut planes = vec![[0.0; Tile::AREA]; end];

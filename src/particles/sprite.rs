@@ -177,28 +177,38 @@ impl Screen {
             depth,
             inverse * thin * self.focal,
             grains.alpha * share,
+            zero,
             ink.x,
             ink.y,
             ink.z,
             crystal,
         ];
-        let mut lanes = [[0.0; 16]; 15];
+        let mut lanes = [[0.0; 16]; 16];
         for (row, of) in lanes.iter_mut().zip(numbers) {
             of.store_slice(&mut row[..F::<S>::LEN]);
         }
         for lane in Bits(seen) {
-            let [x, y, a, b, c, d, across, down, depth, edge, alpha, red, green, blue, crystal] =
-                lanes.each_ref().map(|row| row[lane]);
-            sprites.push(Sprite {
-                at: [x, y],
-                axes: [a, b, c, d],
-                reach: [across, down],
-                depth,
-                edge,
-                alpha,
-                ink: [0.0, red, green, blue],
-                crystal,
-            });
+            let mut of = [0.0; 16];
+            for (number, row) in of.iter_mut().zip(&lanes) {
+                *number = row[lane];
+            }
+            sprites.push(Sprite::of(of));
+        }
+    }
+}
+
+impl Sprite {
+    /// From its numbers in their order.
+    fn of([x, y, a, b, c, d, across, down, depth, edge, alpha, none, red, green, blue, crystal]: [f32; 16]) -> Sprite {
+        Sprite {
+            at: [x, y],
+            axes: [a, b, c, d],
+            reach: [across, down],
+            depth,
+            edge,
+            alpha,
+            ink: [none, red, green, blue],
+            crystal,
         }
     }
 }
