@@ -10,6 +10,7 @@ pub mod hash;
 pub mod lanes;
 pub mod math;
 pub mod noise;
+pub mod particles;
 pub mod pool;
 pub mod quality;
 pub mod raster;

@@ -1,0 +1,3 @@
+//! What is in the air.
+
+pub mod fog;
