@@ -133,6 +133,12 @@ impl<S: Simd> Mul<Lane<S>> for V3<S> {
 #[derive(Clone, Copy)]
 pub struct Lane<S: Simd>(pub F<S>);
 
+/// Whole numbers with a sign as numbers.
+#[inline(always)]
+pub fn float<S: Simd>(_simd: S, n: U<S>) -> F<S> {
+    n.bitcast::<S::i32s>().to_float()
+}
+
 /// The lanes for which a mask holds, lowest first.
 pub struct Bits(pub u64);
 

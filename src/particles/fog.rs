@@ -1,9 +1,9 @@
 //! Fog: what is far fades into one light, by Beer and Lambert's law.
 
+use super::STEPS;
 use crate::block::{BLOCK, load, store};
 use crate::lanes::F;
 use crate::math::exp2;
-use crate::raster::fill::STEPS;
 use crate::tile::{Layer, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};

@@ -13,7 +13,7 @@ use crate::raster::shadow::{Bias, Plan};
 use crate::tile::Picture;
 use crate::timeline::{self, Key, ease};
 use crate::view::View;
-use glam::{Mat3, Vec2, Vec3, vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
 pub const SNOWFALL: Scene =
@@ -41,7 +41,7 @@ pub struct Weather {
     /// How fast the wind blows along x and z, metres a second.
     pub wind: Vec2,
     /// How far it has blown since the start, metres.
-    pub drift: [f64; 2],
+    pub drift: DVec3,
 }
 
 /// The weather at `time` seconds: it begins to snow, in showers, and gusts come with them.
@@ -51,7 +51,7 @@ pub fn weather(time: f64) -> Weather {
     let (sin, cos) = (0.7 * time).sin_cos();
     let way = 1.6 * time - 1.1 / 0.7 * sin;
     let speed = 1.6 - 1.1 * cos as f32;
-    Weather { snow, wind: Vec2::new(0.9, -0.45) * speed, drift: [0.9 * way, -0.45 * way] }
+    Weather { snow, wind: Vec2::new(0.9, -0.45) * speed, drift: DVec3::new(0.9, 0.0, -0.45) * way }
 }
 
 fn picture(shot: &Shot) -> Picture {
