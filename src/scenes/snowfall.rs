@@ -62,9 +62,9 @@ fn picture(shot: &Shot) -> Picture {
     let (sin, cos) = heading.sin_cos();
     let camera = Camera::look_at(eye, eye + vec3(sin, pitch.tan(), -cos), 0.82, 0.0);
     let camera = shot.camera(camera);
-    // Noon in late November; the sun is behind clouds, and only the time of year counts.
-    let dome = day::sky(shot, 9671.5 + 156.0 + 11.0 / 24.0);
-    let textures = day::plan(1, 12.0).2;
+    // The land on 2026-11-28 in autumn's colours. Clouds hide the sky of that day, and its light is put aside.
+    let dome = day::sky(shot, 9827.5);
+    let textures = day::plan(1, 0.0).2;
     let mut world = day::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
     // No aeroplane flies.
     world.bodies.truncate(world.bodies.len() - 2);
@@ -72,7 +72,9 @@ fn picture(shot: &Shot) -> Picture {
     let dusk = ease(0.0, LENGTH, shot.time);
     let sky = vec3(1.0, 1.04, 1.1) * (vec3(2.8, 2.45, 1.95) * -dusk).exp();
     let amount = 0.04 * (shot.time - 2.0).clamp(0.0, 25.0) as f32;
-    let white = 0.15 + 0.65 * amount;
+    // The ground sends on what it gets, and snow the most.
+    let ground = 0.15 + 0.65 * amount;
+    // Against the wind. Light of a whole sky has soft shadows, so a coarse map is all that there is to know.
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
@@ -80,7 +82,7 @@ fn picture(shot: &Shot) -> Picture {
     let from = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
     world.snow = Some(Settled { amount, from, gives: sky * 0.6 });
     world.lights.clear();
-    world.ambient = [sky * (0.25 + 0.2 * white), sky * (0.15 - 0.2 * white)];
+    world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
     day::lamp(&mut world, ease(20.0, 26.0, shot.time));
     let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
     world.haze = Haze { color: air, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO };
