@@ -4,7 +4,10 @@ use super::models::land;
 use super::{Scene, Shot, day};
 use crate::camera::Camera;
 use crate::color::Transfer;
+use crate::particles::Particles;
 use crate::particles::fog::Fog;
+use crate::particles::snow::{Calm, Flakes, Snow};
+use crate::particles::sprite::Lens;
 use crate::raster::Drawn;
 use crate::raster::light::{Haze, Light, Source};
 use crate::raster::project::Projection;
@@ -31,6 +34,34 @@ static WALK: [Key<5>; 6] = [
     [12.5, -33.5, 58.5, 0.65, 0.5],
     [18.0, -31.0, 49.5, 0.55, 0.05],
     [32.0, -23.0, 27.0, 0.66, 0.16],
+];
+
+/// Flakes around the eye,
+const NEAR: Flakes = Flakes {
+    seed: 3,
+    count: 120_000,
+    extent: vec3(30.0, 16.0, 30.0),
+    reach: 15.0,
+    opacity: 0.9,
+    fall: [0.8, 0.6],
+    sway: [0.1, 0.25],
+    pace: [0.8, 0.8],
+    radius: [0.009, 0.016],
+    by: 3,
+    lens: Lens { radius: [1.0, 64.0], near: [0.3, 0.8], aperture: 0.012, focus: 1.6, crystals: true, streaks: false },
+};
+/// and larger tufts farther off.
+static FIELDS: [Flakes; 2] = [
+    NEAR,
+    Flakes {
+        seed: 4,
+        count: 160_000,
+        extent: vec3(100.0, 40.0, 100.0),
+        reach: 50.0,
+        radius: [0.03, 0.03],
+        lens: Lens { near: [8.0, 16.0], ..NEAR.lens },
+        ..NEAR
+    },
 ];
 
 /// What the air does.
@@ -88,8 +119,16 @@ fn picture(shot: &Shot) -> Picture {
     world.haze = Haze { color: air, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO };
     world.zenith = air * 1.2;
     let view = View::new(camera, shot.width, shot.height);
-    let density = 8e-4 + 8e-3 * weather(shot.time).snow;
+    let air_moves = weather(shot.time);
+    let density = 8e-4 + 8e-3 * air_moves.snow;
     let fog = Fog { view, light: [air, air * 0.25], density, end: 1e5 };
+    let mut fields = Vec::new();
+    for flakes in &FIELDS {
+        let mut snow = Snow::new(flakes, shot.time, camera.eye.as_dvec3(), air_moves.drift, air_moves.snow);
+        snow.calm = Calm { wind: air_moves.wind, height: 1.7, depth: 1.5 };
+        fields.push(snow);
+    }
+    let flakes = Particles::snow(fields, (air * 1.7 + 0.04).min(Vec3::ONE), &view, shot.width, shot.height);
     let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
-    Picture { layers: vec![Box::new(drawn), Box::new(fog)], transfer: Transfer::Srgb }
+    Picture { layers: vec![Box::new(drawn), Box::new(fog), Box::new(flakes)], transfer: Transfer::Srgb }
 }
