@@ -71,6 +71,7 @@ fn monotone(speed: f32, a: f32, b: f32) -> f32 {
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
+#[inline(never)] // Called in many places, never in a hot loop.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     let x = (time - from) / (to - from);
     let x = if x > 0.0 { x.min(1.0) as f32 } else { 0.0 };
