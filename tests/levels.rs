@@ -8,7 +8,7 @@ use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 
-const BENCH: [&str; 9] = [
+const BENCH: [&str; 11] = [
     "spheres",
     "spheres-flat",
     "spheres-glass",
@@ -18,6 +18,8 @@ const BENCH: [&str; 9] = [
     "cumulus",
     "cumulus-inside",
     "sky-of-clouds",
+    "snow",
+    "fire",
 ];
 
 fn scene(name: &str) -> Scene {
