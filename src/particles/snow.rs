@@ -116,7 +116,8 @@ impl Snow {
         Snow {
             flakes: *flakes,
             lens: flakes.lens,
-            share,
+            // So that all are there at 1.
+            share: share * (1.0 + FADE),
             carried: carried.to_array().map(wrapped),
             fallen: Phase::new(flakes.fall[1] * time / flakes.extent.y as f64),
             turned: wrapped(flakes.pace[0] * pace),
@@ -128,7 +129,7 @@ impl Snow {
 
     /// Flakes that there are, seen or not.
     pub fn count(&self) -> u32 {
-        ((self.share + FADE).min(1.0) * self.flakes.count as f32) as u32
+        (self.share.min(1.0) * self.flakes.count as f32) as u32
     }
 
     /// Flakes number `i`.
@@ -156,11 +157,9 @@ impl Snow {
         let radius = float(simd, wide(simd, seed, i, flakes.by)) * (flakes.radius[1] * STEP) + flakes.radius[0];
         let away = one - (at.x * at.x + at.z * at.z) * (1.0 / (flakes.reach * flakes.reach));
         let mut alpha = away * flakes.opacity;
-        if self.share < 1.0 {
-            // The last ones are about to come or go.
-            let order = float(simd, i) * (1.0 / flakes.count as f32);
-            alpha *= ((-order + (self.share + FADE)) * (1.0 / FADE)).max(zero).min(one);
-        }
+        // The last ones are about to come or go.
+        let order = float(simd, i) * (-1.0 / (FADE * flakes.count as f32));
+        alpha *= (order + self.share * (1.0 / FADE)).max(zero).min(one);
         let turn = [cos, sin, sin.abs() * 0.6 + 0.4];
         let mut streak = V3::splat(simd, self.streak);
         if BENCH {

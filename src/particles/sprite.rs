@@ -104,7 +104,7 @@ impl Screen {
             let edge = Tile::SIZE as f32;
             let (from, to) = (sprite.at[axis] - sprite.reach[axis], sprite.at[axis] + sprite.reach[axis]);
             // As a number of 32 bits nothing is less than 0.
-            [(from / edge) as u32, ((to / edge) as u32 + 1).min(tiles)]
+            [(from / edge) as u32, ((to / edge) as u32).min(tiles - 1) + 1]
         };
         [range(0, self.columns), range(1, self.rows)]
     }
@@ -141,8 +141,9 @@ impl Screen {
             let (right, below) = (grains.streak.dot1(self.right), grains.streak.dot1(self.up));
             let (dx, dy) =
                 ((right - (x - self.middle[0]) * away) * inverse, (below - (y - self.middle[1]) * away) * inverse);
-            let length = (dx * dx + dy * dy).sqrt().max(F::<S>::splat(simd, 1e-6));
-            let (cos, sin) = (dx / length, dy / length);
+            let length = (dx * dx + dy * dy).sqrt();
+            let still = length.simd_lt(1e-6);
+            let (cos, sin) = (still.select(one, dx / length), still.select(zero, dy / length));
             let long = radius + length;
             share *= radius / long;
             (across, down) = (dx.abs() + radius, dy.abs() + radius);
@@ -157,7 +158,7 @@ impl Screen {
             & (x - across).simd_lt(self.size[0])
             & (y + down).simd_gt(zero)
             & (y - down).simd_lt(self.size[1])
-            & (grains.alpha + grains.light.x).simd_gt(zero)
+            & grains.alpha.max(grains.light.max_element()).simd_gt(zero)
             & share.simd_gt(zero);
         let seen = seen.to_bitmask() & wanted;
         if seen == 0 {
