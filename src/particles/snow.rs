@@ -163,7 +163,7 @@ impl Snow {
         let turn = [cos, sin, sin.abs() * 0.6 + 0.4];
         let mut streak = V3::splat(simd, self.streak);
         if BENCH {
-            streak.y = streak.y * (faster * (1.0 / flakes.fall[0] as f32) + 1.0);
+            streak.y *= faster * (1.0 / flakes.fall[0] as f32) + 1.0;
         }
         Grains { at, radius, light: V3::splat(simd, Vec3::ZERO), alpha: alpha.max(zero), turn, streak }
     }

@@ -162,6 +162,8 @@ fn snow_sets_in_smoothly() {
         assert!(light >= last, "share {share}");
         last = light;
     }
+    let before = snow(Snow::new(&particles::FLAKES, 2.0, DVec3::ZERO, DVec3::ZERO, 0.0), Vec3::ZERO, Vec3::Z, SIZE);
+    assert_eq!(mean(&before), none, "before it snows it does not");
     // Large ones, few enough that each can be told from the next.
     let few = Flakes { count: 200, radius: [0.1, 0.0], ..particles::FLAKES };
     let draw = |share: f64| {

@@ -118,6 +118,26 @@ fn sprites_near_the_eye_cover_what_they_should() {
     }
 }
 
+/// A sprite of any size whatever is a sprite.
+#[test]
+fn a_sprite_may_be_as_large_as_it_likes() {
+    for radius in [1e6, 1e9, 1e12, 1e18] {
+        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), radius, vec3(0.3, 0.5, 0.7), 0.6)], 1.0);
+        let off = worst(&found, &truth);
+        assert!(off < PLACES, "{radius} metres: {off}");
+    }
+}
+
+/// Light is light where it has no red.
+#[test]
+fn a_sprite_may_be_of_any_colour() {
+    for light in [Vec3::X, Vec3::Y, Vec3::Z] {
+        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), 0.5, light, 0.0)], 1.0);
+        let off = worst(&found, &truth);
+        assert!(off < PLACES, "{light}: {off}");
+    }
+}
+
 #[test]
 fn a_lens_limits_what_is_small_and_near() {
     let lens = particles::FLAKES.lens;
