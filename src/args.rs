@@ -7,6 +7,7 @@ use crate::output::fill;
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
+use std::ops::Range;
 
 /// The text of `--help`, which is the table of options too. From its second line on each has an option and what its
 /// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
@@ -15,24 +16,25 @@ paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
   --at SECONDS                one instant
   --from SECONDS              start there
   --to SECONDS                end there
-  --fps N                     frames per second of a capture: above 0, up to 1000; default 30
+  --fps N                     frames per second, of a capture or held while playing: above 0, up to 1000; default 30
   --eye-distance METRES       with --stereo: 0 to 100; default 0.065
   --convergence METRES        with --stereo: 0.01 to 10000; default 5
   --threads N                 1 to 1024; default: all cores
-  --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720
+  --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720, fewer while that is too slow to play
   --quality NAME              fast: every shortcut; default: anti-aliased too; exact: no shortcut; reference: 64 samples a pixel
-  --capture DIR               no window: PPM files frame-000000.ppm ... in DIR, or a stream of them to stdout for -
+  --capture DIR               no window: PPM files frame-N.ppm in DIR, N = seconds x fps, or a stream of them to stdout for -
   --bench                     no window: time SCENE, or every scene
   --json                      with --bench: JSON lines
   --stereo                    two eyes side by side
+  --fullscreen                fill the screen
   --list                      print the scenes
   --help                      print this
   --version                   print name and version
-keys: Esc ends, Space pauses, Left and Right seek 5 s
+keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S saves a still, F fills the screen
 ";
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
-const OPTIONS: usize = 16;
+const OPTIONS: usize = 17;
 /// Places of the whole numbers among them.
 const THREADS: usize = 6;
 const SIZE: usize = 7;
@@ -47,7 +49,7 @@ const CLASHES: &str = "\
 --json goes with --bench
 --eye-distance and --convergence go with --stereo
 --stereo needs a width of 2 or more
-a capture has at most 1000000 frames
+frames are numbered below 1000000: lower --to or --fps
 ";
 
 /// The least, the largest and the usual value of each option that takes a decimal number: the first ones.
@@ -70,10 +72,11 @@ const MAX_SIDE: usize = 16384;
 const MAX_PIXELS: usize = 1 << 26;
 /// Most threads.
 const MAX_THREADS: usize = 1024;
-/// Most frames of a capture: the numbers in the file names have six digits.
+/// Where the numbers of frames end: those in the file names have six digits.
 const MAX_FRAMES: usize = 1_000_000;
 
 /// What the executable does.
+#[derive(Clone, Copy)]
 pub enum Mode {
     /// Plays in a window, or the best that there is instead.
     Play,
@@ -91,6 +94,7 @@ pub enum Mode {
 }
 
 /// A command line, checked.
+#[derive(Clone, Copy)]
 pub struct Args {
     /// What to do.
     pub mode: Mode,
@@ -106,14 +110,18 @@ pub struct Args {
     pub end: Option<f64>,
     /// The first instant alone (`--at`).
     pub still: bool,
-    /// Frames per second of a capture.
+    /// Frames per second of a capture, and those that playing holds.
     pub fps: f64,
     /// Two eyes instead of one.
     pub stereo: Option<Stereo>,
+    /// The window fills the screen.
+    pub full: bool,
     /// Speed against error.
     pub quality: Quality,
     /// What `quality` is called.
     pub quality_name: &'static str,
+    /// Frames may be smaller while they come late: neither size nor quality was asked for.
+    pub governed: bool,
 }
 
 impl Args {
@@ -163,8 +171,9 @@ impl Args {
         let (numbers, threads, size, &(quality_name, quality)) = understood(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
         let is = values.map(|value| value.is_some());
-        let [at, since, to, _, apart, agree, _, _, _, capture, bench, json, two, list, help, version] = is;
-        let [.., target, _, _, _, _, _, _] = values;
+        let [at, since, to, _, apart, agree, _, sized, rated, capture, bench, json, two, full, list, help, version] =
+            is;
+        let [.., target, _, _, _, _, _, _, _] = values;
         let mode = match target {
             _ if help => Mode::Print(HELP),
             _ if version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
@@ -176,7 +185,9 @@ impl Args {
         let stereo = two.then_some(Stereo { eye_distance: eye_distance as f32, convergence: convergence as f32 });
         let start = (at || since || to).then_some(if at { instant } else { from });
         let end = to.then_some(until);
-        let args = Args { mode, scene, size, threads, start, end, still: at, fps, stereo, quality, quality_name };
+        let (still, governed) = (at, !sized && !rated);
+        let args =
+            Args { mode, scene, size, threads, start, end, still, fps, stereo, full, quality, quality_name, governed };
         // A benchmark of all scenes has no one end; it times single instants past an end without harm.
         let endless = to || bench && scene.is_none();
         let clashes = [
@@ -187,7 +198,7 @@ impl Args {
             json && !bench,
             (apart || agree) && !two,
             two && size.0 < 2,
-            capture && args.frames() > MAX_FRAMES,
+            capture && args.frames().end > MAX_FRAMES,
         ];
         match clashes.into_iter().position(|clash| clash) {
             Some(clash) => Err(line(CLASHES, clash).to_vec()),
@@ -200,11 +211,16 @@ impl Args {
         if self.still { self.start } else { self.end }.unwrap_or(scene.duration)
     }
 
-    /// How many frames a capture has: those before the end of its range, but at least one.
-    pub fn frames(&self) -> usize {
-        let length = self.end(self.scene()) - self.start.unwrap_or(0.0);
-        // A millionth of a frame is rounding of the product, not one frame more.
-        ((length * self.fps - 1e-6).ceil() as usize).max(1)
+    /// The numbers of a capture's frames: number 0 for one instant, else those of the whole film, of which the n-th is at
+    /// n / `fps` seconds, that are not before the start of the range but before its end. So pieces of a film share none.
+    pub fn frames(&self) -> Range<usize> {
+        if self.still {
+            return 0..1;
+        }
+        // A millionth of a frame is rounding of the product.
+        let [first, end] =
+            [self.start.unwrap_or(0.0), self.end(self.scene())].map(|time| (time * self.fps - 1e-6).ceil() as usize);
+        first..end
     }
 }
 

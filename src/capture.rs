@@ -2,8 +2,10 @@
 
 use crate::args::Args;
 use crate::canvas;
-use crate::number::digits;
+use crate::number::{digits, figure};
 use crate::output::{fill, make_directory, print, save};
+use paprsek::scenes::Scene;
+use paprsek::tile::Frame;
 
 /// Writes the frames that `args` ask for into the directory `target`, or to stdout where it is `-`.
 #[inline(never)]
@@ -16,24 +18,35 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
         }
     }
     let (mut renderer, mut frame) = canvas::open(args)?;
-    let part = fill("%/%.part", &[target, &digits(std::process::id() as usize)]);
-    let mut bytes = Vec::new();
-    for number in 0..args.frames() {
-        // Divided, not accumulated: frame k is the same instant whatever was captured before it.
-        let time = args.start.unwrap_or(0.0) + number as f64 / args.fps;
+    for number in args.frames() {
+        // Of a range the film's frames that lie in it, whatever else was captured: so pieces make the whole.
+        let time = if args.still { args.start.unwrap_or(0.0) } else { number as f64 / args.fps };
         renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
-        // A binary PPM (P6).
-        bytes.clear();
-        bytes.extend_from_slice(&fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]));
-        for pixel in &frame.pixels {
-            bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
-        }
+        let bytes = ppm(&frame);
         if stream {
             print(&bytes)?;
         } else {
             // The one before the six digits keeps their zeros.
-            save(&part, &fill("%/frame-%.ppm", &[target, &digits(1_000_000 + number)[1..]]), &bytes)?;
+            let name = fill("%/frame-%.ppm", &[target, &digits(1_000_000 + number)[1..]]);
+            // Machines that share the directory may share the number of a process, but no frame.
+            let part = fill("%.%", &[&name, &digits(std::process::id() as usize)]);
+            save(&part, &name, &bytes, false)?;
         }
     }
     Ok(())
+}
+
+/// Saves a frame of `scene` under its time, in the working directory; an error where there is such a file.
+pub fn still(scene: &Scene, time: f64, frame: &Frame) -> Result<(), Vec<u8>> {
+    let name = fill("paprsek-%-%.ppm", &[scene.name.as_bytes(), &figure(time)]);
+    save(&name, &name, &ppm(frame), true)
+}
+
+/// A binary PPM (P6).
+fn ppm(frame: &Frame) -> Vec<u8> {
+    let mut bytes = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
+    for pixel in &frame.pixels {
+        bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
+    }
+    bytes
 }

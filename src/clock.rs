@@ -1,6 +1,8 @@
 //! The time of a scene that plays: real time, paused, moved by hand, looped.
 
 use crate::args::Args;
+use paprsek::scenes::Scene;
+use paprsek::scenes::intro::{INTRO, PARTS};
 use std::time::Instant;
 
 /// What the keys move.
@@ -13,6 +15,8 @@ pub struct Clock {
     /// Where playing ends; the scene loops without it.
     end: Option<f64>,
     duration: f64,
+    /// Each with the second that it starts at.
+    parts: &'static [(f64, (Scene, f64))],
 }
 
 impl Clock {
@@ -20,8 +24,11 @@ impl Clock {
     pub fn new(args: &Args) -> Clock {
         let start = args.start.unwrap_or(0.0);
         let since = (!args.still).then(Instant::now);
+        let Scene { name, duration, .. } = *args.scene();
+        // Of a scene that is not the show its start is the only part, and so the show's first.
+        let parts = if name == INTRO.name { PARTS } else { &PARTS[..1] };
         // Not zero, since time is taken modulo the duration.
-        Clock { base: start, since, start, end: args.end, duration: args.scene().duration.max(1e-3) }
+        Clock { base: start, since, start, end: args.end, duration: duration.max(1e-3), parts }
     }
 
     /// The same clock, but ending with the scene instead of looping.
@@ -52,10 +59,26 @@ impl Clock {
         self.since = if self.since.is_none() { Some(Instant::now()) } else { None };
     }
 
-    /// Moves by `seconds`; a looping scene wraps, a range stops at its start.
+    /// Does time stand still?
+    pub fn rests(&self) -> bool {
+        self.since.is_none()
+    }
+
+    /// Moves by `seconds`.
     pub fn seek(&mut self, seconds: f64) {
-        let target = self.now().unwrap_or(self.base) + seconds;
-        self.base = if self.end.is_some() { target.max(self.start) } else { wrap(target, self.duration) };
+        self.go(self.now().unwrap_or(self.base) + seconds);
+    }
+
+    /// Goes to where a part starts, counted from 0; nowhere where there is none.
+    pub fn jump(&mut self, part: usize) {
+        if let Some(part) = self.parts.get(part) {
+            self.go(part.0);
+        }
+    }
+
+    /// Goes to a scene time; a looping scene wraps, a range stops at its start.
+    fn go(&mut self, time: f64) {
+        self.base = if self.end.is_some() { time.max(self.start) } else { wrap(time, self.duration) };
         self.since = self.since.map(|_| Instant::now());
     }
 }
@@ -70,7 +93,7 @@ mod tests {
     use super::*;
 
     fn still(base: f64, end: Option<f64>) -> Clock {
-        Clock { base, since: None, start: 1.0, end, duration: 20.0 }
+        Clock { base, since: None, start: 1.0, end, duration: 20.0, parts: PARTS }
     }
 
     #[test]
@@ -98,9 +121,29 @@ mod tests {
     }
 
     #[test]
+    fn parts_are_where_they_start() {
+        let mut clock = Clock { duration: INTRO.duration, ..still(3.0, None) };
+        for (number, part) in PARTS.iter().enumerate() {
+            clock.jump(number);
+            assert_eq!(clock.now(), Some(part.0));
+        }
+        clock.seek(2.0);
+        let there = clock.now();
+        clock.jump(PARTS.len());
+        assert_eq!(clock.now(), there);
+        // A range stops at its start, and a part past its end ends it.
+        let mut clock = still(3.0, Some(7.0));
+        clock.jump(0);
+        assert_eq!(clock.now(), Some(1.0));
+        clock.jump(PARTS.len() - 1);
+        assert_eq!(clock.now(), if PARTS.len() > 1 { None } else { Some(1.0) });
+    }
+
+    #[test]
     fn time_stands_still_while_paused() {
         let mut clock = Clock { since: Some(Instant::now()), ..still(2.0, None) };
         clock.toggle();
+        assert!(clock.rests());
         let paused = clock.now();
         assert!(paused >= Some(2.0));
         assert_eq!(clock.now(), paused);

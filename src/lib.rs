@@ -14,6 +14,7 @@ pub mod particles;
 pub mod pool;
 pub mod quality;
 pub mod raster;
+pub mod scale;
 pub mod scenes;
 pub mod sky;
 pub mod texture;

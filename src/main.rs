@@ -5,6 +5,7 @@ mod bench;
 mod canvas;
 mod capture;
 mod clock;
+mod governor;
 #[cfg(all(unix, feature = "minifb"))]
 mod last_word;
 mod number;
@@ -46,7 +47,7 @@ fn run(args: &Args) -> Result<(), Vec<u8>> {
 #[inline(never)]
 fn play(args: &Args) -> Result<(), Vec<u8>> {
     let why = match window::Window::open(args.size) {
-        Ok(window) => return Ok(present::play(window, args)?),
+        Ok(window) => return present::play(window, args),
         Err(why) => why,
     };
     #[cfg(all(unix, feature = "terminal"))]

@@ -41,13 +41,13 @@ mod system {
         let _ = fs::mkdir(&*path(name), Mode::from_raw_mode(0o777));
     }
 
-    pub fn save(part: &[u8], name: &[u8], bytes: &[u8]) -> Result<(), i32> {
+    pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
-        let flags = OFlags::CREATE | OFlags::TRUNC | OFlags::WRONLY | OFlags::CLOEXEC;
-        let written =
-            fs::open(&*part, flags, Mode::from_raw_mode(0o666)).and_then(|file| write_all(file.as_fd(), bytes));
-        written.and_then(|()| fs::rename(&*part, &*name)).map_err(|error| {
-            // The first error is the one to report; the part may not even exist.
+        let old = if fresh { OFlags::EXCL } else { OFlags::TRUNC };
+        let flags = OFlags::CREATE | OFlags::WRONLY | OFlags::CLOEXEC | old;
+        let file = fs::open(&*part, flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)?;
+        write_all(file.as_fd(), bytes).and_then(|()| fs::rename(&*part, &*name)).map_err(|error| {
+            // The first error is the one to report.
             let _ = fs::unlink(&*part);
             error.raw_os_error()
         })
@@ -80,9 +80,12 @@ mod system {
         let _ = fs::create_dir(path(name));
     }
 
-    pub fn save(part: &[u8], name: &[u8], bytes: &[u8]) -> Result<(), i32> {
+    pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
-        fs::write(&part, bytes).and_then(|()| fs::rename(&part, &name)).map_err(|error| {
+        let mut open = fs::OpenOptions::new();
+        let open = open.write(true).create(true).truncate(!fresh).create_new(fresh);
+        let mut file = open.open(&part).map_err(number)?;
+        file.write_all(bytes).and_then(|()| fs::rename(&part, &name)).map_err(|error| {
             let _ = fs::remove_file(&part);
             number(error)
         })
@@ -114,9 +117,10 @@ pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
     system::write_out(bytes).map_err(|error| failed(b"to stdout", error))
 }
 
-/// Writes a file under the name `part` first, so that the other name always holds a whole file.
-pub fn save(part: &[u8], name: &[u8], bytes: &[u8]) -> Result<(), Vec<u8>> {
-    system::save(part, name, bytes).map_err(|error| failed(name, error))
+/// Writes a file under the name `part` first, so that the other name always holds a whole file. A `fresh` part is not
+/// written over another file.
+pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), Vec<u8>> {
+    system::save(part, name, bytes, fresh).map_err(|error| failed(name, error))
 }
 
 /// One line on stderr, whatever the message quotes. Where that fails there is no place left to say so.

@@ -5,8 +5,11 @@
 
 use crate::args::Args;
 use crate::canvas;
+use crate::capture;
 use crate::clock::Clock;
-use crate::window::{Press, Window};
+use crate::governor::{EIGHTHS, Governor};
+use crate::output::complain;
+use crate::window::{BACK, FILL, FIRST_PART, FORWARD, LAST_PART, LEAVE, PAUSE, STILL, Window};
 use paprsek::pool::start;
 use paprsek::tile::{Frame, Renderer};
 use std::mem::{swap, take};
@@ -22,39 +25,43 @@ const POLL: Duration = Duration::from_millis(10);
 const REFRESH: Duration = Duration::from_millis(200);
 /// Seconds that an arrow key moves.
 const SEEK: f64 = 5.0;
+/// Parts of the width that a light has come by each [`REFRESH`] until there is a first frame, and how bright it is.
+const STEPS: usize = 16;
+const GREY: u32 = 0x404040;
 
 /// What the two threads pass each other: three frames go round, so neither waits for the other.
 struct Desk {
     clock: Clock,
-    /// The latest finished frame, until `fresh` is taken.
+    /// The latest finished frame and its scene time, until `fresh` is taken.
     frame: Frame,
+    time: f64,
     fresh: bool,
+    /// The scene time of a still that has been asked for.
+    still: Option<f64>,
     /// The renderer is at work no more: the end of the range, or an error.
-    ended: Option<Result<(), String>>,
+    ended: Option<Result<(), Vec<u8>>>,
 }
 
 /// Plays until Esc, until the window is closed or until the range ends.
-pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
-    let (size, scene, quality, stereo, threads) = (args.size, args.scene(), args.quality, args.stereo, args.threads);
-    let mut frame = canvas::frame(size)?;
-    let desk = Desk { clock: Clock::new(args), frame: canvas::frame(size)?, fresh: false, ended: None };
+pub fn play(mut window: Window, args: &Args) -> Result<(), Vec<u8>> {
+    let args = *args;
+    let mut frame = canvas::frame(args.size)?;
+    let back = canvas::frame(args.size)?;
+    let desk = Desk { clock: Clock::new(&args), frame: back, time: 0.0, fresh: false, still: None, ended: None };
     // Kept for good: when the window goes, the process goes, in the middle of a frame if need be.
     let desk: &Mutex<Desk> = Box::leak(Box::new(Mutex::new(desk)));
     let here = thread::current();
     let render = move || {
-        let run = || {
-            let (renderer, back) = (Renderer::new(threads)?, canvas::frame(size)?);
-            render(renderer, back, desk, &here, |renderer, time, frame| {
-                renderer.render_eyes(scene, time, &quality, stereo, frame);
-            });
-            Ok(())
-        };
-        let ended = run();
+        let ended = render(&args, desk, &here);
         lock(desk).ended = Some(ended);
     };
     start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
+    if args.full {
+        window.fill();
+    }
 
-    let mut shown: Option<Instant> = None;
+    // The time of the frame that is shown, and when it was sent.
+    let (mut time, mut sent, mut ticks) = (None, Instant::now(), 0);
     loop {
         let fresh = {
             thread::park_timeout(POLL);
@@ -62,52 +69,89 @@ pub fn play(mut window: Window, args: &Args) -> Result<(), String> {
             let fresh = take(&mut desk.fresh);
             if fresh {
                 swap(&mut desk.frame, &mut frame);
+                time = Some(desk.time);
             } else if let Some(ended) = desk.ended.take() {
                 // The last frame has been shown.
                 return ended;
             }
             fresh
         };
-        if fresh || shown.is_some_and(|shown| shown.elapsed() >= REFRESH) {
+        if fresh || sent.elapsed() >= REFRESH {
+            if time.is_none() {
+                // What is made before the first frame takes its time: a light runs along the middle.
+                let line = &mut frame.pixels[args.size.0 * (args.size.1 / 2)..][..args.size.0];
+                line.fill(0);
+                let part = args.size.0.div_ceil(STEPS);
+                line[args.size.0 * ticks / STEPS..][..part].fill(GREY);
+                ticks = (ticks + 1) % STEPS;
+            }
             window.show(&frame)?;
-            shown = Some(Instant::now());
+            sent = Instant::now();
         }
-        while let Some(press) = window.press() {
-            match press {
-                Press::Leave => return Ok(()),
-                Press::Pause => lock(desk).clock.toggle(),
-                Press::Back => lock(desk).clock.seek(-SEEK),
-                Press::Forward => lock(desk).clock.seek(SEEK),
+        while let Some(symbol) = window.press() {
+            let mut desk = lock(desk);
+            match symbol {
+                LEAVE => return Ok(()),
+                PAUSE => desk.clock.toggle(),
+                BACK => desk.clock.seek(-SEEK),
+                FORWARD => desk.clock.seek(SEEK),
+                FILL => window.fill(),
+                STILL => desk.still = time,
+                FIRST_PART..=LAST_PART => desk.clock.jump((symbol - FIRST_PART) as usize),
+                _ => {}
             }
         }
     }
 }
 
 /// Renders what the clock says, until it says nothing any more.
-fn render(
-    mut renderer: Renderer,
-    mut frame: Frame,
-    desk: &Mutex<Desk>,
-    window: &Thread,
-    draw: impl Fn(&mut Renderer, f64, &mut Frame),
-) {
+fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8>> {
+    let (mut renderer, mut frame) = canvas::open(args)?;
+    let mut governor = Governor::new();
     let mut last = None;
     loop {
-        let began = Instant::now();
-        let Some(time) = lock(desk).clock.now() else { return };
+        let (now, rests, still) = {
+            let mut desk = lock(desk);
+            (desk.clock.now(), desk.clock.rests(), desk.still.take())
+        };
+        if let Some(still) = still {
+            // Of the time that its name tells.
+            let still = (still * 1000.0).round() / 1000.0;
+            draw(args, &mut renderer, still, 0, &mut frame);
+            if let Err(why) = capture::still(args.scene(), still, &frame) {
+                complain(&why);
+            }
+        }
+        let Some(time) = now else { return Ok(()) };
         if last == Some(time) {
             thread::sleep(POLL);
             continue;
         }
-        draw(&mut renderer, time, &mut frame);
+        let began = Instant::now();
+        // What does not move can be waited for.
+        let step = if rests { 0 } else { governor.step };
+        draw(args, &mut renderer, time, step, &mut frame);
+        if args.governed && !rests {
+            governor.frame(began.elapsed().as_secs_f64() * args.fps);
+        }
         last = Some(time);
         let mut shared = lock(desk);
         swap(&mut shared.frame, &mut frame);
+        shared.time = time;
         shared.fresh = true;
         drop(shared);
         window.unpark();
         thread::sleep(PERIOD.saturating_sub(began.elapsed()));
     }
+}
+
+/// Draws an instant of the scene at that step of the governor's.
+fn draw(args: &Args, renderer: &mut Renderer, time: f64, step: usize, frame: &mut Frame) {
+    frame.width = args.size.0 * EIGHTHS[step] / 8;
+    frame.height = args.size.1 * EIGHTHS[step] / 8;
+    // There is memory for the whole.
+    frame.pixels.resize(frame.width * frame.height, 0);
+    renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, frame);
 }
 
 /// A panic elsewhere has ended the process already; the lock itself cannot fail.

@@ -50,6 +50,7 @@ pub fn play(args: &Args) -> Result<(), String> {
             Press::Leave => return Ok(()),
             Press::Pause => clock.toggle(),
             Press::Seek(seconds) => clock.seek(seconds),
+            Press::Part(part) => clock.jump(part),
         }
         thread::sleep(PERIOD.saturating_sub(began.elapsed()));
     }
@@ -105,6 +106,8 @@ enum Press {
     Leave,
     Pause,
     Seek(f64),
+    /// Counted from 0.
+    Part(usize),
 }
 
 /// The terminal with its keys delivered one by one, Ctrl-C among them: so it ends between frames, with the screen
@@ -154,6 +157,7 @@ fn meaning(bytes: &[u8]) -> Press {
         [.., 0x1b, b'[', b'D'] => Press::Seek(-SEEK),
         [.., 0x1b | b'q'] => Press::Leave,
         [.., b' '] => Press::Pause,
+        [.., digit @ b'1'..=b'9'] => Press::Part(usize::from(digit - b'1')),
         _ => Press::Nothing,
     }
 }
@@ -179,5 +183,6 @@ mod tests {
         assert_eq!(meaning(b"\x03x"), Press::Leave);
         assert_eq!(meaning(b" "), Press::Pause);
         assert_eq!(meaning(b"\x1b[D"), Press::Seek(-5.0));
+        assert_eq!(meaning(b"2"), Press::Part(1));
     }
 }

@@ -102,6 +102,8 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--quality",
         "--quality best",
         "--quality DEFAULT",
+        "--capture . --fps 1000 --from 999 --to 1001",
+        "--fullscreen=1",
         "--stereo=1",
         "--stereo --size 1x5",
         "--eye-distance 0.07",
@@ -154,7 +156,7 @@ fn help_version_and_list_are_answered() {
     for option in
         ["--size", "--threads", "--at", "--from", "--to", "--fps", "--bench", "--json", "--capture", "--quality"]
             .into_iter()
-            .chain(["--stereo", "--eye-distance", "--convergence"])
+            .chain(["--stereo", "--eye-distance", "--convergence", "--fullscreen"])
     {
         assert!(help.contains(option), "{option}");
     }
@@ -184,11 +186,48 @@ fn an_instant_is_the_same_frame_as_in_a_run() {
     let names: Vec<_> = run.iter().map(|file| file.0.as_str()).collect();
     assert_eq!(
         names,
-        ["frame-000000.ppm", "frame-000001.ppm", "frame-000002.ppm", "frame-000003.ppm", "frame-000004.ppm"]
+        ["frame-000010.ppm", "frame-000011.ppm", "frame-000012.ppm", "frame-000013.ppm", "frame-000014.ppm"]
     );
     let alone = capture(&["lumen", "--at", "1.3", "--size", "64x36"]);
     assert_eq!(run[3].1, alone[0].1);
     assert_ne!(run[2].1, run[3].1);
+}
+
+#[test]
+fn pieces_are_the_whole() {
+    // The frame times of the second are no decimals, and 0.7 s is 20.979 frames.
+    for (fps, boundaries) in [
+        ("10", &["0.3", "0.35", "0.5000001", "0.05", "0.1"][..]),
+        ("29.97", &["0.7", "0.03336670003336670", "0.6"]),
+        ("1000", &["0.7", "0.701", "0.7005"]),
+    ] {
+        let (start, end) = if fps == "1000" { ("0.698", "0.703") } else { ("0", "0.8") };
+        let piece = |directory: &Path, from: &str, to: &str| {
+            let words = ["lumen", "--fps", fps, "--size", "32x18", "--quality", "fast", "--from", from, "--to", to];
+            let stream = succeeds(run(&[&words[..], &["--capture", "-"]].concat()));
+            succeeds(paprsek().args(words).arg("--capture").arg(directory).output().unwrap());
+            stream
+        };
+        let whole = tempfile::tempdir().unwrap();
+        let film = piece(whole.path(), start, end);
+        let whole = files(whole.path());
+        assert!(whole.len() >= 5);
+        for &boundary in boundaries {
+            let directory = tempfile::tempdir().unwrap();
+            // The later piece first, as on another machine.
+            let after = piece(directory.path(), boundary, end);
+            let later = files(directory.path()).len();
+            let before = piece(directory.path(), start, boundary);
+            assert!(files(directory.path()) == whole, "cut at {boundary} at {fps} a second");
+            assert!([before, after].concat() == film, "the streams of {boundary} at {fps} a second");
+            assert!(later > 0 && later < whole.len());
+        }
+    }
+}
+
+#[test]
+fn a_piece_between_two_frames_is_empty() {
+    assert_eq!(capture(&["lumen", "--from", "0.11", "--to", "0.19", "--fps", "10", "--size", "8x8"]), []);
 }
 
 #[test]

@@ -3,9 +3,12 @@
 
 mod program;
 
+use paprsek::scenes::intro::PARTS;
 use program::{fails, paprsek, succeeds};
+use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
+use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -37,8 +40,13 @@ impl Display {
 
     /// Plays on this display, and waits until the window shows something.
     fn play(&self, words: &[&str]) -> Child {
+        self.play_in(Path::new("."), words)
+    }
+
+    /// The same in a directory.
+    fn play_in(&self, directory: &Path, words: &[&str]) -> Child {
         let mut command = paprsek();
-        command.args(["--size", "320x180"]).args(words).env("DISPLAY", &self.1);
+        command.args(["--size", "320x180"]).args(words).env("DISPLAY", &self.1).current_dir(directory);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let began = Instant::now();
         while self.colours() < 3 {
@@ -73,6 +81,31 @@ impl Display {
 
     fn window(&self) -> String {
         self.xdotool(&["search", "--name", "^Paprsek$"])
+    }
+
+    /// Waits until the window has that size.
+    fn expect_size(&self, width: usize, height: usize) {
+        let began = Instant::now();
+        loop {
+            let geometry = self.xdotool(&["getwindowgeometry", "--shell", &self.window()]);
+            if geometry.contains(&format!("WIDTH={width}\nHEIGHT={height}\n")) {
+                return;
+            }
+            assert!(began.elapsed() < PATIENCE, "{geometry}");
+            sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Waits until the screen shows something else, and gives it.
+    fn after(&self, picture: &[u8]) -> Vec<u8> {
+        let began = Instant::now();
+        loop {
+            let now = self.picture();
+            if now != picture {
+                return now;
+            }
+            assert!(began.elapsed() < PATIENCE, "nothing happens");
+        }
     }
 
     /// Closes the window as a window manager does: with a message that asks it to close.
@@ -155,6 +188,111 @@ fn esc_ends_in_the_middle_of_a_slow_frame() {
         assert!(began.elapsed() < PATIENCE, "no window");
         sleep(Duration::from_millis(20));
     }
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
+
+#[test]
+fn until_the_first_frame_a_light_runs_and_esc_ends() {
+    let Some(display) = Display::open() else { return };
+    let mut command = paprsek();
+    // Some seconds of work.
+    command.args(["lumen", "--size", "640x480", "--quality", "reference", "--threads", "1"]).env("DISPLAY", &display.1);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let began = Instant::now();
+    while display.colours() == 1 {
+        assert!(began.elapsed() < PATIENCE, "nothing to see");
+    }
+    assert_eq!(display.colours(), 2);
+    display.after(&display.picture());
+    assert_eq!(display.colours(), 2);
+    display.xdotool(&["key", "Escape"]);
+    assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+}
+
+#[test]
+fn digits_jump_to_parts() {
+    let Some(display) = Display::open() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let child = display.play_in(directory.path(), &["--at", "2"]);
+    let mut before = display.picture();
+    let mut expected = vec![];
+    for (number, (start, _)) in PARTS.iter().enumerate().take(9).rev() {
+        display.xdotool(&["key", &(number + 1).to_string()]);
+        if start > &0.0 && before.iter().all(|byte| *byte == 0) {
+            // From black to black: no sign of it but the still's name.
+            sleep(Duration::from_secs(1));
+        } else {
+            before = display.after(&before);
+        }
+        let name = format!("paprsek-intro-{start}.ppm");
+        display.xdotool(&["key", "s"]);
+        wait_for(&directory.path().join(&name));
+        expected.push(name);
+    }
+    // There is no such part.
+    display.xdotool(&["key", "9"]);
+    sleep(Duration::from_millis(300));
+    assert!(PARTS.len() >= 9 || display.picture() == before);
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), expected.len());
+}
+
+#[test]
+fn a_still_is_the_capture_of_its_instant_and_is_never_overwritten() {
+    let Some(display) = Display::open() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let child = display.play_in(directory.path(), &["lumen", "--at", "12.345"]);
+    let path = directory.path().join("paprsek-lumen-12.345.ppm");
+    display.xdotool(&["key", "s"]);
+    wait_for(&path);
+    let words = ["lumen", "--at", "12.345", "--size", "320x180", "--capture", "-"];
+    let expected = succeeds(paprsek().args(words).output().unwrap());
+    let began = Instant::now();
+    while fs::read(&path).unwrap() != expected {
+        assert!(began.elapsed() < PATIENCE, "another picture");
+    }
+    fs::write(&path, "mine").unwrap();
+    let before = display.picture();
+    display.xdotool(&["key", "s"]);
+    sleep(Duration::from_secs(1));
+    // It is said, and playing goes on.
+    display.xdotool(&["key", "Right"]);
+    display.after(&before);
+    display.xdotool(&["key", "Escape"]);
+    let said = fails(&ending(child, AT_ONCE), 0);
+    assert!(said.contains("paprsek-lumen-12.345.ppm"), "{said}");
+    assert_eq!(fs::read(&path).unwrap(), b"mine");
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+}
+
+fn wait_for(path: &Path) {
+    let began = Instant::now();
+    while !path.exists() {
+        assert!(began.elapsed() < PATIENCE, "no {}", path.display());
+        sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn f_fills_the_screen_and_back() {
+    let Some(display) = Display::open() else { return };
+    let child = display.play(&["lumen", "--at", "12"]);
+    display.expect_size(320, 180);
+    display.xdotool(&["key", "f"]);
+    display.expect_size(640, 480);
+    sleep(Duration::from_millis(500));
+    // 640x360 in the middle of 640x480.
+    let picture = display.picture();
+    let lit = |y: usize| picture[3 * 640 * y..3 * 640 * (y + 1)].iter().any(|byte| *byte > 0);
+    assert!(!lit(50) && lit(70) && lit(240) && lit(410) && !lit(430));
+    display.xdotool(&["key", "f"]);
+    display.expect_size(320, 180);
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+    let child = display.play(&["lumen", "--at", "12", "--fullscreen"]);
+    display.expect_size(640, 480);
     display.xdotool(&["key", "Escape"]);
     succeeds(ending(child, AT_ONCE));
 }

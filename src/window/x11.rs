@@ -1,37 +1,25 @@
-//! A window on this machine's X server, by the protocol itself ("X Window System Protocol", X.Org, version 11):
-//! 1 kB packed, where minifb, Xlib's table of functions and what they take of the standard library are 6.
-//!
-//! A request is little-endian words of 32 bits: the first has its code, a byte of its own and its length in words.
-//! Answers, events and errors are eight words; an answer may have more.
+//! A window on this machine's X server, by the protocol itself ([`super::server`]): 1 kB packed, where minifb, Xlib's
+//! table of functions and what they take of the standard library are 6.
 
-use super::{Press, TITLE};
+use super::server::{PACKET, Server};
+use super::{BACK, FORWARD, LEAVE, TITLE};
+use paprsek::scale;
 use paprsek::tile::Frame;
-use rustix::fs::{Mode, OFlags, open};
-use rustix::io::{ioctl_fionread, read, write};
-use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
-use std::ffi::{CStr, CString};
-use std::os::fd::OwnedFd;
+use rustix::io::ioctl_fionread;
 
-/// Words of an answer, an event or an error.
-const PACKET: usize = 8;
 /// Words of a PutImage request before its pixels.
 const HEAD: usize = 6;
-/// Bytes of a cookie.
-const COOKIE: usize = 16;
 /// Longest time from the release to the press that the server makes up where a held key repeats, milliseconds.
 const REPEAT: u32 = 20;
 
 /// An open window.
 pub struct Window {
-    server: OwnedFd,
-    /// The window; the next number is its graphics context.
-    id: u32,
+    server: Server,
     /// Bits of a pixel that are shown.
     depth: u32,
-    /// Longest request, words.
-    longest: usize,
-    /// Width and height, pixels.
+    /// Width and height, pixels, now and where it does not fill the screen.
     size: (usize, usize),
+    usual: (usize, usize),
     /// The atom `WM_DELETE_WINDOW`.
     delete: u32,
     /// Symbols of the keys, the code of the first and how many each has.
@@ -43,54 +31,27 @@ pub struct Window {
 impl Window {
     /// Opens a window of `size`, in pixels; the error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
-        let window = find().and_then(|(server, setup)| Window::create(server, &setup, size));
-        window.ok_or_else(|| "no X server with 32 bits a pixel".into())
+        Server::find()
+            .and_then(|server| Window::create(server, size))
+            .ok_or_else(|| "no X server with 32 bits a pixel".into())
     }
 
     /// The window, where the server has 32 bits a pixel, little-endian.
-    fn create(server: OwnedFd, setup: &[u32], size: (usize, usize)) -> Option<Window> {
-        let (id, lengths, counts, codes) = (setup[1], setup[4], setup[5], setup[6]);
-        let (formats, screen) =
-            setup[8 + (lengths & 0xffff).div_ceil(4) as usize..].split_at(2 * (counts >> 8 & 255) as usize);
-        let (root, black, area, depth) = (screen[0], screen[3], screen[5], screen[9] >> 16 & 255);
+    fn create(server: Server, size: (usize, usize)) -> Option<Window> {
+        let (id, counts, codes) = (server.setup[1], server.setup[5], server.setup[6]);
+        let (formats, screen) = server.formats();
+        let (root, black, depth) = (screen[0], screen[3], screen[9] >> 16 & 255);
         formats.chunks(2).find(|format| format[0] & 0xffff == (32 << 8 | depth) && counts >> 16 & 255 == 0)?;
         let (first, last) = (codes >> 16 & 255, codes >> 24);
-        let mut window = Window {
-            server,
-            id,
-            depth,
-            longest: (lengths >> 16) as usize,
-            size,
-            delete: 0,
-            symbols: (Vec::new(), first, 0),
-            released: (0, 0),
-        };
-        let text = |bytes: &[u8; 4]| u32::from_le_bytes(*bytes);
-        window.send(&[
-            // InternAtom, twice.
-            16 | 5 << 16,
-            12,
-            text(b"WM_P"),
-            text(b"ROTO"),
-            text(b"COLS"),
-            16 | 6 << 16,
-            16,
-            text(b"WM_D"),
-            text(b"ELET"),
-            text(b"E_WI"),
-            text(b"NDOW"),
-            // GetKeyboardMapping
-            101 | 2 << 16,
-            first | (last + 1 - first) << 8,
-        ])?;
-        let protocols = window.receive(PACKET)?[2];
-        window.delete = window.receive(PACKET)?[2];
-        let keyboard = window.receive(PACKET)?;
-        window.symbols = (window.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
-        let middle = |screen: u32, side: usize| (screen & 0xffff).saturating_sub(side as u32) / 2;
+        let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
+        // GetKeyboardMapping
+        server.send(&[101 | 2 << 16, first | (last + 1 - first) << 8])?;
+        let keyboard = server.receive(PACKET)?;
+        let symbols = (server.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
+        let [left, top, width, height] = server.place(size);
         let [context, pixmap, cursor, pen] = [id + 1, id + 2, id + 3, id + 4];
         let [name, end] = TITLE_WORDS;
-        window.send(&[
+        server.send(&[
             // CreatePixmap of one pixel of one bit, CreateGC of black, PolyFillRectangle.
             53 | 1 << 8 | 4 << 16,
             pixmap,
@@ -118,8 +79,8 @@ impl Window {
             1 | 11 << 16,
             id,
             root,
-            middle(area, size.0) | middle(area >> 16, size.1) << 16,
-            size.0 as u32 | (size.1 as u32) << 16,
+            left | top << 16,
+            width | height << 16,
             1 << 16,
             0,
             0x4802,
@@ -146,12 +107,12 @@ impl Window {
             4,
             32,
             1,
-            window.delete,
+            delete,
             // MapWindow
             8 | 2 << 16,
             id,
         ])?;
-        Some(window)
+        Some(Window { server, depth, size, usual: size, delete, symbols, released: (0, 0) })
     }
 
     /// Shows a frame, as large as it fits.
@@ -159,85 +120,64 @@ impl Window {
         self.put(frame).ok_or_else(|| "the display went away".into())
     }
 
-    fn put(&mut self, frame: &Frame) -> Option<()> {
-        let (width, height) = self.size;
-        let columns = (height * frame.width / frame.height).clamp(1, width);
-        let rows = (width * frame.height / frame.width).clamp(1, height);
-        let (left, top) = ((width - columns) / 2, (height - rows) / 2);
-        // The nearest pixel, without a division for each.
-        let sources = |count, of| (0..count).map(|place| place * of / count).collect::<Vec<_>>();
-        let (across, down) = (sources(columns, frame.width), sources(rows, frame.height));
-        let mut first = top;
-        for band in down.chunks(((self.longest - HEAD) / columns).max(1)) {
+    fn put(&self, frame: &Frame) -> Option<()> {
+        let (columns, count) = scale::fit(frame, self.size);
+        let (left, top) = ((self.size.0 - columns) / 2, (self.size.1 - count) / 2);
+        let id = self.server.setup[1];
+        // As many rows at once as the longest request has room for.
+        let band = (((self.server.setup[4] >> 16) as usize - HEAD) / columns).max(1);
+        for first in (0..count).step_by(band) {
+            let rows = first..count.min(first + band);
             // PutImage of whole pixels.
-            self.send(&[
-                72 | 2 << 8 | ((HEAD + band.len() * columns) as u32) << 16,
-                self.id,
-                self.id + 1,
-                columns as u32 | (band.len() as u32) << 16,
-                left as u32 | (first as u32) << 16,
+            self.server.send(&[
+                72 | 2 << 8 | ((HEAD + rows.len() * columns) as u32) << 16,
+                id,
+                id + 1,
+                columns as u32 | (rows.len() as u32) << 16,
+                left as u32 | ((top + first) as u32) << 16,
                 self.depth << 8,
             ])?;
-            first += band.len();
-            let mut bytes = Vec::with_capacity(4 * band.len() * columns);
-            for row in band {
-                let line = &frame.pixels[row * frame.width..];
-                for &column in &across {
-                    bytes.extend_from_slice(&line[column].to_le_bytes());
-                }
-            }
-            send(&self.server, &bytes)?;
+            self.server.send_bytes(&scale::rows(frame, columns, count, rows))?;
         }
         Some(())
     }
 
-    /// What has been asked for since the last call, one at a time; `None` when that was all.
-    pub fn press(&mut self) -> Option<Press> {
-        while ioctl_fionread(&self.server).ok()? >= 4 * PACKET as u64 {
-            let event = self.receive(PACKET)?;
+    /// Fills the screen, or does so no more.
+    pub fn fill(&mut self) {
+        self.server.fill(self.server.setup[1], self.usual);
+    }
+
+    /// The keys that have gone down since the last call, one at a time; `None` when those were all.
+    pub fn press(&mut self) -> Option<u32> {
+        while ioctl_fionread(&self.server.socket).ok()? >= 4 * PACKET as u64 {
+            let event = self.server.receive(PACKET)?;
             let (key, time) = (event[0] >> 8 & 255, event[1]);
             match event[0] & 127 {
                 // KeyPress
                 2 => {
                     let (symbols, first, each) = &self.symbols;
-                    // Held keys repeat: right for seeking, not for the pause.
+                    let symbol = symbols.get(((key - first) * each) as usize).copied();
                     let held = self.released.0 == key && time.wrapping_sub(self.released.1) < REPEAT;
-                    match symbols.get(((key - first) * each) as usize) {
-                        Some(0xff1b) => return Some(Press::Leave),
-                        Some(0x20) if !held => return Some(Press::Pause),
-                        Some(0xff51) => return Some(Press::Back),
-                        Some(0xff53) => return Some(Press::Forward),
-                        _ => {}
+                    if !held || matches!(symbol, Some(BACK | FORWARD)) {
+                        return symbol;
                     }
                 }
                 // KeyRelease
                 3 => self.released = (key, time),
                 // DestroyNotify: another client closed it.
-                17 => return Some(Press::Leave),
+                17 => return Some(LEAVE),
                 // ConfigureNotify
                 22 => {
                     self.size = ((event[5] & 0xffff) as usize, (event[5] >> 16) as usize);
                     // ClearArea, of what was sent for another size.
-                    self.send(&[61 | 4 << 16, self.id, 0, 0])?;
+                    self.server.send(&[61 | 4 << 16, self.server.setup[1], 0, 0])?;
                 }
                 // ClientMessage
-                33 if event[3] == self.delete => return Some(Press::Leave),
+                33 if event[3] == self.delete => return Some(LEAVE),
                 _ => {}
             }
         }
         None
-    }
-
-    fn send(&self, words: &[u32]) -> Option<()> {
-        let mut bytes = Vec::new();
-        for word in words {
-            bytes.extend_from_slice(&word.to_le_bytes());
-        }
-        send(&self.server, &bytes)
-    }
-
-    fn receive(&self, count: usize) -> Option<Vec<u32>> {
-        receive(&self.server, count)
     }
 }
 
@@ -251,55 +191,3 @@ const TITLE_WORDS: [u32; 2] = {
     }
     words
 };
-
-/// Sends whole requests.
-fn send(server: &OwnedFd, mut bytes: &[u8]) -> Option<()> {
-    while !bytes.is_empty() {
-        bytes = &bytes[write(server, bytes).ok()?..];
-    }
-    Some(())
-}
-
-/// Waits for words.
-fn receive(server: &OwnedFd, count: usize) -> Option<Vec<u32>> {
-    let mut bytes = vec![0; 4 * count];
-    let (got, _) = recv(server, &mut *bytes, RecvFlags::WAITALL).ok()?;
-    (got == bytes.len()).then(|| bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
-}
-
-/// The server that `DISPLAY` names, with what it says of itself. Each cookie that there is for it is tried.
-fn find() -> Option<(OwnedFd, Vec<u32>)> {
-    let environment = contents(c"/proc/self/environ");
-    let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
-    let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
-    let address = SocketAddrUnix::new(&*CString::new([b"/tmp/.X11-unix/X", number].concat()).ok()?).ok()?;
-    let authority = match variable(b"XAUTHORITY=") {
-        Some(path) => path.to_vec(),
-        None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority"].concat(),
-    };
-    // Of an entry: number, method and cookie, each after its length, big-endian.
-    let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
-    let entries = contents(&CString::new(authority).ok()?);
-    let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
-    // A server that wants none ignores it.
-    cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))
-}
-
-/// Connects, with a cookie, and gives what the server says of itself if it agrees.
-fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<(OwnedFd, Vec<u32>)> {
-    let server = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
-    connect(&server, address).ok()?;
-    send(&server, &[b"l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0", cookie].concat())?;
-    let head = receive(&server, 2)?;
-    let setup = receive(&server, (head[1] >> 16) as usize)?;
-    (head[0] & 255 == 1).then_some((server, setup))
-}
-
-/// A file's first megabyte, which is all; nothing where it cannot be read.
-fn contents(path: &CStr) -> Vec<u8> {
-    let mut bytes = vec![0; 1 << 20];
-    let file = open(path, OFlags::RDONLY, Mode::empty());
-    let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
-    bytes.truncate(length);
-    bytes
-}
