@@ -1,5 +1,7 @@
 //! Speed against error, in one value whose limit is exact.
 
+use crate::BENCH;
+
 /// Every approximation that a renderer may take. [`Quality::EXACT`] and [`Quality::REFERENCE`] take none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
@@ -72,6 +74,7 @@ impl Quality {
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 
     /// The qualities of the command line.
+    #[cfg(feature = "bench-scenes")]
     pub const NAMED: [(&'static str, Quality); 4] = [
         ("fast", Quality::FAST),
         ("default", Quality::DEFAULT),
@@ -79,9 +82,20 @@ impl Quality {
         ("reference", Quality::REFERENCE),
     ];
 
+    /// Those with shortcuts.
+    #[cfg(not(feature = "bench-scenes"))]
+    pub const NAMED: [(&'static str, Quality); 2] = [("fast", Quality::FAST), ("default", Quality::DEFAULT)];
+
     /// Their names.
+    #[cfg(feature = "bench-scenes")]
     pub const NAMES: [&'static str; 4] =
         [Quality::NAMED[0].0, Quality::NAMED[1].0, Quality::NAMED[2].0, Quality::NAMED[3].0];
+
+    /// [`Quality::grid`]: 1 in a build that has no quality without shortcuts.
+    #[inline(always)]
+    pub fn grid(&self) -> usize {
+        if BENCH { self.grid } else { 1 }
+    }
 
     /// The quality of that name.
     pub fn named(name: &str) -> Option<Quality> {

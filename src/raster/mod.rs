@@ -130,7 +130,7 @@ impl Drawn {
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let Drawn { world, view, rasters, sights, quality, .. } = self;
-        let grid = quality.grid as u32;
+        let grid = quality.grid() as u32;
         let count = if grid > 1 { 1 } else { quality.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
@@ -247,6 +247,7 @@ impl Layer for Drawn {
                         key.casters.push(body.clone());
                     }
                 }
+                let traced = BENCH && traced;
                 // What is traced has no map, though another frame may have kept one of the same views.
                 let kept = if traced { Err(DepthMap::default()) } else { shadow::recall(&key) };
                 match kept {

@@ -5,6 +5,7 @@ use super::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
 };
 use super::{Scene, Shot};
+use crate::BENCH;
 use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::raster::fit;
@@ -221,7 +222,7 @@ fn picture(shot: &Shot) -> Picture {
         // The curve of docs/report/shadows.md has its knee here.
         bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
         back_faces: false,
-        traced: shot.quality.shadow_map == 0,
+        traced: BENCH && shot.quality.shadow_map == 0,
         smooth: true,
     };
     world.lights[0].shadow = Some(plan);
