@@ -46,8 +46,7 @@ keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S 
 #[cfg(feature = "bench-scenes")]
 pub const HELP: &str = help!(
     "; exact: no shortcut; reference: 64 samples a pixel",
-    "\
-  --bench                     no window: time SCENE, or every scene
+    "  --bench                     no window: time SCENE, or every scene
   --json                      with --bench: JSON lines
 "
 );
