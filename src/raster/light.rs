@@ -95,6 +95,14 @@ impl Light {
         }
     }
 
+    /// May it reach what a raster shows? With a little to spare, lest a rounded point asks for a map that was left out.
+    pub fn counts(&self, raster: &Projection) -> bool {
+        match self.source {
+            Source::Sun(_) => true,
+            Source::Lamp { position, reach, .. } => !raster.misses(position, 1.01 * reach),
+        }
+    }
+
     /// May it reach into one of the boxes between `low` and `high`?
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, low: V3<S>, high: V3<S>) -> bool {
