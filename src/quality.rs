@@ -29,7 +29,7 @@ pub struct Quality {
     pub cloud_opaque: f32,
     /// Pixels by which pictures that stand for clouds may be off; 0 for none, where rays are cast in every frame.
     pub cloud_imposter: f32,
-    /// Share of a fire's particles that is drawn for each pixel of its height; infinite for all, whatever its size.
+    /// Share of a fire's particles that is drawn for each pixel of its height; infinite for all of them.
     pub particle_detail: f32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],

@@ -18,6 +18,10 @@ pub struct Flame {
     pub life: [f64; 2],
     /// Inner and outer radius of the level ring that it starts from, metres.
     pub ring: [f32; 2],
+    /// By what share that ring narrows as they live.
+    pub narrows: f32,
+    /// Metres that flames lean aside for each metre of their height, in waves that run upwards.
+    pub leans: f32,
     /// The widest angle from straight up to where it sets out, radians.
     pub cone: f32,
     /// Its first speed, metres a second.
@@ -60,7 +64,7 @@ pub struct Fire {
 impl Fire {
     /// The same fire with fewer and brighter particles, which together have the light of all: a share of `detail` for each
     /// pixel of its height, and less again where the screen shows only a part of it. As that changes they come and go one
-    /// after another, each of them slowly.
+    /// after another.
     ///
     /// For a `detail` above 0. What smoke takes of the light behind is then only nearly that of all.
     pub fn detailed(self, view: &View, detail: f32) -> Fire {
@@ -83,7 +87,10 @@ impl Fire {
     /// Particles number `i`.
     #[inline(always)]
     pub fn grains<S: Simd>(&self, simd: S, i: U<S>) -> Grains<S> {
-        let Flame { life, ring, cone, speed, slows, lift, radius, light, alpha } = self.flame;
+        let Flame { life, ring, narrows, leans, cone, speed, slows, lift, radius, light, alpha } = self.flame;
+        // Each fire's waves are its own.
+        let turns = self.time * 1.1 + self.place.x as f64;
+        let wave = (turns - turns.floor()) as f32 * TAU;
         let zero = F::<S>::splat(simd, 0.0);
         let one = F::<S>::splat(simd, 1.0);
         let number = i + self.first;
@@ -100,17 +107,23 @@ impl Fire {
         let (x, life) = (F::<S>::from_slice(simd, &x[..F::<S>::LEN]), F::<S>::from_slice(simd, &lives[..F::<S>::LEN]));
         let around = chance(simd, self.seed, number, 2) * TAU;
         let away = chance(simd, self.seed, number, 3).sqrt() * cone;
-        let from =
-            (chance(simd, self.seed, number, 4) * (ring[1] * ring[1] - ring[0] * ring[0]) + ring[0] * ring[0]).sqrt();
+        let [inner, outer] = ring.map(|radius| radius * radius);
+        let from = chance(simd, self.seed, number, 4) * (outer - inner) + inner;
+        let from = from.sqrt() * (one - x * narrows);
         let beside = chance(simd, self.seed, number, 5) * TAU;
         let first = chance(simd, self.seed, number, 6) * speed[1] + speed[0];
         let way = life * first * (x + x * x * ((slows - 1.0) * 0.5));
         let level = math::sin(simd, away) * way;
         let age = x * life;
         let quarter = FRAC_PI_2;
+        let y = way * math::sin(simd, away + quarter) + age * age * lift;
+        let mut lean = zero;
+        if leans > 0.0 {
+            lean = math::sin(simd, y * -WAVES + wave) * y * leans;
+        }
         let at = V3 {
-            x: level * math::sin(simd, around + quarter) + from * math::sin(simd, beside + quarter),
-            y: way * math::sin(simd, away + quarter) + age * age * lift,
+            x: level * math::sin(simd, around + quarter) + from * math::sin(simd, beside + quarter) + lean,
+            y,
             z: level * math::sin(simd, around) + from * math::sin(simd, beside),
         };
         let left = one - x;
@@ -129,6 +142,9 @@ impl Fire {
 
 /// Particles that a fire has at least, if it has as many: the light of fewer would flicker.
 const LEAST: f32 = 128.0;
+
+/// Radians of those waves for each metre.
+const WAVES: f32 = 4.0;
 
 /// 2^-24.
 const STEP: f32 = 1.0 / 16_777_216.0;

@@ -7,7 +7,9 @@
 pub mod fire;
 pub mod snow;
 pub mod sprite;
+pub mod strokes;
 
+use crate::BENCH;
 use crate::lanes::{F, U, V3};
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
@@ -16,7 +18,8 @@ use fearless_simd_macros::simd;
 use fire::Fire;
 use glam::Vec3;
 use snow::Snow;
-use sprite::{LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
+use sprite::{Crystal, LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
+use strokes::Strokes;
 
 /// Particles of a vector.
 pub struct Grains<S: Simd> {
@@ -40,6 +43,8 @@ pub enum Emitter {
     Snow(Snow),
     /// Flames, sparks or smoke.
     Fire(Fire),
+    /// Writing.
+    Strokes(Strokes),
 }
 
 /// Particles that a job makes at a time.
@@ -70,6 +75,8 @@ pub struct Particles {
     exposure: f32,
     /// Which planes sprites change.
     planes: (usize, usize),
+    /// What flakes are from close by.
+    pub crystal: Crystal,
     /// Do solids hide them?
     solids: bool,
 }
@@ -83,9 +90,16 @@ impl Particles {
 
     /// Flames and sparks in any order, or, if there is smoke, all of them from far to near.
     pub fn fire(fires: Vec<Fire>, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
-        let first = if fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
+        let first = if BENCH && fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
         let emitters = fires.into_iter().map(Emitter::Fire).collect();
         Particles::new(emitters, Vec3::ZERO, exposure, (first, LIGHT + 3), view, width, height)
+    }
+
+    /// Writing before all that is there.
+    pub fn writing(strokes: Strokes, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
+        let emitters = vec![Emitter::Strokes(strokes)];
+        let writing = Particles::new(emitters, Vec3::ZERO, exposure, (LIGHT, LIGHT + 3), view, width, height);
+        Particles { solids: false, ..writing }
     }
 
     fn new(
@@ -98,7 +112,7 @@ impl Particles {
         height: usize,
     ) -> Particles {
         let screen = Screen::new(view, width, height);
-        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, solids: true }
+        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids: true }
     }
 
     /// The same where no layer before it has solids: their depth is not read.
@@ -130,14 +144,14 @@ impl Particles {
             return;
         }
         let (first, end) = self.planes;
-        if end - first > 3 {
+        if BENCH && end - first > 3 {
             sort(&mut list);
         }
         let mut planes = vec![[0.0; Tile::AREA]; end];
         planes[PASSES].fill(1.0);
         let solids = self.solids && tile.closeness.iter().any(|c| *c > 0.0);
         for sprite in &list {
-            draw(simd, sprite, tile, solids, &mut planes[first..], first);
+            draw(simd, sprite, &self.crystal, tile, solids, &mut planes[first..], first);
         }
         blend(simd, &planes, self.color, self.exposure, tile);
     }
@@ -189,6 +203,7 @@ impl Emitter {
         match self {
             Emitter::Snow(snow) => snow.count(),
             Emitter::Fire(fire) => fire.count(),
+            Emitter::Strokes(strokes) => strokes.count(),
         }
     }
 }
@@ -204,6 +219,7 @@ fn emit<S: Simd>(simd: S, emitter: &Emitter, first: u32, screen: &Screen, sprite
         let (grains, lens, eye) = match emitter {
             Emitter::Snow(snow) => (snow.grains(simd, numbers), &snow.lens, Vec3::ZERO),
             Emitter::Fire(fire) => (fire.grains(simd, numbers), &fire.lens, screen.eye),
+            Emitter::Strokes(strokes) => (strokes.grains(simd, numbers), &strokes.lens, Vec3::ZERO),
         };
         let last = (1 << lanes.min(end - i)) - 1;
         screen.push(simd, grains, lens, eye, last, sprites);

@@ -50,9 +50,9 @@ pub struct Lens {
     pub radius: [f32; 2],
     /// Metres along the view axis between which they come into sight.
     pub near: [f32; 2],
-    /// Radius of the circle of confusion for what is infinitely far from the focus, times its distance: pixels metres.
+    /// Radius of the lens, metres: what is nearer than its focus is blurred.
     pub aperture: f32,
-    /// Metres up to which things are blurred.
+    /// Metres.
     pub focus: f32,
     /// Are sprites turned, and drawn as crystals from some pixels on?
     pub crystals: bool,
@@ -126,7 +126,7 @@ impl Screen {
         let inverse = one / depth;
         let (x, y) = (at.dot1(self.right) * inverse, at.dot1(self.up) * inverse);
         let size = grains.radius * inverse * self.focal;
-        let blur = (inverse - 1.0 / lens.focus).max(zero) * lens.aperture;
+        let blur = (inverse - 1.0 / lens.focus).max(zero) * (lens.aperture * self.focal);
         let radius = (size + blur).max(F::<S>::splat(simd, lens.radius[0])).min(F::<S>::splat(simd, lens.radius[1]));
         let thin = one / radius;
         let share = size * thin;
@@ -177,28 +177,38 @@ impl Screen {
             depth,
             inverse * thin * self.focal,
             grains.alpha * share,
+            zero,
             ink.x,
             ink.y,
             ink.z,
             crystal,
         ];
-        let mut lanes = [[0.0; 16]; 15];
+        let mut lanes = [[0.0; 16]; 16];
         for (row, of) in lanes.iter_mut().zip(numbers) {
             of.store_slice(&mut row[..F::<S>::LEN]);
         }
         for lane in Bits(seen) {
-            let [x, y, a, b, c, d, across, down, depth, edge, alpha, red, green, blue, crystal] =
-                lanes.each_ref().map(|row| row[lane]);
-            sprites.push(Sprite {
-                at: [x, y],
-                axes: [a, b, c, d],
-                reach: [across, down],
-                depth,
-                edge,
-                alpha,
-                ink: [0.0, red, green, blue],
-                crystal,
-            });
+            let mut of = [0.0; 16];
+            for (number, row) in of.iter_mut().zip(&lanes) {
+                *number = row[lane];
+            }
+            sprites.push(Sprite::of(of));
+        }
+    }
+}
+
+impl Sprite {
+    /// From its numbers in their order.
+    fn of([x, y, a, b, c, d, across, down, depth, edge, alpha, none, red, green, blue, crystal]: [f32; 16]) -> Sprite {
+        Sprite {
+            at: [x, y],
+            axes: [a, b, c, d],
+            reach: [across, down],
+            depth,
+            edge,
+            alpha,
+            ink: [none, red, green, blue],
+            crystal,
         }
     }
 }
@@ -240,6 +250,7 @@ fn range(at: f32, reach: f32, corner: usize) -> [usize; 2] {
 pub fn draw<S: Simd>(
     simd: S,
     sprite: &Sprite,
+    crystal: &Crystal,
     tile: &Tile,
     solids: bool,
     planes: &mut [[f32; Tile::AREA]],
@@ -261,7 +272,7 @@ pub fn draw<S: Simd>(
             let rest = (one - (u * u + v * v)).max(zero);
             let mut weight = rest * rest;
             if sprite.crystal > CRYSTAL {
-                weight = crystal(simd, u, v, sprite.crystal);
+                weight = grown(simd, crystal, u, v, sprite.crystal);
             }
             let at = row * Tile::SIZE + column;
             if solids {
@@ -284,24 +295,57 @@ const HALVES: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.
 /// Pixels of radius from which on a crystal is more than a disc.
 const CRYSTAL: f32 = 2.5;
 
-/// The weight of a crystal of `radius` pixels in the unit disc: six arms with branches around a plate, a soft disc where
-/// it is small.
-#[inline(always)]
-fn crystal<S: Simd>(simd: S, u: F<S>, v: F<S>, radius: f32) -> F<S> {
-    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let rest = (one - (u * u + v * v)).max(zero);
-    // Folded into the twelfth beside an arm, which lies along x.
-    let (mut x, mut y) = (u.abs(), v.abs());
-    for (cos, sin) in [(0.866_025_4, 0.5), (0.5, 0.866_025_4)] {
-        let beyond = (x * cos - y * sin).min(zero);
-        (x, y) = (x - beyond * (2.0 * cos), y + beyond * (2.0 * sin));
+/// A crystal in the unit disc: what is nearer than these to its middle, to its arms, to their branches. Below 0 for none.
+#[derive(Clone, Copy, Debug)]
+pub struct Crystal {
+    /// The plate in its middle, to the middles of its sides.
+    pub plate: f32,
+    /// Half the width of arms.
+    pub arm: f32,
+    /// Half the width of branches.
+    pub branch: f32,
+    /// How often it is folded: 0 for one bar, 2 for six arms, 3 for twelve.
+    pub folds: usize,
+}
+
+impl Crystal {
+    /// A six-armed star.
+    pub const STAR: Crystal = Crystal { plate: 0.28, arm: 0.07, branch: 0.055, folds: 2 };
+
+    /// What grows at so many degrees Celsius, after the table of thesis C: needles below -4, plates below -8, stars below
+    /// -12, spatial stars, which look like two of them, below -18, columns below -25.
+    #[cfg(feature = "bench-scenes")]
+    pub fn at(celsius: f32) -> Crystal {
+        match celsius {
+            ..-25.0 => Crystal { plate: -1.0, arm: 0.3, branch: -1.0, folds: 0 },
+            ..-18.0 => Crystal { plate: 0.15, arm: 0.05, branch: 0.03, folds: 3 },
+            ..-12.0 => Crystal::STAR,
+            ..-8.0 => Crystal { plate: 0.8, arm: -1.0, branch: -1.0, folds: 2 },
+            _ => Crystal { plate: -1.0, arm: 0.08, branch: -1.0, folds: 0 },
+        }
     }
-    let plate = one * 0.28 - x * 0.866_025_4 - y * 0.5;
-    let arm = one * 0.07 - y;
+}
+
+/// Lines through the middle at 60, 30 and 15 degrees to an arm: sines and cosines.
+const FOLDS: [(f32, f32); 3] = [(0.866_025_4, 0.5), (0.5, 0.866_025_4), (0.258_819_04, 0.965_925_8)];
+
+/// The weight of a crystal of `radius` pixels at points of the unit disc; small ones are soft discs.
+#[inline(always)]
+fn grown<S: Simd>(simd: S, crystal: &Crystal, u: F<S>, v: F<S>, radius: f32) -> F<S> {
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let Crystal { plate, arm, branch, folds } = if BENCH { *crystal } else { Crystal::STAR };
+    let rest = (one - (u * u + v * v)).max(zero);
+    // Folded onto one side of an arm, which lies along x.
+    let (mut x, mut y) = (u.abs(), v.abs());
+    for &(sin, cos) in &FOLDS[..folds] {
+        let beyond = (x * sin - y * cos).min(zero);
+        (x, y) = (x - beyond * (2.0 * sin), y + beyond * (2.0 * cos));
+    }
+    let middle = -(x * 0.866_025_4 + y * 0.5) + plate;
     // Branches leave it at 60 degrees, every quarter, shorter to the outside.
     let slant = (x - y * 0.577_350_3) * 4.0;
-    let branch = ((slant - slant.floor() - 0.5).abs() * -0.217 + 0.055).min((one - x) * 0.55 - y);
-    let inside = plate.max(arm).max(branch).min(one - x);
+    let side = ((slant - slant.floor() - 0.5).abs() * -0.217 + branch).min((one - x) * 0.55 - y);
+    let inside = middle.max(-y + arm).max(side).min(one - x);
     let edge = (inside * radius + 0.5).max(zero).min(one);
     let share = ((radius - CRYSTAL) * 0.4).min(1.0);
     rest * rest + (edge - rest * rest) * share

@@ -9,11 +9,14 @@ pub mod cumulus_set;
 #[cfg(feature = "day")]
 pub mod day;
 pub mod intro;
+pub mod letters;
 pub mod lumen;
 #[cfg(feature = "day")]
 pub mod models;
 #[cfg(feature = "bench-scenes")]
 pub mod particles;
+#[cfg(all(feature = "bench-scenes", feature = "day"))]
+pub mod rain;
 mod script;
 #[cfg(feature = "bench-scenes")]
 pub mod shadow;
@@ -124,6 +127,8 @@ pub const ALL: &[Scene] = &[
     particles::SNOW,
     #[cfg(feature = "bench-scenes")]
     particles::FIRE,
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
+    rain::RAIN,
 ];
 
 /// The intro's own show: what plays when no scene is named.

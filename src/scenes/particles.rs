@@ -41,6 +41,8 @@ pub const FLAKES: Flakes = Flakes {
 pub const FLAME: Flame = Flame {
     life: [0.8, 0.7],
     ring: [0.0, 0.14],
+    narrows: 0.0,
+    leans: 0.0,
     cone: 0.35,
     speed: [0.9, 0.7],
     slows: 0.25,
