@@ -144,6 +144,7 @@ impl Stage {
                 lights,
                 ambient: [Vec3::splat(0.1); 2],
                 veil: None,
+                snow: None,
                 haze: Haze { color: fog, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
                 zenith: fog,
                 film: false,

@@ -12,24 +12,34 @@ pub type Key<const N: usize> = [f32; N];
 /// The line of a table at `time`: the first key before it and at NaN, the last after it.
 ///
 /// Panics where the table is empty.
-#[inline(never)]
 pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
-    let last = keys.len() - 1;
+    let mut line = keys[0];
+    blend(keys.as_flattened(), N, time, &mut line);
+    line
+}
+
+/// The same for a table with keys of `width` numbers: once, and not for each width.
+#[inline(never)]
+fn blend(keys: &[f32], width: usize, time: f64, line: &mut [f32]) {
+    let at = |key: usize, value: usize| keys[key * width + value];
+    let last = keys.len() / width - 1;
     // NaN is after no key.
     let mut next = 0;
-    while next <= last && keys[next][0] as f64 <= time {
+    while next <= last && at(next, 0) as f64 <= time {
         next += 1;
     }
     let here = next.max(1) - 1;
-    let mut line = keys[here];
-    if next > 0 && next <= last {
-        let x = (time - line[0] as f64) as f32 / (keys[next][0] - line[0]);
-        let y = 1.0 - x;
-        // This interval, and its neighbours if there are.
-        let intervals = [here.max(1) - 1, here, next.min(last - 1)].map(|k| (&keys[k], &keys[k + 1]));
-        for (i, value) in line.iter_mut().enumerate() {
-            // Their lengths and mean speeds.
-            let [(h0, s0), (h, s), (h1, s1)] = intervals.map(|(a, b)| (b[0] - a[0], (b[i] - a[i]) / (b[0] - a[0])));
+    let x =
+        if next > 0 && next <= last { (time - at(here, 0) as f64) as f32 / (at(next, 0) - at(here, 0)) } else { 0.0 };
+    let y = 1.0 - x;
+    for (i, value) in line.iter_mut().enumerate() {
+        *value = at(here, i);
+        if next > 0 && next <= last {
+            // This interval, and its neighbours if there are: their lengths and mean speeds.
+            let [(h0, s0), (h, s), (h1, s1)] = [here.max(1) - 1, here, next.min(last - 1)].map(|k| {
+                let length = at(k + 1, 0) - at(k, 0);
+                (length, (at(k + 1, i) - at(k, i)) / length)
+            });
             // The parabola's speed at both ends; the first and the last are those of its neighbour's.
             let (mut from, mut to) = ((s0 * h + s * h0) / (h0 + h), (s * h1 + s1 * h) / (h + h1));
             if here == 0 {
@@ -43,7 +53,6 @@ pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
                 h * (s * (x * x * (1.0 + 2.0 * y)) + (monotone(from, s0, s) * y - monotone(to, s, s1) * x) * (x * y));
         }
     }
-    line
 }
 
 /// A speed where intervals of two mean speeds meet, as far as the curve stays monotone in both.
@@ -62,6 +71,7 @@ fn monotone(speed: f32, a: f32, b: f32) -> f32 {
 }
 
 /// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
+#[inline(never)] // Called in many places, never in a hot loop.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     let x = (time - from) / (to - from);
     let x = if x > 0.0 { x.min(1.0) as f32 } else { 0.0 };

@@ -156,6 +156,7 @@ impl Set {
             lights: suns.iter().map(light).collect(),
             ambient: [Vec3::ZERO; 2],
             veil: None,
+            snow: None,
             haze: Haze { color: Vec3::ZERO, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
             zenith: Vec3::ZERO,
             film: false,

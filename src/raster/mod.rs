@@ -2,7 +2,7 @@
 //!
 //! One flow: [`mesh`] (what there is) -> [`triangle`] (clipped and snapped, in the camera's raster and in each light's) ->
 //! [`bins`] (by tile) -> [`mod@fill`] (which triangle each pixel shows; in a light's raster that is all, a [`shadow`] map) ->
-//! [`shade`] (each visible fragment once, under all [`light`]s that reach it).
+//! [`shade`] (each visible fragment once, whitened by what [`mod@settle`]s, under all [`light`]s that reach it).
 
 pub mod bins;
 pub mod fill;
@@ -11,6 +11,7 @@ pub mod form;
 pub mod light;
 pub mod mesh;
 pub mod project;
+pub mod settle;
 pub mod shade;
 pub mod shadow;
 pub mod traced;
@@ -31,6 +32,7 @@ use glam::{Affine3A, Vec3};
 use light::{Haze, Light, Sight};
 use mesh::Mesh;
 use project::Projection;
+use settle::Settled;
 use shade::{Context, Queue, collect, flush};
 use shadow::{DepthMap, Key, Plan};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -82,6 +84,8 @@ pub struct World {
     pub lights: Vec<Light>,
     /// What suns shine through, beside the surfaces.
     pub veil: Option<Veil>,
+    /// Snow that lies there.
+    pub snow: Option<Settled>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
     /// The haze before what is far, and the sky at the horizon that gloss mirrors.
@@ -111,7 +115,7 @@ pub struct Drawn {
     quality: Quality,
     /// The camera's, then those of lights that have no map from an earlier frame.
     rasters: Vec<Raster>,
-    /// What each light sees.
+    /// What each light sees; last, what snow falls on.
     sights: Vec<Sight>,
 }
 
@@ -233,7 +237,8 @@ impl Layer for Drawn {
         let bodies = &world.bodies;
         add(rasters, &Projection::of_view(&self.view, self.size), false, true, bodies.len());
         let mut missing = Vec::new();
-        for (slot, light) in world.lights.iter().enumerate() {
+        let snow = world.snow.iter().map(|snow| &snow.from);
+        for (slot, light) in world.lights.iter().chain(snow).enumerate() {
             let mut sight = Sight { map: None, first: rasters.len() };
             if let Some(&Plan { ref views, back_faces, traced, .. }) = light.plan() {
                 let mut key = Key { slot, views: views.clone(), back_faces, casters: Vec::new() };

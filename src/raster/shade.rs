@@ -3,6 +3,7 @@
 use super::bins::{Id, NOTHING, TEXTURE, parts};
 use super::fill::{STEPS, Sample, Visible};
 use super::light::{Light, Sight, Source};
+use super::settle::settle;
 use super::triangle::{SUB, Triangle};
 use super::{Raster, World};
 use crate::BENCH;
@@ -20,7 +21,7 @@ use glam::Vec3;
 pub struct Context<'a> {
     /// Materials, lights, haze.
     pub world: &'a World,
-    /// What each light sees.
+    /// What each light sees; last, what snow falls on.
     pub sights: &'a [Sight],
     /// The camera's raster, and those of lights.
     pub rasters: &'a [Raster],
@@ -43,13 +44,13 @@ pub struct Queue {
     place: [[u32; BLOCK]; 2],
     id: [[Id; BLOCK]; 2],
     // What they show: here, and not on the stack, it need not be cleared.
-    point: Block3,
-    normal: Block3,
-    albedo: Block3,
-    light: Block3,
+    pub(super) point: Block3,
+    pub(super) normal: Block3,
+    pub(super) albedo: Block3,
+    pub(super) light: Block3,
     /// The length of the pixel on the surface, metres.
-    footprint: [f32; BLOCK],
-    gloss: [f32; BLOCK],
+    pub(super) footprint: [f32; BLOCK],
+    pub(super) gloss: [f32; BLOCK],
     nearness: [f32; BLOCK],
     /// Share of the pixel.
     weight: [f32; BLOCK],
@@ -209,6 +210,9 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             i += 1;
         }
     }
+    if let (Some(snow), Some(sight)) = (&world.snow, sights.last()) {
+        settle(simd, context, snow, sight, queue);
+    }
     let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
     let mut i = 0;
     while i < BLOCK / lanes {
@@ -219,7 +223,7 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
     }
     for (light, sight) in world.lights.iter().zip(sights) {
         if light.meets(simd, low, high) {
-            shine(simd, context, light, sight, queue);
+            shine(simd, context, light, sight, &queue.point, &queue.normal, &mut queue.light);
         }
     }
     finish(simd, context, queue);
@@ -310,18 +314,26 @@ fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Que
     }
 }
 
-/// Adds what a light gives to a queue.
+/// Adds what a light gives to points with unit normals.
 #[simd]
 #[inline(never)]
-fn shine<S: Simd>(simd: S, context: &Context, light: &Light, sight: &Sight, queue: &mut Queue) {
+pub fn shine<S: Simd>(
+    simd: S,
+    context: &Context,
+    light: &Light,
+    sight: &Sight,
+    points: &Block3,
+    normals: &Block3,
+    out: &mut Block3,
+) {
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (load3(simd, &queue.point, i), load3(simd, &queue.normal, i));
+        let (p, n) = (load3(simd, points, i), load3(simd, normals, i));
         let mut gives = light.at(simd, sight, context.rasters, p, n);
         if let (Source::Sun(_), Some(veil)) = (light.source, &context.world.veil) {
             gives = gives * Lane(veil.at(simd, p));
         }
-        store3(load3(simd, &queue.light, i) + gives, &mut queue.light, i);
+        store3(load3(simd, out, i) + gives, out, i);
         i += 1;
     }
 }

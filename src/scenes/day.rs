@@ -172,11 +172,29 @@ pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3
         textures,
         lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
         veil: None,
+        snow: None,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },
         zenith: dome.radiance(Vec3::Y),
         film: true,
         background: None,
+    }
+}
+
+/// Somebody lights a lamp in the chapel when it gets `dark`, 0 to 1.
+#[inline(never)]
+pub(super) fn lamp(world: &mut World, dark: f32) {
+    if dark > 0.0 {
+        let position = vec3(0.0, 14.5, 1.0);
+        let plan = Plan {
+            views: fit::cube(position, 512),
+            bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
+            back_faces: false,
+            traced: false,
+            smooth: true,
+        };
+        let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
+        world.lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
     }
 }
 
@@ -207,19 +225,6 @@ fn picture(shot: &Shot) -> Picture {
         smooth: true,
     };
     world.lights[0].shadow = Some(plan);
-    // Somebody lights a lamp when it gets dark.
-    let dark = ease(-0.02, 0.1, -dome.sky.sun.y as f64);
-    if dark > 0.0 {
-        let position = vec3(0.0, 14.5, 1.0);
-        let plan = Plan {
-            views: fit::cube(position, 512),
-            bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
-            back_faces: false,
-            traced: false,
-            smooth: true,
-        };
-        let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
-        world.lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
-    }
+    lamp(&mut world, ease(-0.02, 0.1, -dome.sky.sun.y as f64));
     show(shot, dome, world, View::new(camera, shot.width, shot.height), None)
 }

@@ -26,6 +26,8 @@ pub mod shadow_set;
 pub mod sky;
 #[cfg(feature = "bench-scenes")]
 mod sky_grid;
+#[cfg(feature = "day")]
+pub mod snowfall;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
 
@@ -105,6 +107,8 @@ pub const ALL: &[Scene] = &[
     day::DAY,
     #[cfg(feature = "day")]
     clouds::CLOUDS,
+    #[cfg(feature = "day")]
+    snowfall::SNOWFALL,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,
     #[cfg(feature = "bench-scenes")]

@@ -1,0 +1,64 @@
+//! Fog: what is far fades into one light, by Beer and Lambert's law.
+
+use super::STEPS;
+use crate::block::{BLOCK, load, store};
+use crate::lanes::F;
+use crate::math::exp2;
+use crate::tile::{Layer, Stats, Tile};
+use crate::view::View;
+use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd_macros::simd;
+use glam::Vec3;
+use std::f32::consts::LOG2_E;
+
+/// Fog over all that was drawn before it, the sky too.
+pub struct Fog {
+    /// Who looks.
+    pub view: View,
+    /// Its light on a level ray, and what is added towards the zenith and taken off towards the ground; as it is shown.
+    pub light: [Vec3; 2],
+    /// Share that it takes a metre.
+    pub density: f32,
+    /// Metres from the eye to where it ends, before the sky and before whatever is farther.
+    pub end: f32,
+}
+
+impl Layer for Fog {
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        dispatch!(level, simd => cover(simd, self, tile));
+        Stats::default()
+    }
+}
+
+/// Mixes the fog's light into a tile: at its density 0 no bit changes.
+///
+/// A pixel on an edge shows the sky, too, by what solids leave of it.
+#[simd]
+fn cover<S: Simd>(simd: S, fog: &Fog, tile: &mut Tile) {
+    let lanes = F::<S>::LEN;
+    let (end, one) = (F::<S>::splat(simd, fog.end), F::<S>::splat(simd, 1.0));
+    let steps = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>().to_float::<F<S>>();
+    let loss = -fog.density * LOG2_E;
+    let sky = exp2(simd, end * loss);
+    for row in 0..tile.height {
+        let y = F::<S>::splat(simd, (tile.y + row) as u32 as f32 + 0.5);
+        let mut i = 0;
+        while i < BLOCK / lanes {
+            let ray = fog.view.rays(simd, steps + ((tile.x + i * lanes) as u32 as f32 + 0.5), y);
+            let length = ray.dot(ray).sqrt();
+            let near: F<S> = load(simd, &tile.closeness.as_chunks::<BLOCK>().0[row], i);
+            let covered: F<S> = load(simd, &tile.coverage.as_chunks::<BLOCK>().0[row], i);
+            // The share of the light that comes through.
+            let solid = exp2(simd, (length / near.max(1e-9)).min(end) * loss);
+            let clear = sky + (solid - sky) * covered;
+            let up = ray.y / length;
+            let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+            for (channel, plane) in planes.into_iter().enumerate() {
+                let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
+                let light = up * fog.light[1][channel] + fog.light[0][channel];
+                store(load::<S, F<S>>(simd, plane, i) * clear + light * (one - clear), plane, i);
+            }
+            i += 1;
+        }
+    }
+}
