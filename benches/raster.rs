@@ -78,7 +78,7 @@ impl Case {
                 (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
             }
         };
-        let shadow = Some(Plan { views, bias, back_faces: false, traced: false, smooth: false });
+        let shadow = Some(Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: false });
         Light { source, color: Vec3::ONE, shadow }
     }
 }

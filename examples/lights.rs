@@ -99,7 +99,7 @@ impl Stage {
     fn light(&self, kind: Kind, index: usize, count: usize) -> Light {
         let time = self.count as f32 * 0.01;
         let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
-        let plan = |views| Plan { views, bias, back_faces: false, traced: false, smooth: false };
+        let plan = |views| Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: false };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
             let towards = vec3(cos, 0.8, sin).normalize();

@@ -11,7 +11,10 @@ use std::ops::Range;
 
 /// The text of `--help`, which is the table of options too. From its second line on each has an option and what its
 /// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
-pub const HELP: &str = "\
+macro_rules! help {
+    ($exact:literal, $own:literal) => {
+        concat!(
+            "\
 paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
   --at SECONDS                one instant
   --from SECONDS              start there
@@ -21,32 +24,51 @@ paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
   --convergence METRES        with --stereo: 0.01 to 10000; default 5
   --threads N                 1 to 1024; default: all cores
   --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720, fewer while that is too slow to play
-  --quality NAME              fast: every shortcut; default: anti-aliased too; exact: no shortcut; reference: 64 samples a pixel
+  --quality NAME              fast: every shortcut; default: anti-aliased too",
+            $exact,
+            "
   --capture DIR               no window: PPM files frame-N.ppm in DIR, N = seconds x fps, or a stream of them to stdout for -
-  --bench                     no window: time SCENE, or every scene
-  --json                      with --bench: JSON lines
   --stereo                    two eyes side by side
   --fullscreen                fill the screen
   --list                      print the scenes
   --help                      print this
   --version                   print name and version
+",
+            $own,
+            "\
 keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S saves a still, F fills the screen
-";
+"
+        )
+    };
+}
+
+/// With the options of the benchmark,
+#[cfg(feature = "bench-scenes")]
+pub const HELP: &str = help!(
+    "; exact: no shortcut; reference: 64 samples a pixel",
+    "  --bench                     no window: time SCENE, or every scene
+  --json                      with --bench: JSON lines
+"
+);
+/// and without them.
+#[cfg(not(feature = "bench-scenes"))]
+pub const HELP: &str = help!("", "");
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
-const OPTIONS: usize = 17;
+const OPTIONS: usize = if BENCH { 17 } else { 15 };
+/// Is there a benchmark? The 64 kB build leaves it out.
+const BENCH: bool = cfg!(feature = "bench-scenes");
 /// Places of the whole numbers among them.
 const THREADS: usize = 6;
 const SIZE: usize = 7;
 const QUALITY: usize = 8;
+const CAPTURE: usize = 9;
 
 /// What goes against what, in the order in which [`Args::read`] looks.
 const CLASHES: &str = "\
 --at is one instant: leave out --from and --to
 --from lies after --to
 --from lies after the end of the scene: give --to as well
---bench and --capture: choose one
---json goes with --bench
 --eye-distance and --convergence go with --stereo
 --stereo needs a width of 2 or more
 frames are numbered below 1000000: lower --to or --fps
@@ -80,6 +102,7 @@ pub enum Mode {
     /// Plays in a window, or the best that there is instead.
     Play,
     /// Times scenes; JSON lines instead of a table where `json`.
+    #[cfg(feature = "bench-scenes")]
     Bench {
         /// One JSON object a line instead of a table.
         json: bool,
@@ -117,6 +140,7 @@ pub struct Args {
     /// Speed against error.
     pub quality: Quality,
     /// What `quality` is called.
+    #[cfg(feature = "bench-scenes")]
     pub quality_name: &'static str,
     /// Frames may be smaller while they come late: neither size nor quality was asked for.
     pub governed: bool,
@@ -166,17 +190,21 @@ impl Args {
     #[inline(never)]
     fn read(scene: Option<&'static Scene>, values: [Option<&'static [u8]>; OPTIONS]) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].unwrap_or_default());
-        let (numbers, threads, size, &(quality_name, quality)) = understood(&values).map_err(refused)?;
+        let (numbers, threads, size, &(_quality_name, quality)) = understood(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
-        let is = values.map(|value| value.is_some());
-        let [at, since, to, _, apart, agree, _, sized, rated, capture, bench, json, two, full, list, help, version] =
+        let mut is = [false; 17];
+        for (is, value) in is.iter_mut().zip(values) {
+            *is = value.is_some();
+        }
+        let [at, since, to, _, apart, agree, _, sized, rated, capture, two, full, list, help, version, bench, json] =
             is;
-        let [.., target, _, _, _, _, _, _, _] = values;
+        let (bench, json, target) = (BENCH && bench, BENCH && json, values[CAPTURE]);
         let mode = match target {
             _ if help => Mode::Print(HELP),
             _ if version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
             _ if list => Mode::List,
             Some(target) => Mode::Capture(target),
+            #[cfg(feature = "bench-scenes")]
             None if bench => Mode::Bench { json },
             None => Mode::Play,
         };
@@ -184,20 +212,38 @@ impl Args {
         let start = (at || since || to).then_some(if at { instant } else { from });
         let end = to.then_some(until);
         let (still, governed) = (at, !sized && !rated);
-        let args =
-            Args { mode, scene, size, threads, start, end, still, fps, stereo, full, quality, quality_name, governed };
+        let args = Args {
+            mode,
+            scene,
+            size,
+            threads,
+            start,
+            end,
+            still,
+            fps,
+            stereo,
+            full,
+            quality,
+            #[cfg(feature = "bench-scenes")]
+            quality_name: _quality_name,
+            governed,
+        };
         // A benchmark of all scenes has no one end; it times single instants past an end without harm.
         let endless = to || bench && scene.is_none();
         let clashes = [
             at && (since || to),
             from > until,
             !endless && from >= args.scene().duration,
-            bench && capture,
-            json && !bench,
             (apart || agree) && !two,
             two && size.0 < 2,
             capture && args.frames().end > MAX_FRAMES,
         ];
+        if bench && capture {
+            return Err(b"--bench and --capture: choose one".to_vec());
+        }
+        if json && !bench {
+            return Err(b"--json goes with --bench".to_vec());
+        }
         match clashes.into_iter().position(|clash| clash) {
             Some(clash) => Err(line(CLASHES, clash).to_vec()),
             None => Ok(args),

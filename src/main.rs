@@ -1,6 +1,7 @@
 //! The intro executable: arguments, then play, bench or capture.
 
 mod args;
+#[cfg(feature = "bench-scenes")]
 mod bench;
 mod canvas;
 mod capture;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
 fn run(args: &'static Args) -> Result<(), Vec<u8>> {
     match &args.mode {
         Mode::Play => play(args),
+        #[cfg(feature = "bench-scenes")]
         Mode::Bench { json } => bench::run(args, *json),
         Mode::Capture(target) => capture::run(args, target),
         Mode::Print(text) => print(text.as_bytes()),
@@ -44,7 +46,8 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
     }
 }
 
-/// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens anywhere.
+/// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens
+/// anywhere. The 64 kB build has the window alone.
 #[inline(never)]
 fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     let why = match window::Window::open(args.size) {
@@ -55,8 +58,13 @@ fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     if terminal::shows_colour() {
         return Ok(terminal::play(args)?);
     }
-    complain(&fill("no display (%): running the benchmark", &[why.as_bytes()]));
-    bench::run(args, false)
+    #[cfg(feature = "bench-scenes")]
+    {
+        complain(&fill("no display (%): running the benchmark", &[why.as_bytes()]));
+        bench::run(args, false)
+    }
+    #[cfg(not(feature = "bench-scenes"))]
+    Err(fill("no display: %", &[why.as_bytes()]))
 }
 
 #[inline(never)]

@@ -1,5 +1,7 @@
 //! Speed against error, in one value whose limit is exact.
 
+use crate::BENCH;
+
 /// Every approximation that a renderer may take. [`Quality::EXACT`] and [`Quality::REFERENCE`] take none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
@@ -29,6 +31,8 @@ pub struct Quality {
     pub cloud_opaque: f32,
     /// Pixels by which pictures that stand for clouds may be off; 0 for none, where rays are cast in every frame.
     pub cloud_imposter: f32,
+    /// Share of a fire's particles that is drawn for each pixel of its height; infinite for all of them.
+    pub particle_detail: f32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -48,6 +52,7 @@ impl Quality {
         cloud_detail: 0.5,
         cloud_opaque: 1.0 / 256.0,
         cloud_imposter: 0.0,
+        particle_detail: 1.0 / 256.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
@@ -66,12 +71,14 @@ impl Quality {
         cloud_detail: f32::INFINITY,
         cloud_opaque: 0.0,
         cloud_imposter: 0.0,
+        particle_detail: f32::INFINITY,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.
     pub const REFERENCE: Quality = Quality { grid: 8, ..Quality::EXACT };
 
     /// The qualities of the command line.
+    #[cfg(feature = "bench-scenes")]
     pub const NAMED: [(&'static str, Quality); 4] = [
         ("fast", Quality::FAST),
         ("default", Quality::DEFAULT),
@@ -79,9 +86,20 @@ impl Quality {
         ("reference", Quality::REFERENCE),
     ];
 
+    /// Those with shortcuts.
+    #[cfg(not(feature = "bench-scenes"))]
+    pub const NAMED: [(&'static str, Quality); 2] = [("fast", Quality::FAST), ("default", Quality::DEFAULT)];
+
     /// Their names.
+    #[cfg(feature = "bench-scenes")]
     pub const NAMES: [&'static str; 4] =
         [Quality::NAMED[0].0, Quality::NAMED[1].0, Quality::NAMED[2].0, Quality::NAMED[3].0];
+
+    /// [`Quality::grid`]: 1 in a build that has no quality without shortcuts.
+    #[inline(always)]
+    pub fn grid(&self) -> usize {
+        if BENCH { self.grid } else { 1 }
+    }
 
     /// The quality of that name.
     pub fn named(name: &str) -> Option<Quality> {

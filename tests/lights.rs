@@ -5,7 +5,7 @@ mod drawn;
 mod oracle;
 
 use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
-use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
 use oracle::{ULP, random::Random};
 use paprsek::camera::Camera;
 use paprsek::quality::Quality;
@@ -13,6 +13,7 @@ use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{Bias, Plan};
+use paprsek::view::View;
 
 const SIZE: [usize; 2] = [120, 80];
 /// Depth maps and light as the intro has them, one sample a pixel.
@@ -84,7 +85,8 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
             let color = vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
             let position =
                 vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
-            let plan = |views| Some(Plan { views, bias, back_faces: false, traced: false, smooth: k % 2 == 0 });
+            let plan =
+                |views| Some(Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: k % 2 == 0 });
             match k % 4 {
                 0 => {
                     let towards = random.direction().with_y(0.7).normalize();
@@ -142,14 +144,40 @@ fn a_light_out_of_reach_changes_no_bit() {
         // Its box is near enough to some blocks of pixels, but no point is.
         for position in [vec3(0.0, 3.1, 0.0), vec3(30.0, 1.0, 0.0), vec3(9.8, 1.0, 9.8), vec3(0.0, -1.0, 0.0)] {
             let reach = if position.y < 0.0 { 1.2 } else { 1.0 };
-            for at in [0, 4] {
+            // Without a shadow, with one from maps, with one that is traced.
+            for (at, kind) in [(0, 0), (4, 0), (0, 1), (4, 2)] {
+                let bias = Bias { constant: 0.01, slope: 2.0, normal: 0.0 };
+                let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
+                let plan = Plan { views, bias, back_faces: false, traced: kind == 2, from: 0, smooth: true };
+                let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6));
+                light.shadow = (kind > 0).then_some(plan);
                 let mut lights = few.clone();
-                lights.insert(at, lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6)));
+                lights.insert(at, light);
                 let planes = draw(&World { lights, ..stage() }, camera(), SIZE, Quality::DEFAULT, level);
                 assert_eq!(planes.differs(&truth), None, "{name}: {position}");
             }
         }
     }
+}
+
+/// Whatever the lamp, if a point that may be seen is within its reach, it counts; far beside the picture, and behind the
+/// eye, it does not.
+#[test]
+fn a_lamp_counts_if_it_reaches_what_is_seen() {
+    let mut random = Random(7);
+    let camera = camera();
+    let raster = Projection::of_view(&View::new(camera, SIZE[0], SIZE[1]), SIZE.map(|n| n as u32));
+    let mut number = |low: f64, high: f64| random.range(low, high);
+    for _ in 0..20_000 {
+        let (x, y) = (number(0.0, SIZE[0] as f64), number(0.0, SIZE[1] as f64));
+        let seen = camera.eye.as_dvec3() + ray(&camera, SIZE, x, y) * 10f64.powf(number(-1.2, 3.0));
+        let way = dvec3(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0));
+        let reach = way.length() as f32 * 1.000_001;
+        assert!(lamp((seen + way).as_vec3(), Vec2::ONE, reach, Vec3::ONE).counts(&raster), "{seen} {way}");
+    }
+    let away = |position: Vec3, reach: f32| !lamp(position, Vec2::ONE, reach, Vec3::ONE).counts(&raster);
+    assert!(away(camera.eye - camera.forward * 3.0, 2.9) && away(camera.eye + camera.right * 40.0, 10.0));
+    assert!(!away(camera.eye - camera.forward * 3.0, f32::INFINITY));
 }
 
 /// `exp2` and its argument's rounding.

@@ -28,6 +28,7 @@ fn plan(width: f32, texels: u32) -> Plan {
         bias: Bias { constant: 0.05, slope: 2.0, normal: 0.0 },
         back_faces: false,
         traced: false,
+        from: 0,
         smooth: true,
     }
 }

@@ -79,7 +79,7 @@ impl Sunny {
     fn plan(&self) -> Plan {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
-        Plan { views: vec![view], bias, back_faces, traced, smooth }
+        Plan { views: vec![view], bias, back_faces, traced, from: 0, smooth }
     }
 
     fn draw(&self, camera: Camera) -> Planes {
@@ -209,8 +209,31 @@ fn a_plan_without_views_is_no_shadow() {
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, common::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let plan = Plan { views: Vec::new(), bias, back_faces: false, traced, smooth: true };
+        let plan = Plan { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
         assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
+    }
+}
+
+#[test]
+fn bodies_before_the_first_that_casts_hide_nothing() {
+    // The box comes first: it hides the ground unless the plan begins after it.
+    let picture = |shadow| {
+        let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
+        let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
+        draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, common::levels()[0].1)
+    };
+    let truth = picture(None);
+    for traced in [false, true] {
+        let hidden = |from| {
+            let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
+            let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
+            let found = picture(Some(Plan { views, bias, back_faces: false, traced, from, smooth: true }));
+            let pairs = found.color.iter().zip(&truth.color);
+            pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
+        };
+        assert!(hidden(0) > 200, "{}", hidden(0));
+        // The number of bodies, and one beyond.
+        assert_eq!([hidden(1), hidden(2), hidden(3)], [0; 3]);
     }
 }
 

@@ -49,7 +49,7 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
-    let plan = Plan { views, bias, back_faces: false, traced: false, smooth };
+    let plan = Plan { views, bias, back_faces: false, traced: false, from: 0, smooth };
     let source = Source::Lamp { position: torch, falloff: Vec2::ZERO, reach: f32::INFINITY };
     let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
     let mut bodies = vec![body(room(half))];

@@ -140,7 +140,7 @@ impl Set {
 
     /// A plan with the scene's bias.
     pub fn plan(&self, views: Vec<Projection>) -> Plan {
-        Plan { views, bias: self.bias, back_faces: false, traced: false, smooth: self.smooth }
+        Plan { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
     }
 
     /// What is seen under suns, each of its own colour.

@@ -54,7 +54,7 @@ impl CloudQuality {
             cell: quality.cell,
             // At the whole of it 0.6 instead of 0.2 % of the pixels of `sky-of-clouds` are off by more than 8 codes.
             threshold: 0.5 * quality.threshold,
-            grid: quality.grid,
+            grid: quality.grid(),
             imposter: quality.cloud_imposter,
         }
     }

@@ -5,6 +5,7 @@
 //! Nothing is stored from frame to frame, so nothing is emitted, recycled or in step with frames.
 
 pub mod fire;
+pub mod flicker;
 pub mod fog;
 pub mod snow;
 pub mod sprite;

@@ -102,6 +102,8 @@ pub struct World {
 /// The bodies in one raster.
 pub struct Raster {
     setup: Setup,
+    /// Number of the first body that is drawn.
+    from: usize,
     /// One for each body.
     pieces: Vec<Piece>,
     bins: Bins,
@@ -130,7 +132,7 @@ impl Drawn {
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let Drawn { world, view, rasters, sights, quality, .. } = self;
-        let grid = quality.grid as u32;
+        let grid = quality.grid() as u32;
         let count = if grid > 1 { 1 } else { quality.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
@@ -235,25 +237,29 @@ impl Layer for Drawn {
     fn prepare(&mut self, crew: &Crew) {
         let Drawn { world, rasters, sights, .. } = self;
         let bodies = &world.bodies;
-        add(rasters, &Projection::of_view(&self.view, self.size), false, true, bodies.len());
+        add(rasters, &Projection::of_view(&self.view, self.size), false, true, 0, bodies.len());
         let mut missing = Vec::new();
         let snow = world.snow.iter().map(|snow| &snow.from);
         for (slot, light) in world.lights.iter().chain(snow).enumerate() {
             let mut sight = Sight { map: None, first: rasters.len() };
-            if let Some(&Plan { ref views, back_faces, traced, .. }) = light.plan() {
+            // A lamp that reaches nothing in the picture is never asked what it sees.
+            if let Some(&Plan { ref views, back_faces, traced, from, .. }) = light.plan()
+                && light.counts(&rasters[0].setup.projection)
+            {
                 let mut key = Key { slot, views: views.clone(), back_faces, casters: Vec::new() };
-                for body in bodies {
+                for body in bodies.iter().skip(from) {
                     if light.reaches(body.bound.0, body.bound.1) {
                         key.casters.push(body.clone());
                     }
                 }
+                let traced = BENCH && traced;
                 // What is traced has no map, though another frame may have kept one of the same views.
                 let kept = if traced { Err(DepthMap::default()) } else { shadow::recall(&key) };
                 match kept {
                     Ok(map) => sight.map = Some(map),
                     Err(map) => {
                         for view in views {
-                            add(rasters, view, back_faces, false, bodies.len());
+                            add(rasters, view, back_faces, false, from, bodies.len());
                         }
                         if !traced {
                             missing.push((key, map));
@@ -264,8 +270,8 @@ impl Layer for Drawn {
             sights.push(sight);
         }
         let mut jobs = Vec::new();
-        for Raster { setup, pieces, .. } in rasters.iter_mut() {
-            for (piece, body) in pieces.iter_mut().zip(bodies) {
+        for Raster { setup, from, pieces, .. } in rasters.iter_mut() {
+            for (piece, body) in pieces.iter_mut().zip(bodies).skip(*from) {
                 if !setup.projection.misses(body.bound.0, body.bound.1) {
                     jobs.push((&*setup, piece, body));
                 }
@@ -291,11 +297,11 @@ impl Layer for Drawn {
     }
 }
 
-/// Adds a raster, still empty, for that many bodies.
-fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool, bodies: usize) {
+/// Adds a raster, still empty, for that many bodies, of which those before `from` are left out.
+fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool, from: usize, bodies: usize) {
     let setup = Setup { projection: *projection, back_faces, shaded };
     let pieces = (0..bodies).map(|_| Piece::default()).collect();
-    rasters.push(Raster { setup, pieces, bins: Bins::default() });
+    rasters.push(Raster { setup, from, pieces, bins: Bins::default() });
 }
 
 /// Draws the depths of triangles, a row of tiles at a time.

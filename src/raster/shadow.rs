@@ -42,6 +42,8 @@ pub struct Plan {
     pub back_faces: bool,
     /// Are shadows traced, without a map? The views then only sort triangles, and the bias is a part of what it says.
     pub traced: bool,
+    /// Number of the world's first body that casts them: those before it, such as the land, do not.
+    pub from: usize,
     /// Are the borders of the 3x3 texels weighted by how much of them is met? Else each counts alike,
     /// which a build without the bench scenes leaves out.
     pub smooth: bool,

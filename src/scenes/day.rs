@@ -5,6 +5,7 @@ use super::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
 };
 use super::{Scene, Shot};
+use crate::BENCH;
 use crate::camera::Camera;
 use crate::color::Transfer;
 use crate::raster::fit;
@@ -100,13 +101,13 @@ const fn pale(color: Word) -> [Word; 5] {
     [color, get(4), MUL, get(7), ADD]
 }
 
-/// The bodies: the land, the lake, the woods, the chapel; last the aeroplane and its propeller, which move.
+/// The bodies: the land, the woods, the lake, the chapel; last the aeroplane and its propeller, which move.
 pub(super) fn bodies() -> &'static Vec<Body> {
     static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
     BODIES.get_or_init(|| {
         let mut meshes = land::ground();
         meshes.append(&mut tree::woods(&tree::trees()));
-        for mesh in [chapel::chapel(), land::lake(), mustang::airframe(), mustang::propeller()] {
+        for mesh in [land::lake(), chapel::chapel(), mustang::airframe(), mustang::propeller()] {
             meshes.push(mesh);
         }
         let mut bodies = Vec::new();
@@ -185,17 +186,46 @@ pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3
 #[inline(never)]
 pub(super) fn lamp(world: &mut World, dark: f32) {
     if dark > 0.0 {
-        let position = vec3(0.0, 14.5, 1.0);
-        let plan = Plan {
-            views: fit::cube(position, 512),
-            bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
-            back_faces: false,
-            traced: false,
-            smooth: true,
-        };
-        let source = Source::Lamp { position, falloff: Vec2::new(0.05, 0.06), reach: 30.0 };
-        world.lights.push(Light { source, color: vec3(3.2, 1.5, 0.5) * dark, shadow: Some(plan) });
+        let color = vec3(3.2, 1.5, 0.5) * dark;
+        world.lights.push(point(vec3(0.0, 14.5, 1.0), color, Vec2::new(0.05, 0.06), 30.0, [512, 0], false));
     }
+}
+
+/// A lamp with a cube of maps, `texels` along an edge, in which bodies from number `from` on cast shadows.
+#[inline(never)]
+pub(super) fn point(
+    position: Vec3,
+    color: Vec3,
+    falloff: Vec2,
+    reach: f32,
+    [texels, from]: [u32; 2],
+    traced: bool,
+) -> Light {
+    let shadow = Plan {
+        views: fit::cube(position, texels),
+        bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
+        back_faces: false,
+        traced,
+        from: from as usize,
+        smooth: true,
+    };
+    Light { source: Source::Lamp { position, falloff, reach }, color, shadow: Some(shadow) }
+}
+
+/// What the sun or the moon sees, `towards` it, of what a camera sees: up to each of `ends`, metres, in a map.
+#[inline(never)]
+pub(super) fn cascades(shot: &Shot, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<Plan> {
+    let aspect = shot.width as u32 as f32 / shot.height as u32 as f32;
+    let size = if shot.quality.shadow_map == 0 { 1024 } else { shot.quality.shadow_map };
+    Some(Plan {
+        views: fit::cascades(camera, aspect, towards, ends, size),
+        // The curve of docs/report/shadows.md has its knee here.
+        bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
+        back_faces: false,
+        traced: BENCH && shot.quality.shadow_map == 0,
+        from: 0,
+        smooth: true,
+    })
 }
 
 fn picture(shot: &Shot) -> Picture {
@@ -214,17 +244,7 @@ fn picture(shot: &Shot) -> Picture {
     let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
     let mut world = world(&dome, textures, turn, place, shot.time);
-    let aspect = shot.width as u32 as f32 / shot.height as u32 as f32;
-    let size = if shot.quality.shadow_map == 0 { 1024 } else { shot.quality.shadow_map };
-    let plan = Plan {
-        views: fit::cascades(&camera, aspect, now.direction, &[40.0, 160.0, 900.0, 6000.0], size),
-        // The curve of docs/report/shadows.md has its knee here.
-        bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
-        back_faces: false,
-        traced: shot.quality.shadow_map == 0,
-        smooth: true,
-    };
-    world.lights[0].shadow = Some(plan);
+    world.lights[0].shadow = cascades(shot, &camera, now.direction, &[40.0, 160.0, 900.0, 6000.0]);
     lamp(&mut world, ease(-0.02, 0.1, -dome.sky.sun.y as f64));
     show(shot, dome, world, View::new(camera, shot.width, shot.height), None)
 }

@@ -30,6 +30,8 @@ mod sky_grid;
 pub mod snowfall;
 #[cfg(feature = "bench-scenes")]
 pub mod spheres;
+#[cfg(feature = "day")]
+pub mod torches;
 
 use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
@@ -107,6 +109,8 @@ pub const ALL: &[Scene] = &[
     day::DAY,
     #[cfg(feature = "day")]
     clouds::CLOUDS,
+    #[cfg(feature = "day")]
+    torches::TORCHES,
     #[cfg(feature = "day")]
     snowfall::SNOWFALL,
     #[cfg(feature = "bench-scenes")]

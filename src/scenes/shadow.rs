@@ -39,6 +39,7 @@ fn sun(shot: &Shot) -> Picture {
         bias: Bias { constant: 0.03, slope: 0.15 * SIZES[0] as f32 / WIDTH, normal: 0.0 },
         back_faces: false,
         traced: false,
+        from: 0,
         smooth: false,
     };
     let light = Light { source: Source::Sun(towards), color: vec3(1.05, 0.92, 0.74), shadow: Some(plan) };
@@ -52,6 +53,7 @@ fn torch(shot: &Shot) -> Picture {
         bias: Bias { constant: 0.03, slope: 2.12, normal: 0.0 },
         back_faces: false,
         traced: false,
+        from: 0,
         smooth: false,
     };
     let source = Source::Lamp { position, falloff: Vec2::new(0.0, 0.06), reach: f32::INFINITY };

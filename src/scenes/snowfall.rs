@@ -109,7 +109,7 @@ fn picture(shot: &Shot) -> Picture {
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let plan = Plan { views, bias, back_faces: false, traced: false, smooth: true };
+    let plan = Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: true };
     let from = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
     world.snow = Some(Settled { amount, from, gives: sky * 0.6 });
     world.lights.clear();

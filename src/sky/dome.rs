@@ -81,7 +81,7 @@ impl DomeQuality {
     /// What that quality takes: 10 points, and 100 at every pixel where it is exact.
     pub fn new(quality: &Quality) -> DomeQuality {
         let exact = quality.cell == 1;
-        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.022 }, grid: quality.grid }
+        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.022 }, grid: quality.grid() }
     }
 }
 

@@ -80,7 +80,7 @@ pub struct Scratch {
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
     scratch.deferred.begin(job.context.world.objects.len(), job.quality.subpixel > 0);
     tile.clear();
-    let across = job.quality.grid;
+    let across = job.quality.grid();
     let step = 1.0 / across as u32 as f32;
     let mut count = 0;
     for n in 0..across * across {
