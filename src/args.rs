@@ -98,7 +98,6 @@ const MAX_THREADS: usize = 1024;
 const MAX_FRAMES: usize = 1_000_000;
 
 /// What the executable does.
-#[derive(Clone, Copy)]
 pub enum Mode {
     /// Plays in a window, or the best that there is instead.
     Play,
@@ -117,7 +116,6 @@ pub enum Mode {
 }
 
 /// A command line, checked.
-#[derive(Clone, Copy)]
 pub struct Args {
     /// What to do.
     pub mode: Mode,

@@ -23,7 +23,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let (code, why) = match Args::from_env() {
-        Ok(args) => match run(&args) {
+        // For good: what renders needs it as long as the process lives.
+        Ok(args) => match run(Box::leak(Box::new(args))) {
             Ok(()) => return ExitCode::SUCCESS,
             Err(why) => (1, why),
         },
@@ -34,7 +35,7 @@ fn main() -> ExitCode {
 }
 
 /// The error is one line without the program's name.
-fn run(args: &Args) -> Result<(), Vec<u8>> {
+fn run(args: &'static Args) -> Result<(), Vec<u8>> {
     match &args.mode {
         Mode::Play => play(args),
         #[cfg(feature = "bench-scenes")]
@@ -48,7 +49,7 @@ fn run(args: &Args) -> Result<(), Vec<u8>> {
 /// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens
 /// anywhere. The 64 kB build has the window alone.
 #[inline(never)]
-fn play(args: &Args) -> Result<(), Vec<u8>> {
+fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     let why = match window::Window::open(args.size) {
         Ok(window) => return present::play(window, args),
         Err(why) => why,
