@@ -16,7 +16,7 @@ mod present;
 mod terminal;
 mod window;
 
-use args::{Args, Mode};
+use args::{Args, BENCH, Mode};
 use output::{SPACES, complain, fill, print};
 use paprsek::scenes;
 use std::process::ExitCode;
@@ -42,7 +42,8 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Bench { json } => bench::run(args, *json),
         Mode::Capture(target) => capture::run(args, target),
         Mode::Print(text) => print(text.as_bytes()),
-        Mode::List => list(),
+        Mode::List if BENCH => list(),
+        Mode::List => Ok(()),
     }
 }
 

@@ -19,8 +19,7 @@ use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
 /// The scene.
-pub const TORCHES: Scene =
-    Scene { name: "torches", about: "fires in a ruin under the moon", duration: LENGTH, picture };
+pub const TORCHES: Scene = Scene::part("torches", "fires in a ruin under the moon", LENGTH, picture);
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 30.0;
