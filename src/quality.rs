@@ -31,6 +31,8 @@ pub struct Quality {
     pub cloud_opaque: f32,
     /// Pixels by which pictures that stand for clouds may be off; 0 for none, where rays are cast in every frame.
     pub cloud_imposter: f32,
+    /// Share of a fire's particles that is drawn for each pixel of its height; infinite for all of them.
+    pub particle_detail: f32,
     /// Points on a light that has a size: for what the eye sees directly, and for what it sees mirrored or refracted.
     pub light_samples: [u32; 2],
 }
@@ -50,6 +52,7 @@ impl Quality {
         cloud_detail: 0.5,
         cloud_opaque: 1.0 / 256.0,
         cloud_imposter: 0.0,
+        particle_detail: 1.0 / 256.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.
@@ -68,6 +71,7 @@ impl Quality {
         cloud_detail: f32::INFINITY,
         cloud_opaque: 0.0,
         cloud_imposter: 0.0,
+        particle_detail: f32::INFINITY,
         light_samples: [64, 64],
     };
     /// No shortcut, 64 samples a pixel.

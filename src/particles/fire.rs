@@ -6,6 +6,7 @@ use super::sprite::Lens;
 use crate::hash::wide;
 use crate::lanes::{F, Lane, U, V3, float};
 use crate::math;
+use crate::view::View;
 use fearless_simd::prelude::*;
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_2, TAU};
@@ -61,6 +62,23 @@ pub struct Fire {
 }
 
 impl Fire {
+    /// The same fire with fewer and brighter particles, which together have the light of all: a share of `detail` for each
+    /// pixel of its height, and less again where the screen shows only a part of it. As that changes they come and go one
+    /// after another.
+    ///
+    /// For a `detail` above 0. What smoke takes of the light behind is then only nearly that of all.
+    pub fn detailed(self, view: &View, detail: f32) -> Fire {
+        let Flame { life, speed, slows, lift, .. } = self.flame;
+        let life = (life[0] + 0.5 * life[1]) as f32;
+        // How high a middling particle rises in its life.
+        let height = ((speed[0] + 0.5 * speed[1]) * (0.5 + 0.5 * slows) + life * lift) * life * self.scale;
+        // To the middle, and along no axis: a fire beside the view is as large as before it.
+        let away = view.camera().eye.distance(self.place + Vec3::Y * (0.5 * height));
+        let (pixels, half) = (height / (view.pixel() * away), view.screen().0.1);
+        let share = (pixels.min(2.0 * half * half / pixels) * detail).max(LEAST / self.count).min(1.0);
+        Fire { count: self.count * share, weight: self.weight / share, ..self }
+    }
+
     /// Particles that there are, seen or not.
     pub fn count(&self) -> u32 {
         self.count.ceil() as u32
@@ -121,6 +139,9 @@ impl Fire {
         }
     }
 }
+
+/// Particles that a fire has at least, if it has as many: the light of fewer would flicker.
+const LEAST: f32 = 128.0;
 
 /// Radians of those waves for each metre.
 const WAVES: f32 = 4.0;

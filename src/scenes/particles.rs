@@ -59,14 +59,17 @@ pub fn flakes(flakes: &Flakes, time: f64, beside: Vec3) -> Snow {
 }
 
 fn snow(shot: &Shot) -> Picture {
+    over(shot, SNOW_SKY, snowfall(shot, &FLAKES))
+}
+
+/// Flakes of a field before the camera that the scene specifies.
+pub fn snowfall(shot: &Shot, of: &Flakes) -> Particles {
     let t = shot.time;
     let way = dvec3((0.3 * t).sin(), 0.08 * (0.5 * t).sin(), (0.3 * t).cos());
     // The eye is the origin, since far from it there are no fractions of metres.
     let camera = shot.camera(Camera::look_at(Vec3::ZERO, way.as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, shot.width, shot.height);
-    let flakes = vec![flakes(&FLAKES, t, camera.eye)];
-    let particles = Particles::snow(flakes, vec3(0.95, 0.97, 1.0), &view, shot.width, shot.height);
-    over(shot, [vec3(0.58, 0.63, 0.70), vec3(0.16, 0.20, 0.30)], particles)
+    Particles::snow(vec![flakes(of, t, camera.eye)], vec3(0.95, 0.97, 1.0), &view, shot.width, shot.height)
 }
 
 /// The torches at `time` seconds, as specified.
@@ -95,11 +98,16 @@ fn fire(shot: &Shot) -> Picture {
     let camera = shot.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, shot.width, shot.height);
     let particles = Particles::fire(fires(shot.time), 1.6, &view, shot.width, shot.height);
-    over(shot, [vec3(0.05, 0.05, 0.07), vec3(0.01, 0.015, 0.05)], particles)
+    over(shot, FIRE_SKY, particles)
 }
 
+/// What is behind the flakes, at the bottom and at the top.
+pub const SNOW_SKY: [Vec3; 2] = [vec3(0.58, 0.63, 0.70), vec3(0.16, 0.20, 0.30)];
+/// What is behind the torches.
+pub const FIRE_SKY: [Vec3; 2] = [vec3(0.05, 0.05, 0.07), vec3(0.01, 0.015, 0.05)];
+
 /// Particles over what is there at the bottom and at the top.
-fn over(shot: &Shot, [bottom, top]: [Vec3; 2], particles: Particles) -> Picture {
+pub fn over(shot: &Shot, [bottom, top]: [Vec3; 2], particles: Particles) -> Picture {
     let behind = Gradient { bottom, top, height: shot.height as u32 as f32 };
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(behind), Box::new(particles.without_solids())];
     Picture { layers, transfer: Transfer::Linear }
