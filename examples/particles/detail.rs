@@ -118,7 +118,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
             let name = if detail.is_finite() { format!("1/{}", 1.0 / detail) } else { "all".into() };
             let bold = if detail == Quality::FAST.particle_detail { format!("**{name}**") } else { name.clone() };
             let psnr = if off.square > 0.0 {
-                curve.points.push((ratio, off.psnr(), name));
+                curve.points.push((ratio, off.rmse(), name));
                 format!("{:.1} | {:.1}", off.psnr(), off.psnr() + 10.0 * share.log10())
             } else {
                 "equal | ".into()
@@ -136,7 +136,10 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
             curves.push(curve);
         }
     }
-    let axes = [Axis { name: "times as fast as all" }, Axis { name: "PSNR, dB" }];
+    let axes = [
+        Axis { name: "times as fast as all" },
+        Axis { name: "error of the frame, codes of 255 (root of the mean square)" },
+    ];
     plot::draw(&out.join("particles-detail.svg"), &["level of detail"], &[curves], axes)?;
     let ways = [("all", f32::INFINITY), ("as at `fast`", Quality::FAST.particle_detail)];
     let mut curves = ways.map(|(name, _)| Curve { name: name.into(), points: Vec::new() });
