@@ -12,10 +12,10 @@ use std::ops::Range;
 /// The text of `--help`, which is the table of options too. From its second line on each has an option and what its
 /// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
 macro_rules! help {
-    ($exact:literal, $own:literal) => {
+    ($play:literal, $exact:literal, $own:literal) => {
         concat!(
-            "\
-paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
+            $play,
+            " in a window
   --at SECONDS                one instant
   --from SECONDS              start there
   --to SECONDS                end there
@@ -30,7 +30,6 @@ paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE, in a window
   --capture DIR               no window: PPM files frame-N.ppm in DIR, N = seconds x fps, or a stream of them to stdout for -
   --stereo                    two eyes side by side
   --fullscreen                fill the screen
-  --list                      print the scenes
   --help                      print this
   --version                   print name and version
 ",
@@ -45,19 +44,21 @@ keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S 
 /// With the options of the benchmark,
 #[cfg(feature = "bench-scenes")]
 pub const HELP: &str = help!(
+    "paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE,",
     "; exact: no shortcut; reference: 64 samples a pixel",
-    "  --bench                     no window: time SCENE, or every scene
+    "  --list                      print the scenes
+  --bench                     no window: time SCENE, or every scene
   --json                      with --bench: JSON lines
 "
 );
 /// and without them.
 #[cfg(not(feature = "bench-scenes"))]
-pub const HELP: &str = help!("", "");
+pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
-const OPTIONS: usize = if BENCH { 17 } else { 15 };
-/// Is there a benchmark? The 64 kB build leaves it out.
-const BENCH: bool = cfg!(feature = "bench-scenes");
+const OPTIONS: usize = if BENCH { 17 } else { 14 };
+/// Is there more to ask for than the show? Not in the 64 kB build.
+pub const BENCH: bool = cfg!(feature = "bench-scenes");
 /// Places of the whole numbers among them.
 const THREADS: usize = 6;
 const SIZE: usize = 7;
@@ -98,7 +99,6 @@ const MAX_THREADS: usize = 1024;
 const MAX_FRAMES: usize = 1_000_000;
 
 /// What the executable does.
-#[derive(Clone, Copy)]
 pub enum Mode {
     /// Plays in a window, or the best that there is instead.
     Play,
@@ -117,7 +117,6 @@ pub enum Mode {
 }
 
 /// A command line, checked.
-#[derive(Clone, Copy)]
 pub struct Args {
     /// What to do.
     pub mode: Mode,
@@ -164,11 +163,11 @@ impl Args {
         words.next();
         while let Some(word) = words.next() {
             if !word.starts_with(b"-") {
-                if scene.is_some() {
-                    return Err(fill("one scene at a time: '%' is too many", &[word]));
+                if BENCH && scene.is_none() {
+                    scene = Some(named(word)?);
+                    continue;
                 }
-                scene = Some(named(word)?);
-                continue;
+                return Err(fill("'%' is too many", &[word]));
             }
             let (name, given) = cut(word, b'=');
             let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
@@ -198,13 +197,13 @@ impl Args {
         for (is, value) in is.iter_mut().zip(values) {
             *is = value.is_some();
         }
-        let [at, since, to, _, apart, agree, _, sized, rated, capture, two, full, list, help, version, bench, json] =
+        let [at, since, to, _, apart, agree, _, sized, rated, capture, two, full, help, version, list, bench, json] =
             is;
         let (bench, json, target) = (BENCH && bench, BENCH && json, values[CAPTURE]);
         let mode = match target {
             _ if help => Mode::Print(HELP),
             _ if version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
-            _ if list => Mode::List,
+            _ if BENCH && list => Mode::List,
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "bench-scenes")]
             None if bench => Mode::Bench { json },

@@ -4,11 +4,13 @@ use crate::args::Args;
 use paprsek::tile::{Frame, Renderer};
 
 /// What draws, and what it draws on.
+#[inline(never)]
 pub fn open(args: &Args) -> Result<(Renderer, Frame), Vec<u8>> {
     Ok((Renderer::new(args.threads)?, frame(args.size)?))
 }
 
 /// A black frame; an error where there is no memory for it.
+#[inline(never)]
 pub fn frame(size: (usize, usize)) -> Result<Frame, &'static str> {
     let (width, height) = size;
     let mut pixels = Vec::new();

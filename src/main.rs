@@ -16,14 +16,15 @@ mod present;
 mod terminal;
 mod window;
 
-use args::{Args, Mode};
+use args::{Args, BENCH, Mode};
 use output::{SPACES, complain, fill, print};
 use paprsek::scenes;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let (code, why) = match Args::from_env() {
-        Ok(args) => match run(&args) {
+        // For good: what renders needs it as long as the process lives.
+        Ok(args) => match run(Box::leak(Box::new(args))) {
             Ok(()) => return ExitCode::SUCCESS,
             Err(why) => (1, why),
         },
@@ -34,21 +35,22 @@ fn main() -> ExitCode {
 }
 
 /// The error is one line without the program's name.
-fn run(args: &Args) -> Result<(), Vec<u8>> {
+fn run(args: &'static Args) -> Result<(), Vec<u8>> {
     match &args.mode {
         Mode::Play => play(args),
         #[cfg(feature = "bench-scenes")]
         Mode::Bench { json } => bench::run(args, *json),
         Mode::Capture(target) => capture::run(args, target),
         Mode::Print(text) => print(text.as_bytes()),
-        Mode::List => list(),
+        Mode::List if BENCH => list(),
+        Mode::List => Ok(()),
     }
 }
 
 /// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens
 /// anywhere. The 64 kB build has the window alone.
 #[inline(never)]
-fn play(args: &Args) -> Result<(), Vec<u8>> {
+fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     let why = match window::Window::open(args.size) {
         Ok(window) => return present::play(window, args),
         Err(why) => why,

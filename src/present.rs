@@ -43,16 +43,15 @@ struct Desk {
 }
 
 /// Plays until Esc, until the window is closed or until the range ends.
-pub fn play(mut window: Window, args: &Args) -> Result<(), Vec<u8>> {
-    let args = *args;
+pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     let mut frame = canvas::frame(args.size)?;
     let back = canvas::frame(args.size)?;
-    let desk = Desk { clock: Clock::new(&args), frame: back, time: 0.0, fresh: false, still: None, ended: None };
+    let desk = Desk { clock: Clock::new(args), frame: back, time: 0.0, fresh: false, still: None, ended: None };
     // Kept for good: when the window goes, the process goes, in the middle of a frame if need be.
     let desk: &Mutex<Desk> = Box::leak(Box::new(Mutex::new(desk)));
     let here = thread::current();
     let render = move || {
-        let ended = render(&args, desk, &here);
+        let ended = render(args, desk, &here);
         lock(desk).ended = Some(ended);
     };
     start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
@@ -106,7 +105,8 @@ pub fn play(mut window: Window, args: &Args) -> Result<(), Vec<u8>> {
 
 /// Renders what the clock says, until it says nothing any more.
 fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8>> {
-    let (mut renderer, mut frame) = canvas::open(args)?;
+    let mut renderer = Renderer::new(args.threads)?;
+    let mut frame = canvas::frame(args.size)?;
     let mut governor = Governor::new();
     let mut last = None;
     loop {
@@ -116,7 +116,7 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
         };
         if let Some(still) = still {
             // Of the time that its name tells.
-            let still = (still * 1000.0).round() / 1000.0;
+            let still = (still * 1000.0 + 0.5).floor() / 1000.0;
             draw(args, &mut renderer, still, 0, &mut frame);
             if let Err(why) = capture::still(args.scene(), still, &frame) {
                 complain(&why);
@@ -147,8 +147,8 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
 
 /// Draws an instant of the scene at that step of the governor's.
 fn draw(args: &Args, renderer: &mut Renderer, time: f64, step: usize, frame: &mut Frame) {
-    frame.width = args.size.0 * EIGHTHS[step] / 8;
-    frame.height = args.size.1 * EIGHTHS[step] / 8;
+    let ((width, height), eighths) = (args.size, EIGHTHS[step]);
+    (frame.width, frame.height) = (width * eighths / 8, height * eighths / 8);
     // There is memory for the whole.
     frame.pixels.resize(frame.width * frame.height, 0);
     renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, frame);

@@ -5,38 +5,47 @@ use std::ops::Range;
 
 /// Columns and rows of a frame as large as it fits into a window, in its own aspect.
 pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
-    let columns = (height * frame.width / frame.height).clamp(1, width);
-    (columns, (width * frame.height / frame.width).clamp(1, height))
+    let columns = (height * frame.width / frame.height).min(width).max(1);
+    (columns, (width * frame.height / frame.width).min(height).max(1))
 }
 
 /// Rows of the frame at `columns` x `count` pixels, interpolated between the nearest four of its own: four bytes a pixel,
 /// as it lies in memory.
 pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
-    let across: Vec<_> = (0..columns).map(|column| tap(column, columns, frame.width)).collect();
-    let mut bytes = Vec::with_capacity(4 * columns * rows.len());
-    for row in rows {
-        let (upper, lower, below) = tap(row, count, frame.height);
-        let line = |row: usize| &frame.pixels[row * frame.width..][..frame.width];
-        let mixed: Vec<_> = line(upper).iter().zip(line(lower)).map(|(a, b)| mix(*a, *b, below)).collect();
-        for &(left, right, beyond) in &across {
-            bytes.extend_from_slice(&mix(mixed[left], mixed[right], beyond).to_le_bytes());
+    let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
+    let mut bytes = vec![0; 4 * columns * rows.len()];
+    for (row, line) in rows.zip(bytes.chunks_exact_mut(4 * columns)) {
+        let (upper, lower, below) = tap(row, down, frame.height);
+        let (upper, lower) = (&frame.pixels[upper * frame.width..], &frame.pixels[lower * frame.width..]);
+        for (column, place) in line.as_chunks_mut().0.iter_mut().enumerate() {
+            let (left, right, beyond) = tap(column, across, frame.width);
+            let mixed = [left, right].map(|at| mix(spread(upper[at]), spread(lower[at]), below));
+            let pixel = mix(mixed[0], mixed[1], beyond);
+            *place = ((pixel | pixel >> 24) as u32).to_le_bytes();
         }
     }
     bytes
 }
 
-/// Between which two of `from` pixels the middle of pixel `number` of `count` lies, and how far beyond the first, in 256ths.
-fn tap(number: usize, count: usize, from: usize) -> (usize, usize, u32) {
-    let place = ((2 * number + 1) * from * 128 / count).saturating_sub(128);
-    let first = place >> 8;
-    (first, (first + 1).min(from - 1), place as u32 & 255)
+/// Between which two of `from` pixels the middle of pixel `number` lies where each is as wide as `width` 65536ths of
+/// those, and how far beyond the first, in 256ths.
+fn tap(number: usize, width: usize, from: usize) -> (usize, usize, u64) {
+    let place = (number * width + width / 2).saturating_sub(1 << 15);
+    let first = place >> 16;
+    (first, (first + 1).min(from - 1), (place >> 8) as u64 & 255)
 }
 
-/// A pixel between two, two channels at a time.
-fn mix(a: u32, b: u32, share: u32) -> u32 {
-    const PAIR: u32 = 0xff00ff;
-    let pair = |shift: u32| (a >> shift & PAIR) * (256 - share) + (b >> shift & PAIR) * share;
-    pair(0) >> 8 & PAIR | pair(8) & !PAIR
+/// The channels, each with room for its product with a share: blue, red, green.
+const CHANNELS: u64 = 0xff_00ff_00ff;
+
+/// A pixel with its green above the others.
+fn spread(pixel: u32) -> u64 {
+    (u64::from(pixel) | u64::from(pixel) << 24) & CHANNELS
+}
+
+/// All channels between two.
+fn mix(a: u64, b: u64, share: u64) -> u64 {
+    (a * (256 - share) + b * share) >> 8 & CHANNELS
 }
 
 #[cfg(test)]

@@ -17,8 +17,7 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::{Arc, Mutex};
 
 /// The part.
-pub const CLOUDS: Scene =
-    Scene { name: "clouds", about: "a flight through clouds, from dawn to noon", duration: LENGTH, picture };
+pub const CLOUDS: Scene = Scene::part("clouds", "a flight through clouds, from dawn to noon", LENGTH, picture);
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 50.0;

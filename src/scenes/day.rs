@@ -24,8 +24,7 @@ use std::f32::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// The part.
-pub const DAY: Scene =
-    Scene { name: "day", about: "a hill by a lake: four days, one of each season", duration: 4.0 * LENGTH, picture };
+pub const DAY: Scene = Scene::part("day", "a hill by a lake: four days, one of each season", 4.0 * LENGTH, picture);
 
 /// Seconds that a day takes, from four in the morning to four in the morning.
 pub const LENGTH: f64 = 60.0;

@@ -2,7 +2,7 @@
 
 use super::{Scene, Shot, letters, lumen};
 #[cfg(feature = "day")]
-use super::{clouds, day};
+use super::{clouds, day, snowfall, torches};
 use crate::camera::Camera;
 use crate::particles::Particles;
 use crate::particles::sprite::Lens;
@@ -17,20 +17,27 @@ use glam::{Vec3, vec3};
 pub const INTRO: Scene =
     Scene { name: "intro", about: "the show: its parts one after another", duration: END, picture };
 
-/// The parts by the second that each starts, with the second of its own time that it begins at.
+/// The parts by the second that each starts, with the second of its own time that it begins at: a dawn, a morning in
+/// June, the flight, a sunset in September, the first snow, a night, and the evening of the first part.
+#[rustfmt::skip]
 pub const PARTS: &[(f64, (Scene, f64))] = &[
     (0.0, (lumen::LUMEN, 0.0)),
-    // A day in summer, and one in winter.
     #[cfg(feature = "day")]
-    (56.0, (day::DAY, 0.0)),
+    (21.0, (day::DAY, 2.0)),
     #[cfg(feature = "day")]
-    (56.0 + day::LENGTH, (day::DAY, 2.0 * day::LENGTH)),
+    (35.0, (clouds::CLOUDS, 0.0)),
     #[cfg(feature = "day")]
-    (56.0 + 2.0 * day::LENGTH, (clouds::CLOUDS, 0.0)),
+    (69.0, (day::DAY, day::LENGTH + 32.0)),
+    #[cfg(feature = "day")]
+    (83.0, (snowfall::SNOWFALL, 1.0)),
+    #[cfg(feature = "day")]
+    (113.0, (torches::TORCHES, 0.0)),
+    #[cfg(feature = "day")]
+    (143.0, (lumen::LUMEN, 45.0)),
 ];
 
 /// Seconds that the show takes.
-const END: f64 = 56.0 + if cfg!(feature = "day") { 2.0 * 60.0 + 50.0 } else { 0.0 };
+const END: f64 = if cfg!(feature = "day") { 154.0 } else { 21.0 };
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;

@@ -17,8 +17,7 @@ use crate::trace::world::{Light, Material, Object, Sky, Source, World};
 use glam::{Mat3, Vec3, vec3};
 
 /// The part.
-pub const LUMEN: Scene =
-    Scene { name: "lumen", about: "a ray of light: glass, marble, wood, mirrors", duration: END, picture };
+pub const LUMEN: Scene = Scene::part("lumen", "a ray of light: glass, marble, wood, mirrors", END, picture);
 
 /// Seconds that the part takes.
 const END: f64 = 56.0;

@@ -33,6 +33,7 @@ pub mod spheres;
 #[cfg(feature = "day")]
 pub mod torches;
 
+use crate::BENCH;
 use crate::camera::{Camera, Eye};
 use crate::color::Transfer;
 use crate::quality::Quality;
@@ -58,6 +59,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A part of the show, which the 64 kB build does not play alone: there it has no name.
+    const fn part(name: &'static str, about: &'static str, duration: f64, picture: fn(&Shot) -> Picture) -> Scene {
+        if BENCH { Scene { name, about, duration, picture } } else { Scene { name: "", about: "", duration, picture } }
+    }
+
     /// The layers of one instant.
     pub fn picture(&self, shot: &Shot) -> Picture {
         (self.picture)(shot)
@@ -101,17 +107,18 @@ impl Shot<'_> {
     }
 }
 
-/// Every scene, the intro's own first.
+/// Every scene, the intro's own first; in the 64 kB build that alone.
 pub const ALL: &[Scene] = &[
     intro::INTRO,
+    #[cfg(feature = "bench-scenes")]
     lumen::LUMEN,
-    #[cfg(feature = "day")]
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
     day::DAY,
-    #[cfg(feature = "day")]
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
     clouds::CLOUDS,
-    #[cfg(feature = "day")]
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
     torches::TORCHES,
-    #[cfg(feature = "day")]
+    #[cfg(all(feature = "bench-scenes", feature = "day"))]
     snowfall::SNOWFALL,
     #[cfg(feature = "bench-scenes")]
     spheres::SPHERES,

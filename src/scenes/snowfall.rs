@@ -19,8 +19,7 @@ use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
-pub const SNOWFALL: Scene =
-    Scene { name: "snowfall", about: "a walk through the first snow, into the dusk", duration: LENGTH, picture };
+pub const SNOWFALL: Scene = Scene::part("snowfall", "a walk through the first snow, into the dusk", LENGTH, picture);
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 32.0;

@@ -5,7 +5,10 @@ use super::models::{PAINTS, paint};
 use super::{Scene, Shot, day};
 use crate::BENCH;
 use crate::camera::Camera;
+use crate::particles::Particles;
+use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
+use crate::particles::sprite::Lens;
 use crate::raster::light::Light;
 use crate::raster::mesh::Mesh;
 use crate::raster::{Body, form};
@@ -16,8 +19,7 @@ use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
 
 /// The scene.
-pub const TORCHES: Scene =
-    Scene { name: "torches", about: "fires in a ruin under the moon", duration: LENGTH, picture };
+pub const TORCHES: Scene = Scene::part("torches", "fires in a ruin under the moon", LENGTH, picture);
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 30.0;
@@ -116,6 +118,66 @@ fn light(shot: &Shot, number: u32, from: u32) -> Light {
     day::point(position, color, Vec2::new(0.08, 1.12), 5.5 * root, [128, from], traced)
 }
 
+/// Flames and sparks of a bowl.
+static FLAMES: [Flame; 2] = [
+    Flame {
+        life: [0.6, 0.7],
+        ring: [0.0, 0.0],
+        narrows: 0.7,
+        leans: 0.12,
+        cone: 0.3,
+        speed: [0.4, 0.5],
+        slows: 0.5,
+        lift: 0.7,
+        radius: [0.11, 0.03],
+        light: [vec3(0.02, 0.0105, 0.003), vec3(0.012, 0.002, 0.0003)],
+        alpha: 0.0,
+    },
+    Flame {
+        life: [0.8, 1.2],
+        ring: [0.0, 0.0],
+        narrows: 0.0,
+        leans: 0.2,
+        cone: 0.9,
+        speed: [0.5, 1.0],
+        slows: 0.2,
+        lift: 0.4,
+        radius: [0.008, 0.005],
+        light: [vec3(0.25, 0.12, 0.04), vec3(0.2, 0.05, 0.01)],
+        alpha: 0.0,
+    },
+];
+
+/// How sprites are seen.
+const LENS: Lens =
+    Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], aperture: 0.0, focus: 1.0, crystals: false, streaks: false };
+
+/// What is seen of the fires themselves.
+fn flames(shot: &Shot, view: &View) -> Particles {
+    let mut flames = Vec::new();
+    for (number, [x, y, z, inner, outer, scale]) in FIRES.into_iter().enumerate() {
+        for (flame, count) in FLAMES.iter().zip([1800.0, 24.0]) {
+            let mut flame = Flame { ring: [inner / scale, outer / scale], ..*flame };
+            if inner > 0.0 {
+                flame.narrows = 0.1;
+            }
+            let fire = Fire {
+                flame,
+                place: vec3(x, y, z),
+                scale,
+                time: shot.time,
+                seed: number as u32,
+                first: 0,
+                count,
+                weight: 1.0,
+                lens: LENS,
+            };
+            flames.push(fire.detailed(view, shot.quality.particle_detail));
+        }
+    }
+    Particles::fire(flames, 1.6, view, shot.width, shot.height)
+}
+
 fn picture(shot: &Shot) -> Picture {
     let (keys, since) = timeline::cut(SHOTS, LENGTH, shot.time);
     let [_, x, y, z, tx, ty, tz, fov] = timeline::sample(keys, since);
@@ -135,5 +197,9 @@ fn picture(shot: &Shot) -> Picture {
     for number in 0..FIRES.len() as u32 {
         world.lights.push(light(shot, number, from as u32));
     }
-    day::show(shot, dome, world, View::new(camera, shot.width, shot.height), None)
+    let view = View::new(camera, shot.width, shot.height);
+    let flames = flames(shot, &view);
+    let mut picture = day::show(shot, dome, world, view, None);
+    picture.layers.push(Box::new(flames));
+    picture
 }

@@ -3,6 +3,7 @@
 use super::packet::{Context, NOWHERE, Ray, nearest};
 use super::shape::FAR;
 use super::world::{Light, Source, World};
+use crate::BENCH;
 use crate::lanes::{F, Lane, M, U, V3};
 use crate::math;
 use fearless_simd::prelude::*;
@@ -35,7 +36,8 @@ pub fn visibility<S: Simd>(
     wanted: M<S>,
 ) -> F<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let soft = light.radius > 0.0;
+    // What the show has of lumen has hard shadows.
+    let soft = BENCH && light.radius > 0.0;
     let samples = if soft { samples } else { 1 };
     let directional = matches!(light.source, Source::Directional(_));
     let scale = if directional { one } else { reach };

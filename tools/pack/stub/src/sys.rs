@@ -5,7 +5,6 @@ use crate::Head;
 use core::arch::x86_64::__cpuid_count;
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
-use core::ffi::CStr;
 use pack_model::first;
 use pack_model::model::Model;
 
@@ -166,50 +165,6 @@ pub fn memory_file(flags: usize) -> isize {
     call(319, c"paprsek".as_ptr() as usize, flags, 0)
 }
 
-/// getpid.
-pub fn process() -> usize {
-    call(39, 0, 0, 0) as usize
-}
-
-/// A zero-terminated string, or null, which the kernel takes for an error.
-#[derive(Clone, Copy)]
-pub struct Text(*const u8);
-
-impl From<&'static CStr> for Text {
-    fn from(text: &'static CStr) -> Self {
-        Self(text.as_ptr().cast())
-    }
-}
-
-/// A name of a temporary file, zero-terminated.
-type Name = [u8; 18];
-
-/// Opens a directory in order to name files in it (O_PATH).
-pub fn open(directory: Text) -> isize {
-    call(2, directory.0 as usize, 0o12_000_000, 0)
-}
-
-/// Creates a file that only its owner may read, write and run; an error if there is one of this name.
-pub fn create(directory: isize, name: &Name) -> isize {
-    // O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC; the mode is 0700.
-    call_five(257, directory as usize, name.as_ptr() as usize, 0o2_000_301, 0o700, 0)
-}
-
-/// Opens a file for reading.
-pub fn open_in(directory: isize, name: &Name) -> isize {
-    call(257, directory as usize, name.as_ptr() as usize, 0o2_000_000)
-}
-
-/// Removes a file's name.
-pub fn unlink(directory: isize, name: &Name) {
-    call(263, directory as usize, name.as_ptr() as usize, 0);
-}
-
-/// Closes a file.
-pub fn close(file: isize) {
-    call(3, file as usize, 0, 0);
-}
-
 /// The end of the stack as the kernel made it: argc, then the arguments, 0, the environment, 0.
 #[repr(transparent)]
 pub struct Stack(usize);
@@ -223,42 +178,12 @@ impl Stack {
     fn environment(&self) -> *const usize {
         self.word(self.0 + 2)
     }
-
-    /// The value of the variable whose name, with the equals sign, is given.
-    pub fn variable(&self, name: &[u8]) -> Text {
-        let mut at = self.environment();
-        loop {
-            // SAFETY: the kernel ends each string with a zero byte and their list with a zero; reading stops there.
-            unsafe {
-                let text = *at as *const u8;
-                if text.is_null() {
-                    return Text(text);
-                }
-                if name.iter().enumerate().all(|(i, &byte)| *text.add(i) == byte) {
-                    return Text(text.add(name.len()));
-                }
-                at = at.add(1);
-            }
-        }
-    }
 }
 
-/// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH, which needs no /proc; where
-/// that is missing (before Linux 3.19, emulators), execve by the file's number in /proc. Comes back if both fail.
+/// Runs a file with these arguments and this environment: execveat with AT_EMPTY_PATH. Comes back if that fails.
 pub fn execute(file: isize, stack: &Stack) {
     let (arguments, environment) = (stack.word(1) as usize, stack.environment() as usize);
     call_five(322, file as usize, c"".as_ptr() as usize, arguments, environment, 0x1000);
-    let mut path = *b"/proc/self/fd////////\0";
-    let mut number = file as u32;
-    // Decimals from the end; a path may have more slashes than it needs.
-    for digit in path[14..21].iter_mut().rev() {
-        *digit = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
-        }
-    }
-    call(59, path.as_ptr() as usize, arguments, environment);
 }
 
 // What the compiler calls for loops over bytes. The string instructions are small, and fast enough.
