@@ -5,7 +5,7 @@
 
 use crate::output::fill;
 
-/// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
+/// The value of a decimal such as `2` or `0.5`: no sign, no exponent, no `inf`, no `nan`.
 ///
 /// Up to 18 digits and 22 places the result is the nearest `f64` but for one case in billions: digits and power of
 /// ten are exact there (Clinger, PLDI 1990), and the remainder of the division is too. So a time that was printed
@@ -13,8 +13,7 @@ use crate::output::fill;
 pub fn decimal(text: &[u8]) -> Option<f64> {
     let (mut mantissa, mut scale) = (0u64, 0);
     let (mut digits, mut point) = (false, false);
-    let mut bytes = text.iter();
-    while let Some(&byte) = bytes.next() {
+    for &byte in text {
         match byte {
             b'0'..=b'9' => {
                 digits = true;
@@ -26,15 +25,6 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
                 scale += i32::from(!kept) - i32::from(point);
             }
             b'.' if !point => point = true,
-            b'e' | b'E' => {
-                let (sign, power) = match bytes.as_slice() {
-                    [b'-', power @ ..] => (-1, power),
-                    [b'+', power @ ..] | power => (1, power),
-                };
-                // Larger than any power that leaves something, whatever the digits before it.
-                scale += sign * whole(power)?.min(1 << 30) as i32;
-                break;
-            }
             _ => return None,
         }
     }
@@ -89,7 +79,7 @@ mod tests {
 
     #[test]
     fn decimals_are_the_nearest_double() {
-        for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "1e3", "1E-3", "12.5e+2", "007"] {
+        for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "007"] {
             assert_eq!(
                 decimal(text.as_bytes()).map(f64::to_bits),
                 text.parse::<f64>().ok().map(f64::to_bits),
@@ -113,8 +103,6 @@ mod tests {
             let (ours, exact) = (decimal(text.as_bytes()).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
             assert!((ours - exact).abs() <= 8.0 * exact * f64::EPSILON, "{text}: {ours:e} {exact:e}");
         }
-        assert_eq!(decimal(b"0e999"), Some(0.0));
-        assert_eq!(decimal(b"1e-999999999"), Some(0.0));
     }
 
     #[test]
@@ -129,7 +117,7 @@ mod tests {
             "NaN",
             "inf",
             "infinity",
-            "1e400",
+            "1e3",
             "1e",
             "e5",
             "1.2.3",
