@@ -1,6 +1,6 @@
 //! The time of a scene that plays: real time, paused, moved by hand, looped.
 
-use crate::args::Args;
+use crate::args::{Args, BENCH};
 use paprsek::scenes::Scene;
 use paprsek::scenes::intro::{INTRO, PARTS};
 use std::time::Instant;
@@ -15,8 +15,8 @@ pub struct Clock {
     /// Where playing ends; the scene loops without it.
     end: Option<f64>,
     duration: f64,
-    /// Each with the second that it starts at.
-    parts: &'static [(f64, (Scene, f64))],
+    /// Is it the show, with parts to jump to?
+    show: bool,
 }
 
 impl Clock {
@@ -25,10 +25,8 @@ impl Clock {
         let start = args.start.unwrap_or(0.0);
         let since = (!args.still).then(Instant::now);
         let Scene { name, duration, .. } = *args.scene();
-        // Of a scene that is not the show its start is the only part, and so the show's first.
-        let parts = if name == INTRO.name { PARTS } else { &PARTS[..1] };
         // Not zero, since time is taken modulo the duration.
-        Clock { base: start, since, start, end: args.end, duration: duration.max(1e-3), parts }
+        Clock { base: start, since, start, end: args.end, duration: duration.max(1e-3), show: name == INTRO.name }
     }
 
     /// The same clock, but ending with the scene instead of looping.
@@ -71,7 +69,9 @@ impl Clock {
 
     /// Goes to where a part starts, counted from 0; nowhere where there is none.
     pub fn jump(&mut self, part: usize) {
-        if let Some(part) = self.parts.get(part) {
+        // Of a scene that is not the show its start is the only part, and so the show's first.
+        let parts = if BENCH && !self.show { &PARTS[..1] } else { PARTS };
+        if let Some(part) = parts.get(part) {
             self.go(part.0);
         }
     }
@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     fn still(base: f64, end: Option<f64>) -> Clock {
-        Clock { base, since: None, start: 1.0, end, duration: 20.0, parts: PARTS }
+        Clock { base, since: None, start: 1.0, end, duration: 20.0, show: true }
     }
 
     #[test]

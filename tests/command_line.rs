@@ -1,15 +1,22 @@
-//! The command line: what is refused and how, and what the files and figures look like.
+//! The command line: what is refused and how, and what the files and figures look like. The 64 kB build has the show
+//! alone, without scenes to name and anything to measure.
 
 mod program;
 
 use paprsek::quality::Quality;
+#[cfg(feature = "bench-scenes")]
 use paprsek::scenes;
+use paprsek::scenes::intro::INTRO;
 use program::{fails, paprsek, succeeds};
+#[cfg(feature = "bench-scenes")]
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Output, Stdio};
+
+/// Are there scenes to name, and a benchmark?
+const MEASURES: bool = cfg!(feature = "bench-scenes");
 
 fn run(words: &[&str]) -> Output {
     paprsek().args(words).output().unwrap()
@@ -142,6 +149,7 @@ fn arguments_need_not_be_unicode() {
     fails(&paprsek().arg("--size").arg(word).output().unwrap(), 2);
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn an_unknown_name_is_answered_with_the_known_ones() {
     let said = fails(&run(&["nosuchscene"]), 2);
@@ -153,19 +161,18 @@ fn an_unknown_name_is_answered_with_the_known_ones() {
 #[test]
 fn help_version_and_list_are_answered() {
     let help = String::from_utf8(succeeds(run(&["--help"]))).unwrap();
-    for option in
-        ["--size", "--threads", "--at", "--from", "--to", "--fps", "--bench", "--json", "--capture", "--quality"]
-            .into_iter()
-            .chain(["--stereo", "--eye-distance", "--convergence", "--fullscreen"])
-    {
-        assert!(help.contains(option), "{option}");
-    }
-    assert!(include_str!("../README.md").contains(&*help), "the README has another help");
+    let options = ["--size", "--threads", "--at", "--from", "--to", "--fps", "--capture", "--quality", "--fullscreen"];
+    let more = ["--bench", "--json", "--stereo", "--eye-distance", "--convergence", "--list"];
+    assert!(options.iter().all(|option| help.contains(option)), "{help}");
+    assert!(more.iter().all(|option| help.contains(option) == MEASURES), "{help}");
+    assert!(!MEASURES || include_str!("../README.md").contains(&*help), "the README has another help");
     let version = String::from_utf8(succeeds(run(&["--version"]))).unwrap();
     assert_eq!(version, concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n"));
-    let list = String::from_utf8(succeeds(run(&["--list"]))).unwrap();
-    let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
+    if MEASURES {
+        let list = String::from_utf8(succeeds(run(&["--list"]))).unwrap();
+        let names: Vec<_> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
+        assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
+    }
 }
 
 #[test]
@@ -182,13 +189,13 @@ fn every_size_gives_a_whole_picture() {
 
 #[test]
 fn an_instant_is_the_same_frame_as_in_a_run() {
-    let run = capture(&["lumen", "--from", "1", "--to", "1.5", "--fps", "10", "--size", "64x36"]);
+    let run = capture(&["--from", "1", "--to", "1.5", "--fps", "10", "--size", "64x36"]);
     let names: Vec<_> = run.iter().map(|file| file.0.as_str()).collect();
     assert_eq!(
         names,
         ["frame-000010.ppm", "frame-000011.ppm", "frame-000012.ppm", "frame-000013.ppm", "frame-000014.ppm"]
     );
-    let alone = capture(&["lumen", "--at", "1.3", "--size", "64x36"]);
+    let alone = capture(&["--at", "1.3", "--size", "64x36"]);
     assert_eq!(run[3].1, alone[0].1);
     assert_ne!(run[2].1, run[3].1);
 }
@@ -203,7 +210,7 @@ fn pieces_are_the_whole() {
     ] {
         let (start, end) = if fps == "1000" { ("0.698", "0.703") } else { ("0", "0.8") };
         let piece = |target: &Path, from: &str, to: &str| {
-            let words = ["lumen", "--fps", fps, "--size", "32x18", "--quality", "fast", "--from", from, "--to", to];
+            let words = ["--fps", fps, "--size", "32x18", "--quality", "fast", "--from", from, "--to", to];
             succeeds(paprsek().args(words).arg("--capture").arg(target).output().unwrap())
         };
         let whole = tempfile::tempdir().unwrap();
@@ -226,26 +233,47 @@ fn pieces_are_the_whole() {
 }
 
 #[test]
+fn the_readme_s_pieces_are_the_show() {
+    let readme = include_str!("../README.md");
+    let (_, after) = readme.split_once(" seconds in pieces of ").unwrap();
+    let step: usize = after.split(',').next().unwrap().parse().unwrap();
+    let (length, count) = (INTRO.duration as usize, INTRO.duration as usize / step);
+    assert_eq!(INTRO.duration, (count * step) as f64, "a piece is cut off");
+    for text in [
+        format!("Its {length} seconds"),
+        format!("seq 0 {step} {}", length - step),
+        format!("$_ += {step} "),
+        format!("--array=0-{} ", count - 1),
+        format!("$(({step} * SLURM_ARRAY_TASK_ID))"),
+        format!("$((from + {step}))"),
+    ] {
+        assert!(readme.contains(&text), "{text}");
+    }
+}
+
+#[test]
 fn a_piece_between_two_frames_is_empty() {
-    assert_eq!(capture(&["lumen", "--from", "0.11", "--to", "0.19", "--fps", "10", "--size", "8x8"]), []);
+    assert_eq!(capture(&["--from", "0.11", "--to", "0.19", "--fps", "10", "--size", "8x8"]), []);
 }
 
 #[test]
 fn threads_do_not_change_a_byte() {
     for quality in Quality::NAMES {
-        let words = ["lumen", "--to", "0.1", "--size", "97x55", "--quality", quality, "--threads"];
+        let words = ["--to", "0.1", "--size", "97x55", "--quality", quality, "--threads"];
         let one = capture(&[&words[..], &["1"]].concat());
         assert_eq!(one.len(), 3);
         assert_eq!(one, capture(&[&words[..], &["2"]].concat()));
     }
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn without_a_scene_the_show_plays() {
     let words = ["--at", "2", "--size", "64x36"];
     assert_eq!(capture(&words), capture(&[&["intro"], &words[..]].concat()));
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn two_eyes_see_what_their_distance_lets_them() {
     let words = ["lumen", "--at", "15", "--size", "64x36", "--stereo"];
@@ -302,9 +330,9 @@ fn a_frame_that_cannot_be_put_in_place_leaves_nothing() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_device_is_said() {
-    for words in
-        [&["--capture", "-", "--at", "1"][..], &["--list"], &["--help"], &["--version"], &["--bench", "--size", "8x8"]]
-    {
+    let measuring = [&["--list"][..], &["--bench", "--size", "8x8"]];
+    let all = [&["--capture", "-", "--at", "1"][..], &["--help"], &["--version"]];
+    for words in all.into_iter().chain(measuring.into_iter().filter(|_| MEASURES)) {
         let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
         fails(&paprsek().args(words).stdout(full).output().unwrap(), 1);
     }
@@ -316,7 +344,9 @@ fn a_full_device_is_said() {
 
 #[test]
 fn a_closed_pipe_is_said() {
-    for words in [&["--capture", "-", "--size", "640x360"][..], &["--bench", "--size", "8x8"]] {
+    let measuring = [&["--bench", "--size", "8x8"][..]];
+    let all = [&["--capture", "-", "--size", "640x360"][..]];
+    for words in all.into_iter().chain(measuring.into_iter().filter(|_| MEASURES)) {
         let mut command = paprsek();
         let mut child = command.args(words).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut head = [0; 40];
@@ -325,6 +355,7 @@ fn a_closed_pipe_is_said() {
     }
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn a_benchmark_prints_one_object_a_line() {
     let words = ["lumen", "--bench", "--json", "--threads", "2", "--size", "64x36", "--quality", "fast"];
@@ -345,6 +376,7 @@ fn a_benchmark_prints_one_object_a_line() {
     assert_eq!((&stereo["width"], &stereo["height"]), (&row["width"], &row["height"]));
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn without_a_scene_every_scene_is_timed() {
     let lines = String::from_utf8(succeeds(run(&["--bench", "--json", "--at", "2", "--size", "8x8"]))).unwrap();
@@ -353,6 +385,7 @@ fn without_a_scene_every_scene_is_timed() {
     assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
 }
 
+#[cfg(feature = "bench-scenes")]
 #[test]
 fn without_a_display_or_a_terminal_the_benchmark_runs() {
     let output = run(&["lumen", "--size", "16x9"]);
