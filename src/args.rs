@@ -20,15 +20,12 @@ macro_rules! help {
   --from SECONDS              start there
   --to SECONDS                end there
   --fps N                     frames per second, of a capture or held while playing: above 0, up to 1000; default 30
-  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
-  --convergence METRES        with --stereo: 0.01 to 10000; default 5
   --threads N                 1 to 1024; default: all cores
   --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720, fewer while that is too slow to play
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
             "
   --capture DIR               no window: PPM files frame-N.ppm in DIR, N = seconds x fps, or a stream of them to stdout for -
-  --stereo                    two eyes side by side
   --fullscreen                fill the screen
   --help                      print this
   --version                   print name and version
@@ -41,12 +38,15 @@ keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S 
     };
 }
 
-/// With the options of the benchmark,
+/// With what is there to be measured, and for two eyes,
 #[cfg(feature = "bench-scenes")]
 pub const HELP: &str = help!(
     "paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE,",
     "; exact: no shortcut; reference: 64 samples a pixel",
-    "  --list                      print the scenes
+    "  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
+  --convergence METRES        with --stereo: 0.01 to 10000; default 5
+  --stereo                    two eyes side by side
+  --list                      print the scenes
   --bench                     no window: time SCENE, or every scene
   --json                      with --bench: JSON lines
 "
@@ -56,37 +56,35 @@ pub const HELP: &str = help!(
 pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
-const OPTIONS: usize = if BENCH { 17 } else { 14 };
+const OPTIONS: usize = if BENCH { 17 } else { 11 };
 /// Is there more to ask for than the show? Not in the 64 kB build.
 pub const BENCH: bool = cfg!(feature = "bench-scenes");
 /// Places of the whole numbers among them.
-const THREADS: usize = 6;
-const SIZE: usize = 7;
-const QUALITY: usize = 8;
-const CAPTURE: usize = 9;
+const THREADS: usize = 4;
+const SIZE: usize = 5;
+const QUALITY: usize = 6;
+const CAPTURE: usize = 7;
 
 /// What goes against what, in the order in which [`Args::read`] looks.
 const CLASHES: &str = "\
 --at is one instant: leave out --from and --to
 --from lies after --to
 --from lies after the end of the scene: give --to as well
---eye-distance and --convergence go with --stereo
---stereo needs a width of 2 or more
 frames are numbered below 1000000: lower --to or --fps
 ";
 
-/// The least, the largest and the usual value of each option that takes a decimal number: the first ones.
+/// Options that take a decimal number, with the least, the largest and the usual one.
 ///
 /// A lens shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean
 /// distance of adults' eyes is 0.063 (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the
 /// show's subjects are at 3 to 10 metres.
-const RANGES: [(f64, f64, f64); THREADS] = [
-    (0.0, f64::MAX, 0.0),
-    (0.0, f64::MAX, 0.0),
-    (0.0, f64::MAX, f64::INFINITY),
-    (f64::MIN_POSITIVE, 1000.0, 30.0),
-    (0.0, 100.0, 0.065),
-    (0.01, 10000.0, 5.0),
+const RANGES: [(usize, f64, f64, f64); 6] = [
+    (0, 0.0, f64::MAX, 0.0),
+    (1, 0.0, f64::MAX, 0.0),
+    (2, 0.0, f64::MAX, f64::INFINITY),
+    (3, f64::MIN_POSITIVE, 1000.0, 30.0),
+    (11, 0.0, 100.0, 0.065),
+    (12, 0.01, 10000.0, 5.0),
 ];
 
 /// Longest side of a picture, pixels.
@@ -197,9 +195,9 @@ impl Args {
         for (is, value) in is.iter_mut().zip(values) {
             *is = value.is_some();
         }
-        let [at, since, to, _, apart, agree, _, sized, rated, capture, two, full, help, version, list, bench, json] =
+        let [at, since, to, _, _, sized, rated, capture, full, help, version, apart, agree, two, list, bench, json] =
             is;
-        let (bench, json, target) = (BENCH && bench, BENCH && json, values[CAPTURE]);
+        let (two, bench, json, target) = (BENCH && two, BENCH && bench, BENCH && json, values[CAPTURE]);
         let mode = match target {
             _ if help => Mode::Print(HELP),
             _ if version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
@@ -235,10 +233,14 @@ impl Args {
             at && (since || to),
             from > until,
             !endless && from >= args.scene().duration,
-            (apart || agree) && !two,
-            two && size.0 < 2,
             capture && args.frames().end > MAX_FRAMES,
         ];
+        if BENCH && (apart || agree) && !two {
+            return Err(b"--eye-distance and --convergence go with --stereo".to_vec());
+        }
+        if two && size.0 < 2 {
+            return Err(b"--stereo needs a width of 2 or more".to_vec());
+        }
         if bench && capture {
             return Err(b"--bench and --capture: choose one".to_vec());
         }
@@ -277,9 +279,9 @@ fn understood(
     values: &[Option<&[u8]>],
 ) -> Result<([f64; RANGES.len()], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
     let mut numbers = [0.0; RANGES.len()];
-    for (option, (least, most, usual)) in RANGES.iter().enumerate() {
-        numbers[option] = match values[option] {
-            Some(value) => decimal(value).filter(|number| number >= least && number <= most).ok_or(option)?,
+    for (number, (option, least, most, usual)) in numbers.iter_mut().zip(&RANGES) {
+        *number = match values.get(*option).copied().flatten() {
+            Some(value) => decimal(value).filter(|number| number >= least && number <= most).ok_or(*option)?,
             None => *usual,
         };
     }

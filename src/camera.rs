@@ -1,5 +1,6 @@
 //! The pinhole camera of the bench scenes, right-handed, y up; and the eyes of a stereo pair beside it.
 
+use crate::BENCH;
 use glam::Vec3;
 
 /// A pinhole camera. Rays leave `eye` along `forward + (px + shift) * right + py * up`.
@@ -73,6 +74,9 @@ impl Camera {
     /// The axis stays parallel and the lens is shifted: of axes that meet each eye would see the same point at another
     /// height.
     pub fn at(self, eye: Eye) -> Camera {
+        if !BENCH {
+            return self;
+        }
         let metre = eye.offset / self.right.length();
         Camera { eye: self.eye + self.right * metre, shift: self.shift - metre / eye.convergence, ..self }
     }

@@ -162,7 +162,7 @@ mod tests {
                 for high in loads {
                     for period in [1, 2, 3, 5, 10, 30, 100, 135, 150, 300, 600, 1000, 2100] {
                         let mut governor = Governor::new();
-                        let turn = |frame: usize| if frame / period % 2 == 0 { high } else { low };
+                        let turn = |frame: usize| if (frame / period).is_multiple_of(2) { high } else { low };
                         let (changes, _) = play(&mut governor, costs, MINUTE, turn);
                         within("changes in the first minute", changes, 0..=8);
                         play(&mut governor, costs, 2 * MINUTE, turn);

@@ -21,8 +21,9 @@ use std::time::{Duration, Instant};
 const PERIOD: Duration = Duration::from_nanos(16_666_667);
 /// How long the keys may wait for a frame.
 const POLL: Duration = Duration::from_millis(10);
-/// A still is sent again this often: the display forgets what another window covers.
-const REFRESH: Duration = Duration::from_millis(200);
+/// A still is sent again after so many looks at the keys, a fifth of a second: the display forgets what another window
+/// covers.
+const REFRESH: usize = 20;
 /// Seconds that an arrow key moves.
 const SEEK: f64 = 5.0;
 /// Parts of the width that a light has come by each [`REFRESH`] until there is a first frame, and how bright it is.
@@ -59,8 +60,8 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
         window.fill();
     }
 
-    // The time of the frame that is shown, and when it was sent.
-    let (mut time, mut sent, mut ticks) = (None, Instant::now(), 0);
+    // The time of the frame that is shown, and how often the keys have been looked at since.
+    let (mut time, mut looks) = (None, 0);
     loop {
         let fresh = {
             thread::park_timeout(POLL);
@@ -75,17 +76,16 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
             }
             fresh
         };
-        if fresh || sent.elapsed() >= REFRESH {
+        looks = if fresh { 0 } else { looks + 1 };
+        if looks % REFRESH == 0 {
             if time.is_none() {
                 // What is made before the first frame takes its time: a light runs along the middle.
-                let line = &mut frame.pixels[args.size.0 * (args.size.1 / 2)..][..args.size.0];
+                let width = args.size.0;
+                let line = &mut frame.pixels[width * (args.size.1 / 2)..][..width];
                 line.fill(0);
-                let part = args.size.0.div_ceil(STEPS);
-                line[args.size.0 * ticks / STEPS..][..part].fill(GREY);
-                ticks = (ticks + 1) % STEPS;
+                line[width * (looks / REFRESH % STEPS) / STEPS..][..width.div_ceil(STEPS)].fill(GREY);
             }
             window.show(&frame)?;
-            sent = Instant::now();
         }
         while let Some(symbol) = window.press() {
             let mut desk = lock(desk);

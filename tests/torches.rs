@@ -57,7 +57,7 @@ fn no_frame_knows_the_ones_before_it() {
 }
 
 /// What the mean light of a frame changes by differs by less than a code and a half from one to the next, at 60 frames a
-/// second, all through each shot.
+/// second: two seconds of each shot. The worst is a torch that fills the picture.
 #[test]
 fn light_does_not_jump() {
     const BEND: f64 = 1.5;
@@ -66,9 +66,9 @@ fn light_does_not_jump() {
     let quick = Quality { shadow_map: 64, ..Quality::FAST };
     for cut in cuts().windows(2) {
         let (mut worst, mut least, mut most) = (0f64, f64::MAX, 0f64);
-        let steps = ((cut[1] - cut[0]) * 60.0) as usize;
-        let light: Vec<f64> =
-            (0..steps).map(|step| mean(&frame(&mut renderer, cut[0] + step as f64 / 60.0, &quick))).collect();
+        assert!(cut[1] - cut[0] > 2.0);
+        let light = |step: usize| mean(&frame(&mut renderer, cut[0] + step as f64 / 60.0, &quick));
+        let light: Vec<f64> = (0..120).map(light).collect();
         for three in light.windows(3) {
             worst = worst.max((three[0] - 2.0 * three[1] + three[2]).abs());
             (least, most) = (least.min(three[1]), most.max(three[1]));

@@ -18,7 +18,7 @@ pub const INTRO: Scene =
     Scene { name: "intro", about: "the show: its parts one after another", duration: END, picture };
 
 /// The parts by the second that each starts, with the second of its own time that it begins at: a dawn, a morning in
-/// June, the flight, a sunset in September, the first snow, a night, and the evening of the first part.
+/// June, the flight, a sunset in September, the first snow, and a night with fires.
 #[rustfmt::skip]
 pub const PARTS: &[(f64, (Scene, f64))] = &[
     (0.0, (lumen::LUMEN, 0.0)),
@@ -32,12 +32,10 @@ pub const PARTS: &[(f64, (Scene, f64))] = &[
     (83.0, (snowfall::SNOWFALL, 1.0)),
     #[cfg(feature = "day")]
     (113.0, (torches::TORCHES, 0.0)),
-    #[cfg(feature = "day")]
-    (143.0, (lumen::LUMEN, 45.0)),
 ];
 
 /// Seconds that the show takes.
-const END: f64 = if cfg!(feature = "day") { 154.0 } else { 21.0 };
+const END: f64 = if cfg!(feature = "day") { 143.0 } else { 21.0 };
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;

@@ -22,14 +22,11 @@ pub const LUMEN: Scene = Scene::part("lumen", "a ray of light: glass, marble, wo
 /// Seconds that the part takes.
 const END: f64 = 56.0;
 
-/// The shots' scripts, by the second that each starts. Two of them the show leaves out, and so does the 64 kB build.
-pub const CUTS: &[(f64, &[u8])] = &[
-    (0.0, DOOR),
-    (11.0, TABLE),
-    (21.0, if BENCH { COLUMNS } else { SUNSET }),
-    (33.0, if BENCH { DANCE } else { SUNSET }),
-    (45.0, SUNSET),
-];
+/// The shots' scripts, by the second that each starts.
+pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, OWN[0]), (33.0, OWN[1]), (45.0, OWN[2])];
+
+/// Those of this part alone: the show leaves them out, and so does the 64 kB build.
+const OWN: [&[u8]; 3] = if BENCH { [COLUMNS, DANCE, SUNSET] } else { [TABLE; 3] };
 
 operations! {
     /// The camera's keys, nine numbers each: seconds since the shot's start; eye, target, vertical field of view in
@@ -150,8 +147,9 @@ impl Set {
                         byte::COLUMN => {
                             Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
                         }
-                        byte::PLANE => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
-                        _ => Shape::Globe { touch: at, normal: Vec3::Y, radius: 100.0 * n[0] },
+                        #[cfg(feature = "bench-scenes")]
+                        byte::GLOBE => Shape::Globe { touch: at, normal: Vec3::Y, radius: 100.0 * n[0] },
+                        _ => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
                     };
                     self.world.objects.push(self.object);
                 }

@@ -1,4 +1,4 @@
-//! Fires in the ruin on the hill, in a winter's night: around the altar a ring of them, torches on the walls, and outside
+//! Fires in the ruin on the hill, in a winter's night: a ring of them before the altar, torches on the walls, and outside
 //! the moon over the lake.
 
 use super::models::{PAINTS, paint};
@@ -37,7 +37,7 @@ pub const FIRES: [[f32; 6]; 7] = [
     [10.0, 9.5, 7.0, 0.0, 0.5, 2.0],
     [-2.75, 12.0, -2.0, 0.0, 0.125, 0.5],
     [-2.75, 12.0, 1.625, 0.0, 0.125, 0.5],
-    [-5.25, 17.0, 4.5, 0.0, 0.375, 1.5],
+    [-5.25, 17.0, 4.5, 0.0, 0.375, 1.0],
 ];
 
 /// Under a fire, tenths of its radius: a bowl on a staff.
@@ -115,7 +115,7 @@ fn light(shot: &Shot, number: u32, from: u32) -> Light {
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, shot.time, 0.4));
     // 1 / (1 + 0.0004 D + 0.000028 D^2) as in the thesis, if a unit of its game is half a centimetre.
     let traced = BENCH && shot.quality.shadow_map == 0;
-    day::point(position, color, Vec2::new(0.08, 1.12), 5.5 * root, [128, from], traced)
+    day::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
 }
 
 /// Flames and sparks of a bowl.

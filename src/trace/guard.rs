@@ -203,7 +203,9 @@ fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
             across[long] = 0.0;
             (center, turn.row(long), half[long], across.length())
         }
-        Shape::Plane { .. } | Shape::Globe { .. } => return None,
+        Shape::Plane { .. } => return None,
+        #[cfg(feature = "bench-scenes")]
+        Shape::Globe { .. } => return None,
     };
     let count = (half / radius).ceil().clamp(1.0, MOST_BALLS);
     if n < count as u32 {

@@ -26,6 +26,7 @@ pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
                 _ => (height <= 0.0).then_some((-FAR, FAR))?,
             }
         }
+        #[cfg(feature = "bench-scenes")]
         Shape::Globe { touch, normal, radius } => {
             let q = o - touch;
             let (along, slope) = (q.dot(d), d.dot(normal));
@@ -74,6 +75,7 @@ impl Shape {
         match *self {
             Shape::Sphere { center, .. } => (p - center).normalize(),
             Shape::Plane { normal, .. } => normal,
+            #[cfg(feature = "bench-scenes")]
             Shape::Globe { touch, normal, radius } => ((p - touch) / radius + normal).normalize(),
             Shape::Block { center, half, turn } => {
                 let q = turn * (p - center);
