@@ -15,8 +15,8 @@ use std::f32::consts::LOG2_E;
 pub struct Fog {
     /// Who looks.
     pub view: View,
-    /// Its light on a level ray, and what is added towards the zenith and taken off towards the ground; as it is shown.
-    pub light: [Vec3; 2],
+    /// Its light, as it is shown.
+    pub light: Vec3,
     /// Share that it takes a metre.
     pub density: f32,
     /// Metres from the eye to where it ends, before the sky and before whatever is farther.
@@ -51,12 +51,11 @@ fn cover<S: Simd>(simd: S, fog: &Fog, tile: &mut Tile) {
             // The share of the light that comes through.
             let solid = exp2(simd, (length / near.max(1e-9)).min(end) * loss);
             let clear = sky + (solid - sky) * covered;
-            let up = ray.y / length;
             let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
             for (channel, plane) in planes.into_iter().enumerate() {
                 let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
-                let light = up * fog.light[1][channel] + fog.light[0][channel];
-                store(load::<S, F<S>>(simd, plane, i) * clear + light * (one - clear), plane, i);
+                let light = fog.light[channel];
+                store(load::<S, F<S>>(simd, plane, i) * clear + (one - clear) * light, plane, i);
             }
             i += 1;
         }

@@ -120,7 +120,7 @@ fn picture(shot: &Shot) -> Picture {
     let view = View::new(camera, shot.width, shot.height);
     let air_moves = weather(shot.time);
     let density = 8e-4 + 8e-3 * air_moves.snow;
-    let fog = Fog { view, light: [air, air * 0.25], density, end: 1e5 };
+    let fog = Fog { view, light: air, density, end: 1e5 };
     let mut fields = Vec::new();
     for flakes in &FIELDS {
         let mut snow = Snow::new(flakes, shot.time, camera.eye.as_dvec3(), air_moves.drift, air_moves.snow);
