@@ -19,13 +19,13 @@ macro_rules! help {
   --at SECONDS                one instant
   --from SECONDS              start there
   --to SECONDS                end there
-  --fps N                     frames per second, of a capture or held while playing: above 0, up to 1000; default 30
+  --fps N                     frames per second of a capture, or held while playing: up to 1000; default 30
   --threads N                 1 to 1024; default: all cores
-  --size WxH                  pixels: each 1 to 16384, up to 67108864 in all; default 1280x720, fewer while that is too slow to play
+  --size WxH                  pixels: 1 to 16384 each, up to 67108864; default 1280x720, fewer if that plays too slowly
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
             "
-  --capture DIR               no window: PPM files frame-N.ppm in DIR, N = seconds x fps, or a stream of them to stdout for -
+  --capture DIR               no window: frame-N.ppm in DIR, N = seconds x fps, or a stream to stdout for -
   --fullscreen                fill the screen
   --help                      print this
   --version                   print name and version

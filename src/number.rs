@@ -5,16 +5,14 @@
 
 use crate::output::fill;
 
-/// The value of a decimal such as `2`, `0.5` or `1e-3`: no sign, no `inf`, no `nan`.
+/// The value of a decimal such as `2` or `0.5`: no sign, no exponent, no `inf`, no `nan`.
 ///
-/// Up to 18 digits and 22 places the result is the nearest `f64` but for one case in billions: digits and power of
-/// ten are exact there (Clinger, PLDI 1990), and the remainder of the division is too. So a time that was printed
-/// with all its digits comes back as it was. Past that it may be off by some last places.
+/// Up to 15 digits and 22 places the result is the nearest `f64`, as digits and power of ten are exact there (Clinger, PLDI
+/// 1990). Past that it may be off by some last places.
 pub fn decimal(text: &[u8]) -> Option<f64> {
     let (mut mantissa, mut scale) = (0u64, 0);
     let (mut digits, mut point) = (false, false);
-    let mut bytes = text.iter();
-    while let Some(&byte) = bytes.next() {
+    for &byte in text {
         match byte {
             b'0'..=b'9' => {
                 digits = true;
@@ -26,15 +24,6 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
                 scale += i32::from(!kept) - i32::from(point);
             }
             b'.' if !point => point = true,
-            b'e' | b'E' => {
-                let (sign, power) = match bytes.as_slice() {
-                    [b'-', power @ ..] => (-1, power),
-                    [b'+', power @ ..] | power => (1, power),
-                };
-                // Larger than any power that leaves something, whatever the digits before it.
-                scale += sign * whole(power)?.min(1 << 30) as i32;
-                break;
-            }
             _ => return None,
         }
     }
@@ -45,15 +34,7 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
         return Some(0.0);
     }
     let power = (0..scale.unsigned_abs().min(400)).fold(1.0, |power: f64, _| power * 10.0);
-    let head = mantissa as f64;
-    // What 53 bits do not hold of the digits: exact as well.
-    let tail = (mantissa as i64).wrapping_sub(head as i64) as f64;
-    let value = if scale < 0 {
-        let quotient = head / power;
-        quotient + ((-quotient).mul_add(power, head) + tail) / power
-    } else {
-        head * power
-    };
+    let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
     // The power may overflow where the value does not: far below the smallest time that means anything.
     let value = if scale < 0 && power.is_infinite() { 0.0 } else { value };
     value.is_finite().then_some(value)
@@ -89,7 +70,7 @@ mod tests {
 
     #[test]
     fn decimals_are_the_nearest_double() {
-        for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "1e3", "1E-3", "12.5e+2", "007"] {
+        for text in ["0", "2", "2.0", "0.1", ".5", "5.", "29.97", "0.30000000000000", "007"] {
             assert_eq!(
                 decimal(text.as_bytes()).map(f64::to_bits),
                 text.parse::<f64>().ok().map(f64::to_bits),
@@ -102,9 +83,10 @@ mod tests {
     fn printed_times_come_back() {
         for number in 1..100_000 {
             let time = f64::from(number) / 30.0;
-            assert_eq!(decimal(time.to_string().as_bytes()), Some(time));
+            let read = decimal(time.to_string().as_bytes()).unwrap_or(f64::NAN);
+            assert!((read - time).abs() <= 2.0 * time * f64::EPSILON, "{read}");
+            assert_eq!(decimal(format!("{time:.11}").as_bytes()), format!("{time:.11}").parse().ok());
         }
-        assert_eq!(decimal(b"0.30000000000000004"), Some(0.1 + 0.2));
     }
 
     #[test]
@@ -113,8 +95,6 @@ mod tests {
             let (ours, exact) = (decimal(text.as_bytes()).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
             assert!((ours - exact).abs() <= 8.0 * exact * f64::EPSILON, "{text}: {ours:e} {exact:e}");
         }
-        assert_eq!(decimal(b"0e999"), Some(0.0));
-        assert_eq!(decimal(b"1e-999999999"), Some(0.0));
     }
 
     #[test]
@@ -129,7 +109,7 @@ mod tests {
             "NaN",
             "inf",
             "infinity",
-            "1e400",
+            "1e3",
             "1e",
             "e5",
             "1.2.3",

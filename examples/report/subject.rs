@@ -52,6 +52,7 @@ pub fn all() -> Vec<Subject> {
         shares("cumulus", &[Group::Clouds]),
         shares("sky-of-clouds", &[Group::Clouds]),
         shares("clouds", &[Group::Clouds]),
+        shares("torches", &[Group::Fires]),
         sky("sky by day", [30.0, 10.0, 60.0]),
         sky("sky at sunset", [0.0, 2.0, -1.0]),
         sky("sky at dusk", [-6.0, -4.0, -9.0]),

@@ -13,6 +13,8 @@ pub enum Truth {
     Reference,
     /// 64 samples a pixel, and all else as the point has it: the limit of coverage alone.
     Samples,
+    /// All particles, and all else as the point has it: the limit of their level of detail alone.
+    Particles,
     /// The dome at every pixel, from 100 points a direction.
     Dome,
 }
@@ -24,6 +26,7 @@ impl Truth {
             Truth::Exact => (Quality::EXACT, None),
             Truth::Reference => (Quality::REFERENCE, None),
             Truth::Samples => (Quality { grid: Quality::REFERENCE.grid, ..point.quality }, None),
+            Truth::Particles => (Quality { particle_detail: Quality::EXACT.particle_detail, ..point.quality }, None),
             Truth::Dome => (Quality::EXACT, Some(DomeQuality::new(&Quality::EXACT))),
         };
         Point { quality, dome, level: None, threads: None, ..point.clone() }
@@ -35,6 +38,7 @@ impl Truth {
             Truth::Exact => "exact",
             Truth::Reference => "reference",
             Truth::Samples => "64 samples a pixel",
+            Truth::Particles => "all particles",
             Truth::Dome => "every pixel from 100 points",
         }
     }
@@ -53,6 +57,8 @@ pub enum Group {
     Sky,
     /// What rays are cast through clouds in.
     Clouds,
+    /// What burns.
+    Fires,
 }
 
 /// One setting.
@@ -135,6 +141,10 @@ pub fn knobs() -> Vec<Sweep> {
     ] {
         sweeps.push(Sweep { group: Group::Clouds, ..clouds });
     }
+    let detail: Knob = ("particle_detail", |q| q.particle_detail, |q, value| q.particle_detail = value);
+    let details = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, f32::INFINITY];
+    let fires = sweep("particle-detail", ("fast", Truth::Particles), detail, &details);
+    sweeps.push(Sweep { group: Group::Fires, ..fires });
     sweeps.push(dome("dome-cell", "cell", [0.0, 0.0055, 0.011, 0.022, 0.044, 0.088].map(|cell| (cell, None))));
     sweeps.push(dome("dome-steps", "steps", [24, 16, 10, 8, 6, 4].map(|steps| (0.0, Some(steps)))));
     sweeps

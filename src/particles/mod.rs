@@ -84,37 +84,39 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Flakes of one colour, in any order: `passes` what is left of the light behind.
+    /// Flakes of one colour alone.
+    #[cfg(feature = "bench-scenes")]
     pub fn snow(flakes: Vec<Snow>, color: Vec3, view: &View, width: usize, height: usize) -> Particles {
-        let emitters = flakes.into_iter().map(Emitter::Snow).collect();
-        Particles::new(emitters, color, 0.0, (PASSES, LIGHT), view, width, height)
+        Particles::new(flakes.into_iter().map(Emitter::Snow).collect(), color, 0.0, view, width, height)
     }
 
-    /// Flames and sparks in any order, or, if there is smoke, all of them from far to near.
+    /// Fires alone.
+    #[cfg(feature = "bench-scenes")]
     pub fn fire(fires: Vec<Fire>, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
-        let first = if BENCH && fires.iter().any(|fire| fire.flame.alpha > 0.0) { PASSES } else { LIGHT };
-        let emitters = fires.into_iter().map(Emitter::Fire).collect();
-        Particles::new(emitters, Vec3::ZERO, exposure, (first, LIGHT + 3), view, width, height)
+        Particles::new(fires.into_iter().map(Emitter::Fire).collect(), Vec3::ZERO, exposure, view, width, height)
     }
 
-    /// Writing before all that is there.
-    pub fn writing(strokes: Strokes, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
-        let emitters = vec![Emitter::Strokes(strokes)];
-        let writing = Particles::new(emitters, Vec3::ZERO, exposure, (LIGHT, LIGHT + 3), view, width, height);
-        Particles { solids: false, ..writing }
-    }
-
-    fn new(
+    /// Flakes of one `color` in any order; or flames, sparks and writing in any order, or, if there is smoke, all of them
+    /// from far to near. Writing is before all that is there.
+    pub fn new(
         emitters: Vec<Emitter>,
         color: Vec3,
         exposure: f32,
-        planes: (usize, usize),
         view: &View,
         width: usize,
         height: usize,
     ) -> Particles {
+        let (mut planes, mut solids) = ((LIGHT, LIGHT + 3), true);
+        for emitter in &emitters {
+            match emitter {
+                Emitter::Snow(_) => planes = (PASSES, LIGHT),
+                Emitter::Fire(fire) if BENCH && fire.flame.alpha > 0.0 => planes.0 = PASSES,
+                Emitter::Fire(_) => {}
+                Emitter::Strokes(_) => solids = false,
+            }
+        }
         let screen = Screen::new(view, width, height);
-        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids: true }
+        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids }
     }
 
     /// The same where no layer before it has solids: their depth is not read.

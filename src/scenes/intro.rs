@@ -4,9 +4,9 @@ use super::{Scene, Shot, letters, lumen};
 #[cfg(feature = "day")]
 use super::{clouds, day, snowfall, torches};
 use crate::camera::Camera;
-use crate::particles::Particles;
 use crate::particles::sprite::Lens;
 use crate::particles::strokes::Strokes;
+use crate::particles::{Emitter, Particles};
 use crate::tile::{Layer, Picture, Stats, Tile};
 use crate::timeline::{self, ease};
 use crate::view::View;
@@ -40,38 +40,11 @@ const END: f64 = if cfg!(feature = "day") { 143.0 } else { 21.0 };
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;
 
-/// What is written: from when to when, seconds; what; how tall its letters are, at two metres from the eye, and where,
-/// metres.
-const TITLES: &[(f64, f64, &str, f32, [f32; 2])] =
-    &[(2.0, 7.0, "PAPRSEK", 0.3, [0.0, -0.1]), (8.0, 12.0, "FIVE THESES ONE RAY OF LIGHT", 0.07, [0.0, -0.6])];
-
 fn picture(shot: &Shot) -> Picture {
     let ((part, from), time) = timeline::cut(PARTS, END, shot.time);
     let mut picture = part.picture(&Shot { time: from + time, ..*shot });
-    for &(from, to, text, height, [x, y]) in TITLES {
-        if shot.time > from && shot.time < to {
-            let comes = ease(from, from + 1.5, shot.time);
-            let goes = ease(to - 1.5, to, shot.time);
-            let camera = shot.camera(Camera::look_at(Vec3::ZERO, Vec3::Z, 0.8, 0.0));
-            let view = View::new(camera, shot.width, shot.height);
-            let size = height * 0.25;
-            let strokes = Strokes {
-                lines: letters::write(text, vec3(x, y, 2.0), Vec3::NEG_X * size, Vec3::Y * size),
-                each: 250,
-                spread: 0.07 * size + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
-                radius: 0.16 * size,
-                light: vec3(0.3, 0.2, 0.1) * (comes * (1.0 - goes)),
-                lens: Lens {
-                    radius: [0.7, 1e9],
-                    near: [0.2, 0.5],
-                    aperture: 0.0,
-                    focus: 1.0,
-                    crystals: false,
-                    streaks: false,
-                },
-            };
-            picture.layers.push(Box::new(Particles::writing(strokes, 1.6, &view, shot.width, shot.height)));
-        }
+    if shot.time < TITLE {
+        picture.layers.push(Box::new(title(shot)));
     }
     let light = light(PARTS, END, shot.time);
     if light < 1.0 {
@@ -79,6 +52,36 @@ fn picture(shot: &Shot) -> Picture {
     }
     picture
 }
+
+/// The second at which the title has gone.
+const TITLE: f64 = 7.0;
+
+/// The show's name, of sparks that come together and fly apart, two metres before the eye.
+fn title(shot: &Shot) -> Particles {
+    let comes = ease(1.5, 3.5, shot.time);
+    let goes = ease(TITLE - 1.5, TITLE, shot.time);
+    let camera = shot.camera(Camera::look_at(Vec3::ZERO, Vec3::Z, 0.8, 0.0));
+    let strokes = Strokes {
+        lines: letters::write("PAPRSEK", vec3(0.75, -0.1, 2.0), Vec3::X * -SIZE, Vec3::Y * SIZE),
+        each: 250,
+        spread: 0.005 + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
+        radius: 0.16 * SIZE,
+        light: vec3(0.3, 0.2, 0.1) * (comes * (1.0 - goes)),
+        lens: Lens {
+            radius: [0.7, f32::MAX],
+            near: [0.2, 0.5],
+            aperture: 0.0,
+            focus: 1.0,
+            crystals: false,
+            streaks: false,
+        },
+    };
+    let view = View::new(camera, shot.width, shot.height);
+    Particles::new(vec![Emitter::Strokes(strokes)], Vec3::ZERO, 1.6, &view, shot.width, shot.height)
+}
+
+/// A quarter of its letters' height, metres.
+const SIZE: f32 = 0.075;
 
 /// The share of light at `time` in a show of such parts: 0 at cuts and from the `end` on, 1 away from them. It starts at
 /// once, since a first frame should show something.

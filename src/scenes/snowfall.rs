@@ -4,10 +4,10 @@ use super::models::land;
 use super::{Scene, Shot, day};
 use crate::camera::Camera;
 use crate::color::Transfer;
-use crate::particles::Particles;
 use crate::particles::fog::Fog;
 use crate::particles::snow::{Calm, Flakes, Snow};
 use crate::particles::sprite::Lens;
+use crate::particles::{Emitter, Particles};
 use crate::raster::Drawn;
 use crate::raster::light::{Haze, Light, Source};
 use crate::raster::project::Projection;
@@ -125,9 +125,9 @@ fn picture(shot: &Shot) -> Picture {
     for flakes in &FIELDS {
         let mut snow = Snow::new(flakes, shot.time, camera.eye.as_dvec3(), air_moves.drift, air_moves.snow);
         snow.calm = Calm { wind: air_moves.wind, height: 1.7, depth: 1.5 };
-        fields.push(snow);
+        fields.push(Emitter::Snow(snow));
     }
-    let flakes = Particles::snow(fields, (air * 1.7 + 0.04).min(Vec3::ONE), &view, shot.width, shot.height);
+    let flakes = Particles::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, shot.width, shot.height);
     let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
     Picture { layers: vec![Box::new(drawn), Box::new(fog), Box::new(flakes)], transfer: Transfer::Srgb }
 }

@@ -5,10 +5,10 @@ use super::models::{PAINTS, paint};
 use super::{Scene, Shot, day};
 use crate::BENCH;
 use crate::camera::Camera;
-use crate::particles::Particles;
 use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
 use crate::particles::sprite::Lens;
+use crate::particles::{Emitter, Particles};
 use crate::raster::light::Light;
 use crate::raster::mesh::Mesh;
 use crate::raster::{Body, form};
@@ -172,10 +172,10 @@ fn flames(shot: &Shot, view: &View) -> Particles {
                 weight: 1.0,
                 lens: LENS,
             };
-            flames.push(fire.detailed(view, shot.quality.particle_detail));
+            flames.push(Emitter::Fire(fire.detailed(view, shot.quality.particle_detail)));
         }
     }
-    Particles::fire(flames, 1.6, view, shot.width, shot.height)
+    Particles::new(flames, Vec3::ZERO, 1.6, view, shot.width, shot.height)
 }
 
 fn picture(shot: &Shot) -> Picture {
