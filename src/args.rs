@@ -28,7 +28,6 @@ macro_rules! help {
   --capture DIR               no window: frame-N.ppm in DIR, N = seconds x fps, or a stream to stdout for -
   --fullscreen                fill the screen
   --help                      print this
-  --version                   print name and version
 ",
             $own,
             "\
@@ -43,7 +42,8 @@ keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S 
 pub const HELP: &str = help!(
     "paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE,",
     "; exact: no shortcut; reference: 64 samples a pixel",
-    "  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
+    "  --version                   print name and version
+  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
   --convergence METRES        with --stereo: 0.01 to 10000; default 5
   --stereo                    two eyes side by side
   --list                      print the scenes
@@ -56,7 +56,7 @@ pub const HELP: &str = help!(
 pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
 const ABOUT: usize = 30;
 /// Options in [`HELP`].
-const OPTIONS: usize = if BENCH { 17 } else { 11 };
+const OPTIONS: usize = if BENCH { 17 } else { 10 };
 /// Is there more to ask for than the show? Not in the 64 kB build.
 pub const BENCH: bool = cfg!(feature = "bench-scenes");
 /// Places of the whole numbers among them.
@@ -67,10 +67,10 @@ const CAPTURE: usize = 7;
 
 /// What goes against what, in the order in which [`Args::read`] looks.
 const CLASHES: &str = "\
---at is one instant: leave out --from and --to
+--at goes without --from and --to
 --from lies after --to
---from lies after the end of the scene: give --to as well
-frames are numbered below 1000000: lower --to or --fps
+--from lies after the end: give --to
+--to or --fps is too high: frames end at 1000000
 ";
 
 /// Options that take a decimal number, with the least, the largest and the usual one.
@@ -165,7 +165,7 @@ impl Args {
                     scene = Some(named(word)?);
                     continue;
                 }
-                return Err(fill("'%' is too many", &[word]));
+                return Err(fill("there is no option '%'; see --help", &[word]));
             }
             let (name, given) = cut(word, b'=');
             let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
@@ -200,7 +200,7 @@ impl Args {
         let (two, bench, json, target) = (BENCH && two, BENCH && bench, BENCH && json, values[CAPTURE]);
         let mode = match target {
             _ if help => Mode::Print(HELP),
-            _ if version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
+            _ if BENCH && version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
             _ if BENCH && list => Mode::List,
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "bench-scenes")]

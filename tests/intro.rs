@@ -82,7 +82,7 @@ fn a_damaged_file_says_so() {
         bytes[place] ^= 4;
         fs::write(&path, &bytes).unwrap();
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
-        let output = Command::new(&path).arg("--version").output().unwrap();
+        let output = Command::new(&path).arg("--help").output().unwrap();
         assert!(!output.status.success());
         let said = fails(&output, output.status.code().expect("an exit, not a signal"));
         assert!(said.contains("damaged"), "{said}");

@@ -16,7 +16,7 @@ use pack_model::tuned::SETS;
 /// Comes straight from `_start`, with the stack as the kernel left it: argc, argv, 0, envp, 0.
 fn main(stack: &sys::Stack) -> ! {
     if !sys::has_avx2() {
-        sys::fail(b"paprsek: needs a processor with AVX2 (x86-64-v3, from 2013 on)\n");
+        sys::fail(b"paprsek: needs a processor with AVX2\n");
     }
     if !sys::is_whole() || !is_right(sys::image()) {
         sys::fail(b"paprsek: this file is damaged\n");
