@@ -90,7 +90,7 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--to inf",
         "--to -1",
         "--from 5 --to 4",
-        "--from 1e9",
+        "--from 1000000000",
         "--at 1 --from 0",
         "--at 1 --to 2",
         "--at 1 --from 0 --to 2",
@@ -100,7 +100,7 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--fps NaN",
         "--fps 1001",
         "--fps fast",
-        "--capture . --fps 1000 --to 1e6",
+        "--capture . --fps 1000 --to 1000000",
         "--json",
         "--json --at 1",
         "--bench --capture .",
@@ -284,7 +284,7 @@ fn two_eyes_see_what_their_distance_lets_them() {
     // The eyes of the help's defaults.
     assert_eq!(usual, capture(&[&words[..], &["--eye-distance", "0.065", "--convergence", "5"]].concat()));
     let others =
-        [["--eye-distance", "0"], ["--eye-distance", "100"], ["--convergence", "0.01"], ["--convergence", "1e4"]];
+        [["--eye-distance", "0"], ["--eye-distance", "100"], ["--convergence", "0.01"], ["--convergence", "10000"]];
     for other in others {
         assert_ne!(usual, capture(&[&words[..], &other].concat()), "{other:?}");
     }
