@@ -2,7 +2,7 @@
 
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
-use paprsek::scenes::intro::{FADE, INTRO, PARTS, light};
+use paprsek::scenes::intro::{FADE, INTRO, PARTS, TITLE, light};
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 
@@ -31,8 +31,8 @@ fn it_comes_first_and_its_parts_are_scenes() {
 fn a_part_is_shown_as_it_is() {
     let ends: Vec<f64> = PARTS.iter().skip(1).map(|part| part.0).chain([INTRO.duration]).collect();
     for (number, (start, (scene, from))) in PARTS.iter().enumerate() {
-        // Up to the very fades.
-        let first = if number == 0 { *start } else { start + FADE };
+        // After the title, and up to the very fades.
+        let first = if number == 0 { TITLE } else { start + FADE };
         let last = ends[number] - FADE;
         let steps = (last - first).floor() as usize;
         for time in (0..=steps).map(|step| first + step as f64).chain([last]) {

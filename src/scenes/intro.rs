@@ -54,7 +54,7 @@ fn picture(shot: &Shot) -> Picture {
 }
 
 /// The second at which the title has gone.
-const TITLE: f64 = 7.0;
+pub const TITLE: f64 = 7.0;
 
 /// The show's name, of sparks that come together and fly apart, two metres before the eye.
 fn title(shot: &Shot) -> Particles {
