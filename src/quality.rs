@@ -52,7 +52,7 @@ impl Quality {
         cloud_detail: 0.5,
         cloud_opaque: 1.0 / 256.0,
         cloud_imposter: 0.0,
-        particle_detail: 1.0 / 256.0,
+        particle_detail: 1.0 / 128.0,
         light_samples: [16, 4],
     };
     /// What the intro plays: every shortcut, anti-aliased.

@@ -193,7 +193,7 @@ fn picture(shot: &Shot) -> Picture {
     let moon = &mut world.lights[0];
     // Silver, as beside fires it seems.
     moon.color *= vec3(0.9, 1.1, 1.5);
-    moon.shadow = day::cascades(shot, &camera, dome.lighting().direction, &[50.0, 500.0]);
+    moon.shadow = day::cascades(shot, &camera, dome.lighting().direction, &[45.0, 240.0]);
     for number in 0..FIRES.len() as u32 {
         world.lights.push(light(shot, number, from as u32));
     }
