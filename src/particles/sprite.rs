@@ -104,7 +104,7 @@ impl Screen {
             let edge = Tile::SIZE as f32;
             let (from, to) = (sprite.at[axis] - sprite.reach[axis], sprite.at[axis] + sprite.reach[axis]);
             // As a number of 32 bits nothing is less than 0.
-            [(from / edge) as u32, ((to / edge) as u32).min(tiles - 1) + 1]
+            [(from / edge) as u32, ((to / edge) as u32).saturating_add(1).min(tiles)]
         };
         [range(0, self.columns), range(1, self.rows)]
     }
