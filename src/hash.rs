@@ -12,11 +12,14 @@ pub fn pcg(n: u32) -> u32 {
     (w >> 22) ^ w
 }
 
-/// Number `k` below 8 of thing `i` in stream `seed`: 0 to 1, without 1; a multiple of 2^-24, so exact.
+/// 2^-24: what is here from 0 to 1 is a multiple of it.
+pub const STEP: f32 = 1.0 / 16_777_216.0;
+
+/// Number `k` below 8 of thing `i` in stream `seed`: 0 to 1, without 1; a multiple of [`STEP`], so exact.
 #[inline(never)] // Called in many places, never in a hot loop.
 pub fn rnd(seed: u32, i: u32, k: u32) -> f32 {
     let n = (seed << 24).wrapping_add(8 * i).wrapping_add(k);
-    (pcg(n) >> 8) as f32 / 16_777_216.0
+    (pcg(n) >> 8) as f32 * STEP
 }
 
 /// Numbers by counters for the particles of a vector: what [`rnd`] has of things `i` in stream `seed` for number `k`, as

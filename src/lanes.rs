@@ -133,6 +133,9 @@ impl<S: Simd> Mul<Lane<S>> for V3<S> {
 #[derive(Clone, Copy)]
 pub struct Lane<S: Simd>(pub F<S>);
 
+/// 0, 1, 2, as many as there are lanes.
+pub static STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
 /// Whole numbers with a sign as numbers.
 #[inline(always)]
 pub fn float<S: Simd>(_simd: S, n: U<S>) -> F<S> {

@@ -77,3 +77,10 @@ pub fn sin<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     let sign = turns.to_int::<S::i32s>() << 31;
     (sine.bitcast::<S::i32s>() ^ sign).bitcast()
 }
+
+/// From 0 up to 0 to 1 from 1 on, at rest at both.
+#[inline(always)]
+pub fn smooth<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
+    let x = x.max(S::f32s::splat(simd, 0.0)).min(S::f32s::splat(simd, 1.0));
+    x * x * (x * -2.0 + 3.0)
+}

@@ -3,7 +3,7 @@
 
 use super::Grains;
 use super::sprite::Lens;
-use crate::hash::wide;
+use crate::hash::{STEP, wide};
 use crate::lanes::{F, Lane, U, V3, float};
 use crate::math;
 use crate::view::View;
@@ -145,9 +145,6 @@ const LEAST: f32 = 128.0;
 
 /// Radians of those waves for each metre.
 const WAVES: f32 = 4.0;
-
-/// 2^-24.
-const STEP: f32 = 1.0 / 16_777_216.0;
 
 /// A number from 0 to 1.
 #[inline(always)]

@@ -1,8 +1,7 @@
 //! Fog: what is far fades into one light, by Beer and Lambert's law.
 
-use super::STEPS;
 use crate::block::{BLOCK, load, store};
-use crate::lanes::F;
+use crate::lanes::{F, STEPS, float};
 use crate::math::exp2;
 use crate::tile::{Layer, Stats, Tile};
 use crate::view::View;
@@ -37,7 +36,7 @@ impl Layer for Fog {
 fn cover<S: Simd>(simd: S, fog: &Fog, tile: &mut Tile) {
     let lanes = F::<S>::LEN;
     let (end, one) = (F::<S>::splat(simd, fog.end), F::<S>::splat(simd, 1.0));
-    let steps = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>().to_float::<F<S>>();
+    let steps = float(simd, S::u32s::from_slice(simd, &STEPS[..lanes]));
     let loss = -fog.density * LOG2_E;
     let sky = exp2(simd, end * loss);
     for row in 0..tile.height {

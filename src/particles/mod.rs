@@ -12,7 +12,7 @@ pub mod sprite;
 pub mod strokes;
 
 use crate::BENCH;
-use crate::lanes::{F, U, V3};
+use crate::lanes::{F, STEPS, U, V3};
 use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -221,7 +221,7 @@ fn emit<S: Simd>(simd: S, emitter: &Emitter, first: u32, screen: &Screen, sprite
     while i < end {
         let numbers = U::<S>::from_slice(simd, &STEPS[..F::<S>::LEN]) + i;
         let (grains, lens, eye) = match emitter {
-            Emitter::Snow(snow) => (snow.grains(simd, numbers), &snow.lens, Vec3::ZERO),
+            Emitter::Snow(snow) => (snow.grains(simd, numbers), &snow.flakes.lens, Vec3::ZERO),
             Emitter::Fire(fire) => (fire.grains(simd, numbers), &fire.lens, screen.eye),
             Emitter::Strokes(strokes) => (strokes.grains(simd, numbers), &strokes.lens, Vec3::ZERO),
         };
@@ -230,6 +230,3 @@ fn emit<S: Simd>(simd: S, emitter: &Emitter, first: u32, screen: &Screen, sprite
         i += lanes;
     }
 }
-
-/// 0, 1, 2 and so on.
-const STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];

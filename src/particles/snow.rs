@@ -7,7 +7,7 @@
 use super::Grains;
 use super::sprite::Lens;
 use crate::BENCH;
-use crate::hash::wide;
+use crate::hash::{STEP, wide};
 use crate::lanes::{F, U, V3, float};
 use crate::math;
 use fearless_simd::prelude::*;
@@ -44,9 +44,7 @@ pub struct Flakes {
 /// Flakes at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Snow {
-    flakes: Flakes,
-    /// How they are seen.
-    pub lens: Lens,
+    pub(super) flakes: Flakes,
     /// Share of them that is there.
     share: f32,
     /// Where the box's flakes have come to, 2^-32 of its edges.
@@ -115,7 +113,6 @@ impl Snow {
         let pace = time / std::f64::consts::TAU;
         Snow {
             flakes: *flakes,
-            lens: flakes.lens,
             // So that all are there at 1.
             share: share * (1.0 + FADE),
             carried: carried.to_array().map(wrapped),
@@ -168,9 +165,6 @@ impl Snow {
         Grains { at, radius, light: V3::splat(simd, Vec3::ZERO), alpha: alpha.max(zero), turn, streak }
     }
 }
-
-/// 2^-24.
-const STEP: f32 = 1.0 / 16_777_216.0;
 
 /// Share of the flakes that come or go at a time.
 const FADE: f32 = 0.02;

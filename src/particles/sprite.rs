@@ -60,6 +60,12 @@ pub struct Lens {
     pub streaks: bool,
 }
 
+impl Lens {
+    /// Everything is sharp, of its own size, and there from the eye on.
+    pub const SHARP: Lens =
+        Lens { radius: [0.0, f32::MAX], near: [-1.0, 0.0], aperture: 0.0, focus: 1.0, crystals: false, streaks: false };
+}
+
 /// The screen that sprites are on.
 pub struct Screen {
     /// The eye.
@@ -131,8 +137,8 @@ impl Screen {
         let thin = one / radius;
         let share = size * thin;
         let [near, far] = lens.near;
-        let comes = ((depth - near) * (1.0 / (far - near))).max(zero).min(one);
-        let mut share = (share * share).min(one) * (comes * comes * (comes * -2.0 + 3.0));
+        let comes = math::smooth(simd, (depth - near) * (1.0 / (far - near)));
+        let mut share = (share * share).min(one) * comes;
         let (x, y) = (x + self.middle[0], y + self.middle[1]);
         let (mut across, mut down) = (radius, radius);
         let mut axes = [thin, zero, zero, thin];

@@ -2,7 +2,7 @@
 
 use super::Grains;
 use super::sprite::Lens;
-use crate::hash::wide;
+use crate::hash::{STEP, wide};
 use crate::lanes::{F, Lane, U, V3, float};
 use fearless_simd::prelude::*;
 use glam::Vec3;
@@ -55,6 +55,3 @@ impl Strokes {
         Grains { at, radius: one * self.radius, light, alpha: zero, turn: [one, zero, one], streak: at }
     }
 }
-
-/// 2^-24.
-const STEP: f32 = 1.0 / 16_777_216.0;

@@ -5,7 +5,7 @@
 
 use super::bins::{Id, parts};
 use super::triangle::{Piece, SUB, Triangle};
-use crate::lanes::F;
+use crate::lanes::{F, STEPS};
 use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -26,9 +26,6 @@ pub const CENTER: Sample = [SUB / 2; 2];
 
 /// Beyond this an edge function has one sign in the whole tile.
 const FAR: i64 = 1 << 30;
-
-/// 0, 1, 2, as many as there are lanes.
-pub static STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// Draws triangles over what is visible of the tile whose top left pixel is (`x`, `y`).
 #[simd]

@@ -4,6 +4,7 @@ use super::light::{Light, Sight};
 use super::shade::{Context, Queue, shine};
 use crate::block::{BLOCK, load, store};
 use crate::lanes::{F, Lane, V3};
+use crate::math;
 use crate::texture::{self, Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -50,20 +51,14 @@ pub fn settle<S: Simd>(simd: S, context: &Context, snow: &Settled, sight: &Sight
         let (open, grain): (F<S>, F<S>) = (load(simd, &open[0], i), load(simd, &grain[0], i));
         let albedo = V3::load(simd, &queue.albedo, i);
         let gloss: F<S> = load(simd, &queue.gloss, i);
-        let depth = smooth(simd, (open - KEEPS[0]) * (1.0 / (KEEPS[1] - KEEPS[0]))) * (snow.amount * (1.0 + EDGE));
+        let depth =
+            math::smooth(simd, (open - KEEPS[0]) * (1.0 / (KEEPS[1] - KEEPS[0]))) * (snow.amount * (1.0 + EDGE));
         let rough = (albedo.y * ROUGH + grain).max(zero).min(one);
-        let cover = smooth(simd, (depth - rough) * (1.0 / EDGE)) * (one - gloss);
+        let cover = math::smooth(simd, (depth - rough) * (1.0 / EDGE)) * (one - gloss);
         let white = V3::splat(simd, WHITE) * Lane(grain * RELIEF + 1.0);
         (albedo + (white - albedo) * Lane(cover)).store(&mut queue.albedo, i);
         (V3::load(simd, &queue.light, i) + V3::splat(simd, snow.gives) * Lane(open)).store(&mut queue.light, i);
         store(gloss * (one - cover), &mut queue.gloss, i);
         i += 1;
     }
-}
-
-/// From 0 up to 0 to 1 from 1 on, at rest at both.
-#[inline(always)]
-fn smooth<S: Simd>(simd: S, x: F<S>) -> F<S> {
-    let x = x.max(F::<S>::splat(simd, 0.0)).min(F::<S>::splat(simd, 1.0));
-    x * x * (x * -2.0 + 3.0)
 }

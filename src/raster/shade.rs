@@ -1,14 +1,14 @@
 //! From what is visible in a tile to light: fragments wait until a block of one texture is full, and each is shaded once.
 
 use super::bins::{Id, NOTHING, TEXTURE, parts};
-use super::fill::{STEPS, Sample, Visible};
+use super::fill::{Sample, Visible};
 use super::light::{Light, Sight, Source};
 use super::settle::settle;
 use super::triangle::{SUB, Triangle};
 use super::{Raster, World};
 use crate::BENCH;
 use crate::block::{BLOCK, load, store};
-use crate::lanes::{Bits, F, Lane, U, V3};
+use crate::lanes::{Bits, F, Lane, STEPS, U, V3, float};
 use crate::math;
 use crate::texture::{self, Block3};
 use crate::tile::Tile;
@@ -371,7 +371,7 @@ fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
         let before = haze.at(simd, way).0;
         let samples = (load::<S, U<S>>(simd, &queue.place[0], i) >> 28) + 1;
-        let weight = samples.bitcast::<S::i32s>().to_float::<F<S>>() * share;
+        let weight = float(simd, samples) * share;
         store3((before + (color - before) * Lane(clear)) * Lane(weight), &mut queue.light, i);
         store(weight, &mut queue.weight, i);
         i += 1;
@@ -380,8 +380,8 @@ fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
 
 /// Steps of 1/256 as a number.
 #[inline(always)]
-fn steps<S: Simd>(_simd: S, steps: U<S>) -> F<S> {
-    steps.bitcast::<S::i32s>().to_float::<F<S>>() * (1.0 / SUB as f32)
+fn steps<S: Simd>(simd: S, steps: U<S>) -> F<S> {
+    float(simd, steps) * (1.0 / SUB as f32)
 }
 
 /// Vector `i` of a block.

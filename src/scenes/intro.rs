@@ -67,14 +67,7 @@ fn title(shot: &Shot) -> Particles {
         spread: 0.005 + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
         radius: 0.16 * SIZE,
         light: vec3(0.3, 0.2, 0.1) * (comes * (1.0 - goes)),
-        lens: Lens {
-            radius: [0.7, f32::MAX],
-            near: [0.2, 0.5],
-            aperture: 0.0,
-            focus: 1.0,
-            crystals: false,
-            streaks: false,
-        },
+        lens: Lens { radius: [0.7, f32::MAX], near: [0.2, 0.5], ..Lens::SHARP },
     };
     let view = View::new(camera, shot.width, shot.height);
     Particles::new(vec![Emitter::Strokes(strokes)], Vec3::ZERO, 1.6, &view, shot.width, shot.height)

@@ -18,10 +18,6 @@ pub const SNOW: Scene = Scene { name: "snow", about: "bench: 200,000 flakes of s
 pub const FIRE: Scene =
     Scene { name: "fire", about: "bench: five torches of 2,000 sprites", duration: 20.0, picture: fire };
 
-/// Every sprite has its own size.
-const LENS: Lens =
-    Lens { radius: [0.0, f32::MAX], near: [-1.0, 0.0], aperture: 0.0, focus: 1.0, crystals: false, streaks: false };
-
 /// The flakes, as specified.
 pub const FLAKES: Flakes = Flakes {
     seed: 3,
@@ -34,7 +30,7 @@ pub const FLAKES: Flakes = Flakes {
     pace: [0.8, 0.8],
     radius: [0.008, 0.010],
     by: 7,
-    lens: Lens { radius: [1.0, 24.0], near: [0.25, 1.0], ..LENS },
+    lens: Lens { radius: [1.0, 24.0], near: [0.25, 1.0], ..Lens::SHARP },
 };
 
 /// The torches' flames, as specified.
@@ -85,7 +81,7 @@ pub fn fires(time: f64) -> Vec<Fire> {
             first: 2000 * j,
             count: 2000.0,
             weight: 1.0,
-            lens: LENS,
+            lens: Lens::SHARP,
         }
     };
     (0..5).map(torch).collect()

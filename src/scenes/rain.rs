@@ -25,7 +25,7 @@ const DROPS: Flakes = Flakes {
     pace: [0.0, 0.0],
     radius: [0.004, 0.005],
     by: 3,
-    lens: Lens { radius: [0.6, 4.0], near: [0.3, 1.5], aperture: 0.0, focus: 1.0, crystals: false, streaks: true },
+    lens: Lens { radius: [0.6, 4.0], near: [0.3, 1.5], streaks: true, ..Lens::SHARP },
 };
 
 /// Seconds that the shutter is open.

@@ -47,7 +47,7 @@ const NEAR: Flakes = Flakes {
     pace: [0.8, 0.8],
     radius: [0.009, 0.016],
     by: 3,
-    lens: Lens { radius: [1.0, 64.0], near: [0.3, 0.8], aperture: 0.012, focus: 1.6, crystals: true, streaks: false },
+    lens: Lens { radius: [1.0, 64.0], near: [0.3, 0.8], aperture: 0.012, focus: 1.6, crystals: true, ..Lens::SHARP },
 };
 /// and larger tufts farther off.
 static FIELDS: [Flakes; 2] = [

@@ -148,10 +148,6 @@ static FLAMES: [Flame; 2] = [
     },
 ];
 
-/// How sprites are seen.
-const LENS: Lens =
-    Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], aperture: 0.0, focus: 1.0, crystals: false, streaks: false };
-
 /// What is seen of the fires themselves.
 fn flames(shot: &Shot, view: &View) -> Particles {
     let mut flames = Vec::new();
@@ -170,7 +166,7 @@ fn flames(shot: &Shot, view: &View) -> Particles {
                 first: 0,
                 count,
                 weight: 1.0,
-                lens: LENS,
+                lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
             flames.push(Emitter::Fire(fire.detailed(view, shot.quality.particle_detail)));
         }
