@@ -9,6 +9,9 @@ use paprsek::scenes::{self, Shot};
 use paprsek::tile::{Frame, Renderer, Tile};
 use std::error::Error;
 
+#[path = "common/picture.rs"]
+mod picture;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let argument = |n: usize, default: &str| arguments.get(n).map_or(default, String::as_str).to_owned();
@@ -39,9 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    let rgb = pixels.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
-    image::RgbImage::from_raw(*width as u32, *height as u32, rgb).ok_or("size")?.save(&file)?;
     let share = stats.samples as f64 / (*width * *height) as f64;
+    picture::rgb(&frame).save(&file)?;
     println!("{}: {:.1} % of the pixels traced, 1 in {:.1}: {file}", scene.name, 100.0 * share, 1.0 / share);
     Ok(())
 }

@@ -1,9 +1,13 @@
 //! How far a picture is from the true one: several numbers, since no single one is a judge.
 
+use self::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
 use paprsek::tile::Frame;
+
+#[path = "../common/picture.rs"]
+mod picture;
 
 /// A channel off by more than this many codes makes a bad pixel: what a viewer may see in one pixel alone.
 const BAD: u8 = 8;
@@ -63,10 +67,4 @@ impl Error {
     pub fn psnr(&self) -> f64 {
         20.0 * (255.0 / self.rmse()).log10()
     }
-}
-
-/// As the crates of pictures like it.
-fn rgb(frame: &Frame) -> RgbImage {
-    let bytes = frame.pixels.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
-    RgbImage::from_raw(frame.width as u32, frame.height as u32, bytes).expect("three bytes a pixel")
 }

@@ -1,0 +1,10 @@
+//! Frames as the crate of pictures likes them.
+
+use image::RgbImage;
+use paprsek::tile::Frame;
+
+/// The same pixels.
+pub fn rgb(frame: &Frame) -> RgbImage {
+    let bytes = frame.pixels.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
+    RgbImage::from_raw(frame.width as u32, frame.height as u32, bytes).expect("three bytes a pixel")
+}
