@@ -86,7 +86,7 @@ pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
 }
 
 /// The two stages of the unpacker. The first is in the file as it is; the second is coded for it.
-fn stages(stub: &[u8]) -> Result<[&[u8]; 2], String> {
+pub fn stages(stub: &[u8]) -> Result<[&[u8]; 2], String> {
     let all = elf::segments(stub)?;
     let mut stages = all.iter().filter(|s| s.kind == 1 && s.flags & 1 != 0);
     let (Some(one), Some(two)) = (stages.next(), stages.next()) else { return Err("the stub lacks a stage".into()) };

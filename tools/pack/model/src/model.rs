@@ -9,7 +9,7 @@ pub const CONTEXTS: usize = 16;
 /// Inputs of a mixer: three vectors of the contexts, one of the match and a constant.
 const VECTORS: usize = 4;
 /// Their weights at first.
-const WEIGHTS: [i16; VECTORS] = [1000, 400, 1300, 4000];
+const WEIGHTS: [i16; VECTORS] = [1000, 300, 1300, 1500];
 /// Mixers whose results the last ones mix.
 const MIXERS: usize = 6;
 /// Sets of weights of each, one of which is chosen for each bit.
@@ -25,7 +25,7 @@ pub const MOST: usize = 1 << 22;
 /// Bytes that a match must have in common at first.
 const MATCH_MIN: u32 = 5;
 /// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
-const RATES: [i32; 2] = [7, 2];
+const RATES: [i32; 2] = [6, 3];
 
 /// Which features make each context, in code and in data.
 pub type Sets = [[u32; CONTEXTS]; 2];
@@ -220,7 +220,7 @@ impl Model {
             let (p, n) = (slot::probability(slot), slot::count(slot));
             known += (n != 0) as u32;
             direct[i] = self.logistic.stretch(p);
-            certain[i] = (((p - 0x8000) * n.min(16)) >> 9) as i16;
+            certain[i] = (((p - 0x8000) * n.min(12)) >> 9) as i16;
             indirect[i] = self.logistic.stretch(slot::probability(histories[i][slot::history(slot)]));
         }
         self.match_slot = 0;
@@ -247,7 +247,7 @@ impl Model {
                 f[12] & 1023 | 1024
             },
         ];
-        self.chosen_last = [self.chosen[1], self.chosen[MIXERS - 1], self.match_length.min(15) | class];
+        self.chosen_last = [self.chosen[1], self.chosen[MIXERS - 1], f[0] | class];
         for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
             *mixed = dot(&self.inputs, &weights[row as usize & (ROWS - 1)]) as i16;
         }

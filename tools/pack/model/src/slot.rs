@@ -22,7 +22,7 @@ pub fn count(slot: u32) -> i32 {
 /// Learns one bit: the `n`th moves the probability by 1 / (n + 0.25).
 pub fn update(slot: &mut u32, bit: u32) {
     let (p, n, h) = ((*slot >> 15) as i32 ^ 0x1_0000, count(*slot), *slot & 255);
-    let p = p + 4 * ((0x1_ffff & -(bit as i32)) - p) / (4 * n + 5);
+    let p = p + 16 * ((0x1_ffff & -(bit as i32)) - p) / (16 * n + 17);
     let n = n + (n < LIMIT) as i32;
     // The bit that falls out of eight goes on as the leading one.
     let h = h.max(1) << 1 | bit;
