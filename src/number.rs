@@ -30,13 +30,9 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
     if !digits {
         return None;
     }
-    if mantissa == 0 {
-        return Some(0.0);
-    }
-    let power = (0..scale.unsigned_abs().min(400)).fold(1.0, |power: f64, _| power * 10.0);
+    // Past 300 places it is infinite, or too little to mean anything, all the same.
+    let power = (0..scale.unsigned_abs().min(300)).fold(1.0, |power: f64, _| power * 10.0);
     let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
-    // The power may overflow where the value does not: far below the smallest time that means anything.
-    let value = if scale < 0 && power.is_infinite() { 0.0 } else { value };
     value.is_finite().then_some(value)
 }
 
