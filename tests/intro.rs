@@ -37,7 +37,7 @@ fn capture(mut program: Command, words: &[&str]) -> Vec<u8> {
 #[test]
 fn it_shows_the_plain_build_s_pictures() {
     let Some(intro) = intro() else { return };
-    let show = ["--from", "1", "--to", "143", "--fps", "0.1", "--size", "160x90"];
+    let show = ["--from", "1", "--to", "154", "--fps", "0.1", "--size", "160x90"];
     let fade = ["--from", "20.6", "--to", "21.4", "--fps", "25", "--size", "160x90"];
     let runs = [show.to_vec(), fade.to_vec(), [&show[..], &["--quality", "fast"]].concat()];
     for words in runs {

@@ -18,7 +18,7 @@ pub const INTRO: Scene =
     Scene { name: "intro", about: "the show: its parts one after another", duration: END, picture };
 
 /// The parts by the second that each starts, with the second of its own time that it begins at: a dawn, a morning in
-/// June, the flight, a sunset in September, the first snow, and a night with fires.
+/// June, the flight, a sunset in September, the first snow, a night with fires, and the last light.
 #[rustfmt::skip]
 pub const PARTS: &[(f64, (Scene, f64))] = &[
     (0.0, (lumen::LUMEN, 0.0)),
@@ -32,10 +32,12 @@ pub const PARTS: &[(f64, (Scene, f64))] = &[
     (83.0, (snowfall::SNOWFALL, 1.0)),
     #[cfg(feature = "day")]
     (113.0, (torches::TORCHES, 0.0)),
+    #[cfg(feature = "day")]
+    (143.0, (lumen::LUMEN, 45.0)),
 ];
 
 /// Seconds that the show takes.
-const END: f64 = if cfg!(feature = "day") { 143.0 } else { 21.0 };
+const END: f64 = if cfg!(feature = "day") { 154.0 } else { 21.0 };
 
 /// Seconds in which a part goes dark, and in which the next one comes.
 pub const FADE: f64 = 0.5;
@@ -43,9 +45,7 @@ pub const FADE: f64 = 0.5;
 fn picture(shot: &Shot) -> Picture {
     let ((part, from), time) = timeline::cut(PARTS, END, shot.time);
     let mut picture = part.picture(&Shot { time: from + time, ..*shot });
-    if shot.time < TITLE {
-        picture.layers.push(Box::new(title(shot)));
-    }
+    write(shot, &mut picture);
     let light = light(PARTS, END, shot.time);
     if light < 1.0 {
         picture.layers.push(Box::new(Fade(light)));
@@ -53,28 +53,46 @@ fn picture(shot: &Shot) -> Picture {
     picture
 }
 
-/// The second at which the title has gone.
-pub const TITLE: f64 = 7.0;
+/// What is written: the second at which it begins to come together; left end and foot of the line, and a quarter of its
+/// letters' height, sixteenths of a metre at two metres before the eye.
+#[rustfmt::skip]
+pub const WRITING: &[([f32; 4], &str)] = &[
+    ([1.0, -12.0, -1.6, 1.2], "PAPRSEK"),
+    ([144.5, 6.0, 5.0, 0.45], "FIVE THESES"),
+    ([145.5, 6.0, 1.0, 0.45], "TWO CORES"),
+    ([146.5, 6.0, -3.0, 0.45], "64 KB"),
+];
 
-/// The show's name, of sparks that come together and fly apart, two metres before the eye.
-fn title(shot: &Shot) -> Particles {
-    let comes = ease(1.5, 3.5, shot.time);
-    let goes = ease(TITLE - 1.5, TITLE, shot.time);
-    let camera = shot.camera(Camera::look_at(Vec3::ZERO, Vec3::Z, 0.8, 0.0));
-    let strokes = Strokes {
-        lines: letters::write("PAPRSEK", vec3(0.75, -0.1, 2.0), Vec3::X * -SIZE, Vec3::Y * SIZE),
-        each: 250,
-        spread: 0.005 + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
-        radius: 0.16 * SIZE,
-        light: vec3(0.3, 0.2, 0.1) * (comes * (1.0 - goes)),
-        lens: Lens { radius: [0.7, f32::MAX], near: [0.2, 0.5], ..Lens::SHARP },
-    };
-    let view = View::new(camera, shot.width, shot.height);
-    Particles::new(vec![Emitter::Strokes(strokes)], Vec3::ZERO, 1.6, &view, shot.width, shot.height)
+/// Seconds after which it has flown apart.
+pub const READ: f64 = 6.5;
+
+/// Lines of sparks that come together and fly apart.
+fn write(shot: &Shot, picture: &mut Picture) {
+    let mut lines = Vec::new();
+    for &([start, x, y, size], text) in WRITING {
+        let age = shot.time - start as f64;
+        let comes = ease(0.0, 2.0, age);
+        let goes = ease(5.0, READ, age);
+        let light = comes * (1.0 - goes);
+        if light > 0.0 {
+            let [x, y, size] = [x, y, size].map(|n| n / 16.0);
+            lines.push(Emitter::Strokes(Strokes {
+                lines: letters::write(text, vec3(x, y, -2.0), Vec3::X * size, Vec3::Y * size),
+                each: 250,
+                spread: 0.005 + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
+                radius: 0.16 * size,
+                light: vec3(0.3, 0.2, 0.1) * light,
+                lens: Lens { radius: [0.7, f32::MAX], near: [0.2, 0.5], ..Lens::SHARP },
+            }));
+        }
+    }
+    if !lines.is_empty() {
+        let camera = shot.camera(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
+        let view = View::new(camera, shot.width, shot.height);
+        let sparks = Particles::new(lines, Vec3::ZERO, 1.6, &view, shot.width, shot.height);
+        picture.layers.push(Box::new(sparks));
+    }
 }
-
-/// A quarter of its letters' height, metres.
-const SIZE: f32 = 0.075;
 
 /// The share of light at `time` in a show of such parts: 0 at cuts and from the `end` on, 1 away from them. It starts at
 /// once, since a first frame should show something.

@@ -26,7 +26,7 @@ const END: f64 = 56.0;
 pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, OWN[0]), (33.0, OWN[1]), (45.0, OWN[2])];
 
 /// Those of this part alone: the show leaves them out, and so does the 64 kB build.
-const OWN: [&[u8]; 3] = if BENCH { [COLUMNS, DANCE, SUNSET] } else { [TABLE; 3] };
+const OWN: [&[u8]; 3] = if BENCH { [COLUMNS, DANCE, SUNSET] } else { [TABLE, TABLE, SUNSET] };
 
 operations! {
     /// The camera's keys, nine numbers each: seconds since the shot's start; eye, target, vertical field of view in
@@ -53,15 +53,13 @@ operations! {
     COLUMN = 49;
     /// a plane, upwards for 1 and downwards for -1, that far from the origin,
     PLANE = 50;
-    /// the top of a ball of a radius, hundreds of metres.
-    GLOBE = 51;
     /// Light of a colour from a ball in the direction of that place, whose radius is the sine of what is seen of it,
-    SUN = 52;
+    SUN = 51;
     /// or of a radius on the place.
-    LAMP = 53;
+    LAMP = 52;
     /// The last word: light from everywhere; the sky's colours at the horizon, at the zenith, and of a glow in the
     /// direction of that place, with a tenth of its exponent; the longest chain of rays.
-    WORLD = 54;
+    WORLD = 53;
 }
 
 // Variables: seconds since the shot's start, how much of the evening is left (1 to 0), the number of the keys.
@@ -147,8 +145,6 @@ impl Set {
                         byte::COLUMN => {
                             Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
                         }
-                        #[cfg(feature = "bench-scenes")]
-                        byte::GLOBE => Shape::Globe { touch: at, normal: Vec3::Y, radius: 100.0 * n[0] },
                         _ => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
                     };
                     self.world.objects.push(self.object);
@@ -352,7 +348,8 @@ const fn inlay(mirror: Word, y: Word, radius: Word) -> [Word; 19] {
     ]
 }
 
-/// Sunset: the ball on the water, and the sun in it.
+/// Sunset: the ball on the water, and the sun in it. The sea is a disc, so that its edge and the clouds mirror the sky
+/// beyond.
 #[rustfmt::skip]
 const SUNSET: &[u8] = script![
     [
@@ -361,7 +358,7 @@ const SUNSET: &[u8] = script![
         11.0, 0.6, 2.3, 9.0, 1.2, 1.6, 0.0, 4.0, 0.0, CAMERA,
     ],
     kind(CLOUDS, [0.0, 0.01, 0.03], [0.05, 0.1, 0.14], 0.4, 4.0),
-    [TEXTURE, 0.05, 0.05, 0.05, 0.0, 0.1, 1.0, 0.0, SURFACE, 2.2, GLOBE],
+    [TEXTURE, 0.05, 0.05, 0.05, 0.0, 0.1, 1.0, 0.0, SURFACE, 0.0, -1.0, 0.0, AT, 1.0, 5.0, 11.0, MUL, COLUMN],
     // The clouds have no light but the ambient: theirs is painted on. Towards the horizon they mirror the sky.
     [0.0, 0.0, 1.5, TIME, MUL, AT, 0.6, DAY, MUL, 0.18, DAY, MUL, 0.15, DAY, MUL],
     [11.0, DAY, MUL, 0.6, ADD, 4.545, DAY, MUL, 0.545, ADD, 0.8, DAY, MUL, 0.7, ADD],
@@ -377,4 +374,4 @@ const SUNSET: &[u8] = script![
     LOW, [0.1, 0.11, 0.2, 0.6, DAY, MUL, 0.12, ADD, 0.2, DAY, MUL, 0.1, ADD, 0.2, 0.02, 0.05, 0.2],
     [get(5), get(5), 0.45, MUL, get(5), 0.12, MUL, 1.8, 6.0, WORLD],
 ];
-const LOW: [Word; 8] = [0.17, 0.26, DAY, MUL, -0.14, ADD, -1.0, AT];
+const LOW: [Word; 8] = [0.17, 0.2, DAY, MUL, -0.05, ADD, -1.0, AT];
