@@ -8,7 +8,7 @@ use paprsek::tile::Renderer;
 
 /// The table of all parts, Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
-    let (width, height) = effort.half;
+    let (width, height) = effort.compared;
     let mut text = format!(
         "## Error\n\n\
          `default` against `reference`, 64 traced samples a pixel, at {width}x{height}: in the middle of each shot, or of \
@@ -21,7 +21,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
         let instants = instants(part, effort.piece);
         let mut compare = |at: &f64| {
             let [ours, truth] =
-                [Quality::DEFAULT, Quality::REFERENCE].map(|quality| render(renderer, effort.half, *at, &quality));
+                [Quality::DEFAULT, Quality::REFERENCE].map(|quality| render(renderer, effort.compared, *at, &quality));
             Difference::between(&ours, &truth)
         };
         let differences: Vec<_> = instants.iter().map(&mut compare).collect();

@@ -1,6 +1,7 @@
 //! The show, part by part: speed, error, and whether anything pops. Writes `show.md`.
 //!
-//! `cargo run --release --example show -- [--quick] [--out DIR]`, DIR `docs/report`: some ten minutes on two cores.
+//! `cargo run --release --example show -- [--quick] [--out DIR]`, DIR `docs/report`: some thirteen minutes on two cores, half of them for
+//! the reference of clouds.
 //! `--quick` shows in seconds that it works; its figures are rough.
 
 #[path = "../common/difference.rs"]
@@ -23,23 +24,39 @@ use std::path::PathBuf;
 
 const THREADS: usize = 2;
 
-/// How much is measured.
+/// How much is measured. Sizes are pixels in a row, and rows.
 struct Effort {
-    /// Pixels in a row, and rows, of frames that are timed, and of those that are compared: the reference takes long.
-    full: (usize, usize),
-    half: (usize, usize),
-    /// Every how many frames of the film one is timed.
+    /// Of frames that are timed; every how many frames of the film one is.
+    timed: (usize, usize),
     every: usize,
-    /// Seconds of a shot for each instant that is compared with the reference.
+    /// Of frames that are compared with the reference, which takes up to a minute; seconds of a shot for each of them.
+    compared: (usize, usize),
     piece: f64,
-    /// Pairs of frames of each shot whose change is measured, and changes of a part that are held against the reference's.
+    /// Of frames whose change is measured; at most how many pairs of a shot; how many of a part's pairs beside the
+    /// largest are held against the reference's.
+    changing: (usize, usize),
     pairs: usize,
     candidates: usize,
 }
 
-const FULL: Effort =
-    Effort { full: (1280, 720), half: (640, 360), every: 1, piece: 6.0, pairs: usize::MAX, candidates: 3 };
-const QUICK: Effort = Effort { full: (480, 270), half: (64, 36), every: 60, piece: 60.0, pairs: 15, candidates: 1 };
+const FULL: Effort = Effort {
+    timed: (1280, 720),
+    every: 1,
+    compared: (640, 360),
+    piece: 10.0,
+    changing: (320, 180),
+    pairs: usize::MAX,
+    candidates: 2,
+};
+const QUICK: Effort = Effort {
+    timed: (480, 270),
+    every: 60,
+    compared: (64, 36),
+    piece: 60.0,
+    changing: (64, 36),
+    pairs: 15,
+    candidates: 1,
+};
 
 /// The show at a second.
 fn render(renderer: &mut Renderer, (width, height): (usize, usize), time: f64, quality: &Quality) -> Frame {
@@ -60,17 +77,22 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let parts = parts::all()?;
     let mut renderer = Renderer::new(THREADS)?;
-    let (machine, simd, (width, height)) = (machine::machine(), renderer.simd(), effort.full);
+    let (machine, simd, (width, height)) = (machine::machine(), renderer.simd(), effort.timed);
     let head = format!(
         "# The show\n\n\
          Written by `cargo run --release --example show{quick}`; not edited by hand.\n\n\
          {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are the show's.\n"
     );
     let reports = [speed::report, error::report, pops::report];
-    let tables = reports.map(|report| report(&mut renderer, &parts, &effort));
+    let mut text = head;
+    for report in reports {
+        let table = report(&mut renderer, &parts, &effort);
+        println!("{table}");
+        text += &format!("\n{table}");
+    }
     std::fs::create_dir_all(&out)?;
     let file = out.join("show.md");
-    std::fs::write(&file, format!("{head}\n{}", tables.join("\n")))?;
+    std::fs::write(&file, text)?;
     println!("{}", file.display());
     Ok(())
 }

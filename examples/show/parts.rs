@@ -26,10 +26,12 @@ pub fn all() -> Result<Vec<Part>, String> {
 
 /// Where a scene's shots start, seconds.
 fn cuts(scene: &Scene) -> Result<Vec<f64>, String> {
+    // Days start at four.
+    let leap = day::LENGTH * (f64::from(day::LEAP) - 4.0) / 24.0;
     Ok(match scene.name {
         "lumen" => lumen::CUTS.iter().map(|shot| shot.0).collect(),
-        // Each day is a shot, and the next is of another season.
-        "day" => (0..4).map(|day| day::LENGTH * f64::from(day)).collect(),
+        // The next day is of another season.
+        "day" => (0..4).flat_map(|day| [0.0, leap].map(|since| day::LENGTH * f64::from(day) + since)).collect(),
         "clouds" => clouds::SHOTS.iter().map(|shot| shot.0).collect(),
         "snowfall" => vec![0.0],
         "torches" => torches::SHOTS.iter().map(|shot| shot.0).collect(),

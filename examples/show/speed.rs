@@ -43,7 +43,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
 
 /// Renders a part frame after frame.
 fn play(renderer: &mut Renderer, part: &Part, quality: &Quality, effort: &Effort) -> Cost {
-    let mut frame = Frame::new(effort.full.0, effort.full.1);
+    let mut frame = Frame::new(effort.timed.0, effort.timed.1);
     let mut cost = Cost { frames: Vec::new(), samples: 0 };
     for number in part.frames(FPS).step_by(effort.every) {
         let time = number as f64 / FPS;
@@ -64,6 +64,6 @@ fn row(part: &str, quality: &str, Cost { mut frames, samples }: Cost, effort: &E
         let fps = 1e3 / ms;
         if fps < goal { format!("**{fps:.1}**") } else { format!("{fps:.1}") }
     });
-    let samples = samples as f64 / (count * effort.full.0 * effort.full.1) as f64;
+    let samples = samples as f64 / (count * effort.timed.0 * effort.timed.1) as f64;
     format!("| {part} | {quality} | {count} | {median} | {slow} | {worst:.1} | {at:.2} | {samples:.3} |\n")
 }
