@@ -15,7 +15,7 @@ mod parts;
 mod pops;
 mod speed;
 
-use lexopt::{Arg, Parser, ValueExt};
+use lexopt::{Arg, Parser};
 use paprsek::quality::Quality;
 use paprsek::scenes::INTRO;
 use paprsek::tile::{Frame, Renderer};
@@ -71,21 +71,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     while let Some(argument) = parser.next()? {
         match argument {
             Arg::Long("quick") => (effort, quick) = (QUICK, " -- --quick"),
-            Arg::Long("out") => out = parser.value()?.parse()?,
+            Arg::Long("out") => out = parser.value()?.into(),
             other => return Err(other.unexpected().into()),
         }
     }
     let parts = parts::all()?;
     let mut renderer = Renderer::new(THREADS)?;
     let (machine, simd, (width, height)) = (machine::machine(), renderer.simd(), effort.timed);
-    let head = format!(
+    let mut text = format!(
         "# The show\n\n\
          Written by `cargo run --release --example show{quick}`; not edited by hand.\n\n\
          {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are the show's.\n"
     );
-    let reports = [speed::report, error::report, pops::report];
-    let mut text = head;
-    for report in reports {
+    for report in [speed::report, error::report, pops::report] {
         let table = report(&mut renderer, &parts, &effort);
         println!("{table}");
         text += &format!("\n{table}");
