@@ -4,13 +4,18 @@
 //! that what else the machine does hits all alike. Samples are eye rays; of the rasterizer's scenes, fragments; `sky`
 //! counts none.
 
+#[path = "common/difference.rs"]
+mod difference;
+#[path = "common/likeness.rs"]
+mod likeness;
+#[path = "common/maps.rs"]
+mod maps;
+
+use difference::Difference;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use paprsek::tile::{Frame, Renderer};
 use std::time::Instant;
-
-#[path = "common/maps.rs"]
-mod maps;
 
 /// Size of the frames that are timed, and of those that are compared with 64 samples a pixel, which take long.
 const FULL: (usize, usize) = (1280, 720);
@@ -20,33 +25,23 @@ const THREADS: usize = 2;
 const INSTANTS: usize = 5;
 /// Times that every frame is rendered; the median counts.
 const ROUNDS: usize = 9;
-/// A pixel counts as off when a channel is, by more than this many codes.
-const OFF: u8 = 8;
 
 fn main() -> Result<(), String> {
     let mut renderer = Renderer::new(THREADS)?;
     // The show's parts are scenes of their own.
     let scenes: Vec<_> = scenes::all().iter().filter(|scene| scene.name != scenes::INTRO.name).copied().collect();
     let times = time(&mut renderer, &scenes);
-    println!(
-        "| scene | quality | fps | samples a pixel | PSNR, dB (worst) | pixels off by more than {OFF} | against |"
-    );
+    println!("| scene | quality | fps | samples a pixel | {} | against |", likeness::head());
     println!("|---|---|---|---|---|---|---|");
     for (scene, [fast, default]) in scenes.iter().zip(times) {
-        let mut error = Error::default();
-        for at in instants(scene) {
-            error.add(
-                &render(&mut renderer, scene, at, Quality::FAST),
-                &render(&mut renderer, scene, at, Quality::EXACT),
-            );
-        }
-        row(scene, "fast", fast, error, "exact");
-        let (mut error, at) = (Error::default(), instants(scene)[INSTANTS / 2]);
-        let [mut ours, mut truth] = [Frame::new(HALF.0, HALF.1), Frame::new(HALF.0, HALF.1)];
-        renderer.render(scene, at, &Quality::DEFAULT, &mut ours);
-        renderer.render(scene, at, &Quality::REFERENCE, &mut truth);
-        error.add(&ours, &truth);
-        row(scene, "default", default, error, "reference");
+        let mut compare = |at| {
+            let [ours, truth] = [Quality::FAST, Quality::EXACT].map(|q| render(&mut renderer, FULL, scene, at, q));
+            Difference::between(&ours, &truth)
+        };
+        row(scene, "fast", fast, &instants(scene).map(&mut compare), "exact");
+        let at = instants(scene)[INSTANTS / 2];
+        let [ours, truth] = [Quality::DEFAULT, Quality::REFERENCE].map(|q| render(&mut renderer, HALF, scene, at, q));
+        row(scene, "default", default, &[Difference::between(&ours, &truth)], "reference");
     }
     let (width, height) = FULL;
     println!();
@@ -98,50 +93,16 @@ fn instants(scene: &Scene) -> [f64; INSTANTS] {
     std::array::from_fn(|k| scene.duration * (k as f64 + 0.5) / INSTANTS as f64)
 }
 
-fn render(renderer: &mut Renderer, scene: &Scene, at: f64, quality: Quality) -> Frame {
-    let mut frame = Frame::new(FULL.0, FULL.1);
+fn render(renderer: &mut Renderer, size: (usize, usize), scene: &Scene, at: f64, quality: Quality) -> Frame {
+    let mut frame = Frame::new(size.0, size.1);
     renderer.render(scene, at, &quality, &mut frame);
     frame
 }
 
-fn row(scene: &Scene, quality: &str, cost: Cost, error: Error, truth: &str) {
+fn row(scene: &Scene, quality: &str, cost: Cost, differences: &[Difference], truth: &str) {
     let name = scene.name;
     let fps = INSTANTS as f64 / cost.seconds;
     let samples = cost.samples as f64 / (INSTANTS * FULL.0 * FULL.1) as f64;
-    let (mean, worst, off) = (error.mean / error.frames, error.worst, error.off / error.frames);
-    let likeness = if worst > 0.0 { format!("{:.1} ({:.1})", psnr(mean), psnr(worst)) } else { "equal".to_string() };
-    let off = 100.0 * off;
-    println!("| `{name}` | {quality} | {fps:.1} | {samples:.3} | {likeness} | {off:.2} % | {truth} |");
-}
-
-/// Sums over compared frames.
-#[derive(Default)]
-struct Error {
-    frames: f64,
-    /// Mean squares of the difference, codes; the largest of them; shares of pixels that are off.
-    mean: f64,
-    worst: f64,
-    off: f64,
-}
-
-impl Error {
-    fn add(&mut self, ours: &Frame, truth: &Frame) {
-        let (mut square, mut off) = (0u64, 0u64);
-        for (a, b) in ours.pixels.iter().zip(&truth.pixels) {
-            let gaps = [0, 1, 2].map(|k| a.to_be_bytes()[k + 1].abs_diff(b.to_be_bytes()[k + 1]));
-            square += gaps.iter().map(|gap| u64::from(*gap).pow(2)).sum::<u64>();
-            off += u64::from(gaps.iter().any(|gap| *gap > OFF));
-        }
-        let pixels = ours.pixels.len() as f64;
-        let mean = square as f64 / (3.0 * pixels);
-        self.frames += 1.0;
-        self.mean += mean;
-        self.worst = self.worst.max(mean);
-        self.off += off as f64 / pixels;
-    }
-}
-
-/// Decibels of a mean square of 8-bit codes.
-fn psnr(mean: f64) -> f64 {
-    10.0 * (255.0 * 255.0 / mean).log10()
+    let likeness = likeness::columns(differences);
+    println!("| `{name}` | {quality} | {fps:.1} | {samples:.3} | {likeness} | {truth} |");
 }

@@ -11,6 +11,8 @@ mod plot;
 mod subject;
 mod sweep;
 
+#[path = "../common/machine.rs"]
+mod machine;
 #[path = "../common/maps.rs"]
 mod maps;
 
@@ -78,7 +80,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (sweep, tables) in &results {
         plot::draw(&out.join(format!("{}.svg", sweep.file)), sweep, tables)?;
     }
-    let setting = Setting { machine: machine(), simd, command, effort: &effort };
+    let setting = Setting { machine: machine::machine(), simd, command, effort: &effort };
     let file = out.join("report.md");
     std::fs::write(&file, markdown::report(&setting, &results))?;
     println!("{}: {} sweeps in {:.0} s", file.display(), results.len(), began.elapsed().as_secs_f64());
@@ -93,13 +95,4 @@ fn choose(names: &[String]) -> Result<Vec<Subject>, String> {
     }
     let wanted = |subject: &Subject| names.is_empty() || names.iter().any(|name| subject.answers_to(name));
     Ok(all.into_iter().filter(wanted).collect())
-}
-
-/// The processor's name and number of threads.
-fn machine() -> String {
-    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| cpu.lines().find(|l| l.starts_with(name)).and_then(|l| l.split(": ").nth(1));
-    let count = std::thread::available_parallelism().map_or(1, usize::from);
-    let (family, model) = (field("cpu family").unwrap_or("?"), field("model\t").unwrap_or("?"));
-    format!("{}, family {family} model {model}, {count} threads", field("model name").unwrap_or("unknown processor"))
 }

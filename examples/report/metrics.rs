@@ -1,16 +1,16 @@
 //! How far a picture is from the true one: several numbers, since no single one is a judge.
 
+use self::difference::{Difference, psnr};
 use self::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
 use paprsek::tile::Frame;
 
+#[path = "../common/difference.rs"]
+mod difference;
 #[path = "../common/picture.rs"]
 mod picture;
-
-/// A channel off by more than this many codes makes a bad pixel: what a viewer may see in one pixel alone.
-const BAD: u8 = 8;
 
 /// The error of a picture, or the mean over several pictures.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,20 +30,13 @@ pub struct Error {
 impl Error {
     /// Of `picture` against `truth`, which have the same size.
     pub fn between(picture: &Frame, truth: &Frame) -> Error {
+        let Difference { square, off: bad } = Difference::between(picture, truth);
         let (picture, truth) = (rgb(picture), rgb(truth));
-        let (mut square, mut bad) = (0u64, 0u32);
-        for (a, b) in picture.pixels().zip(truth.pixels()) {
-            let off = [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
-            square += off.map(|d| u64::from(d).pow(2)).iter().sum::<u64>();
-            bad += u32::from(off.iter().any(|d| *d > BAD));
-        }
-        let pixels = f64::from(picture.width()) * f64::from(picture.height());
         let ssim = rgb_similarity_structure(&Algorithm::MSSIMSimple, &truth, &picture).expect("equal sizes").score;
         let image = |from: &RgbImage| FlipImageRgb8::with_data(from.width(), from.height(), from.as_raw());
         let mut pool = FlipPool::from_image(&flip(image(&truth), image(&picture), DEFAULT_PIXELS_PER_DEGREE));
         let flip99 = f64::from(pool.get_percentile(0.99, false));
-        let square = square as f64 / (3.0 * pixels);
-        Error { square, ssim, flip: f64::from(pool.mean()), flip99, bad: f64::from(bad) / pixels }
+        Error { square, ssim, flip: f64::from(pool.mean()), flip99, bad }
     }
 
     /// The mean of several pictures' errors; of squares before the root, so that PSNR is that of all pixels together.
@@ -65,6 +58,6 @@ impl Error {
 
     /// Peak signal to noise, decibels; infinite for equal pictures.
     pub fn psnr(&self) -> f64 {
-        20.0 * (255.0 / self.rmse()).log10()
+        psnr(self.square)
     }
 }

@@ -36,7 +36,7 @@ const FIELD: Field = Field {
 /// east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
 /// how far before the aeroplane it looks, metres; the vertical field of view, degrees.
 #[rustfmt::skip]
-static SHOTS: &[(f64, [f32; 10])] = &[
+pub static SHOTS: &[(f64, [f32; 10])] = &[
     // Into a cloud, before the rising sun; through it, and into the next; out of that, and past.
     (0.0, [-1230.0, 725.0, -110.0, -0.15, -24.0, 5.0, 9.0, 78.0, 10.0, 50.0]),
     (5.0, [-626.0, 725.0, -190.0, -0.15, 7.0, 0.0, 0.0, 100.0, 100.0, 60.0]),

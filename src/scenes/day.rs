@@ -38,6 +38,9 @@ pub fn clock(time: f64) -> (usize, f64) {
     (day as usize % 4, 4.0 + (time - day * LENGTH) * (24.0 / LENGTH))
 }
 
+/// The hour at which the camera leaps to where the moon stands over the lake.
+pub const LEAP: f32 = 22.0;
+
 operations! {
     /// The camera's keys, nine numbers each: the hour; eye, target, vertical field of view in degrees; the last one is
     /// free. In tens.
@@ -59,8 +62,8 @@ const PLAN: &[u8] = script![
         1.2, 0.0, 1.9, -4.7, 0.0, 1.6, 0.0, 5.4, 0.0,
         1.4, 3.8, 1.9, -2.8, 0.0, 1.65, 0.0, 5.4, 0.0,
         1.8, 3.3, 1.35, 3.9, 0.0, 1.8, -0.4, 5.4, 0.0,
-        -0.02, 0.005, MUL, 2.2, ADD, 2.4, 1.4, 4.4, -0.3, 1.9, 0.0, 5.4, 0.0,
-        2.2, -0.4, 1.55, -4.6, -0.6, 1.95, 0.0, 5.4, 0.0,
+        -0.02, 0.005, MUL, 0.1 * LEAP, ADD, 2.4, 1.4, 4.4, -0.3, 1.9, 0.0, 5.4, 0.0,
+        0.1 * LEAP, -0.4, 1.55, -4.6, -0.6, 1.95, 0.0, 5.4, 0.0,
         2.8, 1.4, 1.65, -4.5, -0.4, 2.0, 0.0, 5.4, 0.0, CAMERA,
     ],
     [

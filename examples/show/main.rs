@@ -1,0 +1,96 @@
+//! The show, part by part: speed, error, and whether anything pops. Writes `show.md`.
+//!
+//! `cargo run --release --example show -- [--quick] [--out DIR]`, DIR `docs/report`: some thirteen minutes on two cores, half of them for
+//! the reference of clouds.
+//! `--quick` shows in seconds that it works; its figures are rough.
+
+#[path = "../common/difference.rs"]
+mod difference;
+mod error;
+#[path = "../common/likeness.rs"]
+mod likeness;
+#[path = "../common/machine.rs"]
+mod machine;
+mod parts;
+mod pops;
+mod speed;
+
+use lexopt::{Arg, Parser};
+use paprsek::quality::Quality;
+use paprsek::scenes::INTRO;
+use paprsek::tile::{Frame, Renderer};
+use std::error::Error;
+use std::path::PathBuf;
+
+const THREADS: usize = 2;
+
+/// How much is measured. Sizes are pixels in a row, and rows.
+struct Effort {
+    /// Of frames that are timed; every how many frames of the film one is.
+    timed: (usize, usize),
+    every: usize,
+    /// Of frames that are compared with the reference, which takes up to a minute; seconds of a shot for each of them.
+    compared: (usize, usize),
+    piece: f64,
+    /// Of frames whose change is measured; at most how many pairs of a shot; how many of a part's pairs beside the
+    /// largest are held against the reference's.
+    changing: (usize, usize),
+    pairs: usize,
+    candidates: usize,
+}
+
+const FULL: Effort = Effort {
+    timed: (1280, 720),
+    every: 1,
+    compared: (640, 360),
+    piece: 10.0,
+    changing: (320, 180),
+    pairs: usize::MAX,
+    candidates: 2,
+};
+const QUICK: Effort = Effort {
+    timed: (480, 270),
+    every: 60,
+    compared: (64, 36),
+    piece: 60.0,
+    changing: (64, 36),
+    pairs: 15,
+    candidates: 1,
+};
+
+/// The show at a second.
+fn render(renderer: &mut Renderer, (width, height): (usize, usize), time: f64, quality: &Quality) -> Frame {
+    let mut frame = Frame::new(width, height);
+    renderer.render(&INTRO, time, quality, &mut frame);
+    frame
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (mut effort, mut quick, mut out) = (FULL, "", PathBuf::from("docs/report"));
+    let mut parser = Parser::from_env();
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Arg::Long("quick") => (effort, quick) = (QUICK, " -- --quick"),
+            Arg::Long("out") => out = parser.value()?.into(),
+            other => return Err(other.unexpected().into()),
+        }
+    }
+    let parts = parts::all()?;
+    let mut renderer = Renderer::new(THREADS)?;
+    let (machine, simd, (width, height)) = (machine::machine(), renderer.simd(), effort.timed);
+    let mut text = format!(
+        "# The show\n\n\
+         Written by `cargo run --release --example show{quick}`; not edited by hand.\n\n\
+         {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are the show's.\n"
+    );
+    for report in [speed::report, error::report, pops::report] {
+        let table = report(&mut renderer, &parts, &effort);
+        println!("{table}");
+        text += &format!("\n{table}");
+    }
+    std::fs::create_dir_all(&out)?;
+    let file = out.join("show.md");
+    std::fs::write(&file, text)?;
+    println!("{}", file.display());
+    Ok(())
+}
