@@ -93,7 +93,7 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
         ambient: [Vec3::ZERO; 2],
         veil: None,
         snow: None,
-        haze: Haze { color: Vec3::ZERO, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
+        haze: Haze::even(Vec3::ZERO, 0.0),
         zenith: Vec3::ZERO,
         film: false,
         background: None,

@@ -145,7 +145,7 @@ impl Stage {
                 ambient: [Vec3::splat(0.1); 2],
                 veil: None,
                 snow: None,
-                haze: Haze { color: fog, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
+                haze: Haze::even(fog, 0.0),
                 zenith: fog,
                 film: false,
                 background: Some(fog),

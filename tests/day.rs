@@ -89,6 +89,23 @@ fn light_does_not_jump() {
     assert!(worst < BEND);
 }
 
+/// In an autumn's dusk the moon takes over from the sun as the land's light: no frame differs from the last by half as much
+/// again as the frames before and after it do.
+#[test]
+fn the_moon_takes_over_unseen() {
+    let mut renderer = Renderer::new(2).unwrap();
+    let start = LENGTH + 35.5;
+    let frames: Vec<_> =
+        (0..36).map(|n| frame(&mut renderer, start + f64::from(n) / 60.0, &Quality::FAST).pixels).collect();
+    let codes = |pixel: u32| [16, 8, 0].map(|shift| f64::from(pixel >> shift & 255));
+    let square = |a: u32, b: u32| codes(a).iter().zip(codes(b)).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    let changes: Vec<f64> =
+        frames.windows(2).map(|pair| pair[0].iter().zip(&pair[1]).map(|(a, b)| square(*a, *b)).sum::<f64>()).collect();
+    for around in changes.windows(3) {
+        assert!(around[1].sqrt() < 0.75 * (around[0].sqrt() + around[2].sqrt()), "{changes:?}");
+    }
+}
+
 /// By day and at night, where a lamp with a cube of maps burns.
 #[test]
 fn every_level_and_thread_count_gives_the_same_frame() {

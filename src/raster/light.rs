@@ -47,24 +47,37 @@ pub struct Haze {
     pub density: f32,
     /// A direction (unit) in which it shines by that much more, with the eighth power of the cosine.
     pub glow: (Vec3, Vec3),
-    /// Light of the sun's image there, where a mirror shows it.
-    pub image: Vec3,
+    /// The direction of sun or moon, level, and the light of their image there, where a mirror shows it.
+    pub image: (Vec3, Vec3),
 }
 
 impl Haze {
-    /// Its light in a direction (unit), and that of the sun's image where a mirror shows it.
-    #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> (V3<S>, V3<S>) {
-        let mut power = d.dot1(self.glow.0).max(F::<S>::splat(simd, 0.0));
-        for _ in 0..3 {
-            power *= power;
-        }
-        let haze = V3::splat(simd, self.color) + V3::splat(simd, self.glow.1) * Lane(power);
-        for _ in 0..6 {
-            power *= power;
-        }
-        (haze, V3::splat(simd, self.image) * Lane(power))
+    /// The same in all directions.
+    pub const fn even(color: Vec3, density: f32) -> Haze {
+        Haze { color, density, glow: (Vec3::Y, Vec3::ZERO), image: (Vec3::Y, Vec3::ZERO) }
     }
+
+    /// Its light in a direction (unit).
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        V3::splat(simd, self.color) + lobe(simd, d, self.glow, 3)
+    }
+
+    /// Light of the image of sun or moon in a direction (unit).
+    #[inline(always)]
+    pub fn image_at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        lobe(simd, d, self.image, 9)
+    }
+}
+
+/// Light around a direction, with the power of two of the cosine that so many squarings give.
+#[inline(always)]
+fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3, Vec3), squarings: u32) -> V3<S> {
+    let mut power = d.dot1(towards).max(F::<S>::splat(simd, 0.0));
+    for _ in 0..squarings {
+        power *= power;
+    }
+    V3::splat(simd, light) * Lane(power)
 }
 
 /// Texels along a map's border in which it is not looked up.

@@ -356,9 +356,10 @@ fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
         if gloss.simd_gt(zero).any_true() {
             let cosine = way.dot(n);
             let mirrored = way - n * Lane(cosine + cosine);
-            let (horizon, sun) = haze.at(simd, mirrored);
+            let horizon = haze.at(simd, mirrored);
             let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
-            let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + sun;
+            let sky =
+                horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + haze.image_at(simd, mirrored);
             // Schlick's approximation.
             let rest = one - cosine.abs().min(one);
             let grazing = rest * rest;
@@ -369,7 +370,7 @@ fn finish<S: Simd>(simd: S, context: &Context, queue: &mut Queue) {
             color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));
-        let before = haze.at(simd, way).0;
+        let before = haze.at(simd, way);
         let samples = (load::<S, U<S>>(simd, &queue.place[0], i) >> 28) + 1;
         let weight = float(simd, samples) * share;
         store3((before + (color - before) * Lane(clear)) * Lane(weight), &mut queue.light, i);

@@ -167,8 +167,9 @@ pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3
     for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
         body.put(Affine3A::from_mat3_translation(turn, place));
     }
-    let towards = vec3(now.direction.x, 0.05, now.direction.z).normalize();
-    let [glow, haze] = [towards, vec3(-towards.x, towards.y, -towards.z)].map(|d| dome.radiance(d));
+    // The sky glows where the sun is or was, also while the moon lights the land.
+    let sun = level(dome.sky.sun);
+    let [glow, haze] = [sun, level(-sun)].map(|d| dome.radiance(d));
     let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
     World {
         bodies,
@@ -177,11 +178,22 @@ pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3
         veil: None,
         snow: None,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
-        haze: Haze { color: haze, density: 1.0 / 9000.0, glow: (towards, (glow - haze).max(Vec3::ZERO)), image },
+        haze: Haze {
+            color: haze,
+            density: 1.0 / 9000.0,
+            glow: (sun, (glow - haze).max(Vec3::ZERO)),
+            image: (level(now.direction), image),
+        },
         zenith: dome.radiance(Vec3::Y),
         film: true,
         background: None,
     }
+}
+
+/// Just above the horizon, below that direction.
+#[inline(never)]
+fn level(d: Vec3) -> Vec3 {
+    vec3(d.x, 0.05, d.z).normalize()
 }
 
 /// Somebody lights a lamp in the chapel when it gets `dark`, 0 to 1.

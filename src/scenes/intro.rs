@@ -27,7 +27,7 @@ pub const PARTS: &[(f64, (Scene, f64))] = &[
     #[cfg(feature = "day")]
     (35.0, (clouds::CLOUDS, 0.0)),
     #[cfg(feature = "day")]
-    (69.0, (day::DAY, day::LENGTH + 32.0)),
+    (69.0, (day::DAY, day::LENGTH + 31.0)),
     #[cfg(feature = "day")]
     (83.0, (snowfall::SNOWFALL, 1.0)),
     #[cfg(feature = "day")]

@@ -72,7 +72,7 @@ fn picture(shot: &Shot, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
         ambient: [ambient * 0.6, ambient * 0.4],
         veil: None,
         snow: None,
-        haze: Haze { color: fog, density: 0.012, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO },
+        haze: Haze::even(fog, 0.012),
         zenith: fog,
         film: false,
         background: Some(fog),

@@ -115,7 +115,7 @@ fn picture(shot: &Shot) -> Picture {
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
     day::lamp(&mut world, ease(20.0, 26.0, shot.time));
     let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
-    world.haze = Haze { color: air, density: 0.0, glow: (Vec3::Y, Vec3::ZERO), image: Vec3::ZERO };
+    world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
     let view = View::new(camera, shot.width, shot.height);
     let air_moves = weather(shot.time);
