@@ -39,6 +39,13 @@
 //!   times the lines: 0.1 % less;
 //! - the match by place, or by what it predicts: 0.0 and 0.1 % more;
 //! - without the last register: 0.7 % more; without places that are jumped to: 0.7; without the last numbers: 0.6.
+//!
+//! Tried on one of 232 kB, which takes 61,200 bytes (61,704 with the constants and contexts of before):
+//!
+//! - 32 contexts, the new ones at random: 0.3 % more, no difference in twice the lines;
+//! - a second match, of at least 3 bytes: 63 bytes less, and as much more code; of 8, 12 or 20 bytes: no difference;
+//! - the first bit of a slot moves it by 16/17 instead of 4/5: 0.1 % less, so it is now;
+//! - functions sorted by name, by size or at random: 0.2, 0.1 and 1.3 % more.
 #![no_std]
 
 pub mod address;
