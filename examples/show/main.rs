@@ -1,7 +1,6 @@
 //! The show, part by part: speed, error, and whether anything pops. Writes `show.md`.
 //!
-//! `cargo run --release --example show -- [--quick] [--out DIR]`, DIR `docs/report`: some thirteen minutes on two cores, half of them for
-//! the reference of clouds.
+//! `cargo run --release --example show -- [--quick] [--out DIR]`, DIR `docs/report`: some twelve minutes on two cores.
 //! `--quick` shows in seconds that it works; its figures are rough.
 
 #[path = "../common/difference.rs"]

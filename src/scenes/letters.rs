@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-/// A line for each letter or digit: what it is, then points to be joined, and blanks where the pen is lifted. Points are small
-/// letters, from a to c at the foot, then upwards, three in a row, to o.
+/// A line for each letter or digit: what it is, then points to be joined, and blanks where the pen is lifted. Points are
+/// small letters, from a to c at the foot, then upwards, three in a row, to o.
 const GLYPHS: &str = "\
 4mgi oc
 6omacig

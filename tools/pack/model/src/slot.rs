@@ -19,7 +19,7 @@ pub fn count(slot: u32) -> i32 {
     (slot >> 8) as i32 & LIMIT
 }
 
-/// Learns one bit: the `n`th moves the probability by 1 / (n + 0.25).
+/// Learns one bit: the `n`th moves the probability by 1 / (n + 1/16).
 pub fn update(slot: &mut u32, bit: u32) {
     let (p, n, h) = ((*slot >> 15) as i32 ^ 0x1_0000, count(*slot), *slot & 255);
     let p = p + 16 * ((0x1_ffff & -(bit as i32)) - p) / (16 * n + 17);
