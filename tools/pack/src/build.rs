@@ -1,7 +1,7 @@
 //! The intro's executable before it is packed: cargo, with everything that makes it small.
 
-use crate::library;
 use crate::toolchain::Toolchain;
+use crate::{library, link};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -70,7 +70,7 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     cargo.args(["--", "-Copt-level=z", "-Clinker=tools/pack/cc"]);
     cargo.args(LLVM.iter().map(|setting| format!("-Cllvm-args={setting}")));
     run(&mut cargo)?;
-    Ok(target.join(TARGET).join("release/paprsek"))
+    link::link(&target.join(TARGET).join("release/paprsek"))
 }
 
 /// Runs cargo, whose own messages go where ours go.
