@@ -10,6 +10,7 @@ pub mod link;
 pub mod order;
 pub mod packer;
 pub mod pieces;
+pub mod shuffle;
 pub mod stub;
 pub mod table;
 pub mod toolchain;

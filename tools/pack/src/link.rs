@@ -1,6 +1,6 @@
 //! Links the intro once more: its functions and data in the order that packs best, and nothing that nobody needs.
 
-use crate::order;
+use crate::order::{self, fold::fold};
 use crate::pieces::{GDB_SCRIPTS, Kind, Parts, Pieces, Target};
 use object::elf::{RelocationType, SHF_ALLOC, SHF_WRITE, SHT_INIT_ARRAY};
 use object::read::elf::ElfFile64;
@@ -51,7 +51,8 @@ fn linked(executable: &Path) -> Result<PathBuf, String> {
 /// The joined object with its pieces in order.
 fn ordered_object(joined: &[u8]) -> Result<Vec<u8>, String> {
     let object = ElfFile64::parse(joined).map_err(|error| format!("the joined object: {error}"))?;
-    let (pieces, parts) = Pieces::read(&object)?;
+    let (mut pieces, parts) = Pieces::read(&object)?;
+    fold(&mut pieces);
     write(&object, &pieces, &parts, &order::order(&pieces))
 }
 

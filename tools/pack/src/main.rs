@@ -1,10 +1,11 @@
 //! `pack`: builds the intro for size, packs it into `target/intro/paprsek` and says where its bytes go.
 //! `pack FILE -o OUT`: packs any executable.
+//! `pack shuffle`: packs the intro of sources that are shuffled, too, and says how far apart the sizes are.
 
 use pack::packer::{self, Packed};
 use pack::table::{Profile, Row, View, markdown, rounded};
 use pack::toolchain::Toolchain;
-use pack::{build, elf, stub};
+use pack::{build, elf, shuffle, stub};
 use std::ffi::OsString;
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt;
@@ -16,8 +17,9 @@ fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
     let said = match &arguments[..] {
         [] => intro(),
+        [word] if word == "shuffle" => shuffle(),
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
-        _ => Err("usage: pack, or pack FILE -o OUT".into()),
+        _ => Err("usage: pack, pack FILE -o OUT, or pack shuffle".into()),
     };
     let printed =
         said.and_then(|said| io::stdout().write_all(said.as_bytes()).map_err(|error| format!("stdout: {error}")));
@@ -32,8 +34,8 @@ fn main() -> ExitCode {
 
 /// Builds and packs the intro; gives the table of its modules.
 fn intro() -> Result<String, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target"))).join("intro");
+    let (root, target) = places();
+    let target = target.join("intro");
     let toolchain = Toolchain::find()?;
     let program = read(&build::build(&root, &toolchain, &target.join("build"))?)?;
     let unpacker = stub::unpacker(&toolchain, &target)?;
@@ -50,6 +52,22 @@ fn intro() -> Result<String, String> {
     write(&target.join("size.md"), table.as_bytes())?;
     write(&target.join("size.toml"), modules(&rows).as_bytes())?;
     Ok(format!("{table}\n{}", sizes(&packed)))
+}
+
+/// The workspace, and where what is built goes.
+fn places() -> (PathBuf, PathBuf) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target")));
+    (root, target)
+}
+
+/// Builds and packs the intro of shuffled sources; gives a table of the sizes.
+fn shuffle() -> Result<String, String> {
+    let (root, target) = places();
+    let toolchain = Toolchain::find()?;
+    fs::create_dir_all(&target).map_err(|error| format!("{}: {error}", target.display()))?;
+    let unpacker = stub::unpacker(&toolchain, &target)?;
+    shuffle::show(&root, &toolchain, &unpacker, &target.join("shuffle"))
 }
 
 /// Packs any executable.

@@ -1,6 +1,7 @@
 //! In which order functions and data lie: one that packs well, and that follows from what they are. No name, no place
 //! in a source file and no order of the compiler's has a part in it.
 
+pub mod fold;
 pub mod likeness;
 pub mod mark;
 
@@ -14,7 +15,7 @@ const KEPT: f64 = 0.93;
 
 /// All that `main` leads to, in order.
 pub fn order(pieces: &Pieces) -> Vec<usize> {
-    let marks = mark::marks(pieces);
+    let marks = mark::marks(pieces, |_, _| 0);
     let roots: Vec<usize> = (0..pieces.all.len()).filter(|&i| is_root(&pieces.all[i])).collect();
     let mut code: Vec<usize> = reached(pieces, &roots, |_| true);
     code.retain(|&i| pieces.all[i].kind == Kind::Code);
@@ -169,6 +170,22 @@ mod tests {
         for to in [[7, 6, 5, 4, 3, 2, 1, 0], [3, 1, 4, 0, 5, 2, 7, 6]] {
             assert_eq!(contents(&shuffled(&program, &to, |name| format!("{}{name}", name.len() % 3))), right);
         }
+    }
+
+    #[test]
+    fn equals_are_one_but_variables_stay() {
+        let variable =
+            |name: &str| Piece { name: name.into(), kind: Kind::Zero, align: 4, pooled: false, ..constant(0) };
+        let mut pieces = program();
+        pieces.all[2] = code("one", &additions(&[1]), &[6]);
+        pieces.all[3] = code("two", &additions(&[1]), &[6]);
+        pieces.all[1] = code("left", &additions(&[2]), &[5]);
+        pieces.all[4] = code("right", &additions(&[2]), &[7]);
+        (pieces.all[5], pieces.all[7]) = (variable("a"), variable("b"));
+        fold::fold(&mut pieces);
+        let order = names(&pieces);
+        let there = |name: &str| order.iter().any(|(n, _)| n == name);
+        assert_eq!(["one", "two", "left", "right", "a", "b"].map(there), [true, false, true, true, true, true]);
     }
 
     #[test]

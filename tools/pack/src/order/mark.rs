@@ -1,10 +1,8 @@
-//! A number for each piece that stands for what it does: its bytes, and what it leads to. Pieces have the same one
-//! where no run of the program could tell them apart.
+//! A number for each piece that stands for what it does: its bytes, and what it leads to. Where two have the same one
+//! nothing tells them apart but their names.
 
-use crate::pieces::{Pieces, Target};
-
-/// How many references deep pieces are compared.
-const DEPTH: usize = 8;
+use crate::pieces::{Piece, Pieces, Target};
+use std::collections::HashSet;
 
 /// A hash (FNV-1a, and a last mixing).
 pub fn hash(bytes: impl IntoIterator<Item = u8>) -> u64 {
@@ -13,14 +11,17 @@ pub fn hash(bytes: impl IntoIterator<Item = u8>) -> u64 {
     (h ^ h >> 29).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
-/// The marks of all pieces.
-pub fn marks(pieces: &Pieces) -> Vec<u64> {
+/// The marks of all pieces. `own` is what more a piece is known by, besides its content.
+pub fn marks(pieces: &Pieces, own: impl Fn(usize, &Piece) -> u64) -> Vec<u64> {
     let imports: Vec<u64> = pieces.imports.iter().map(|import| hash(import.name.bytes())).collect();
-    let own = |piece: &crate::pieces::Piece| {
-        hash([piece.kind as u8, piece.align as u8].into_iter().chain(piece.bytes.iter().copied()))
+    let first = |(i, piece): (usize, &Piece)| {
+        let start = own(i, piece).to_le_bytes().into_iter().chain([piece.kind as u8, piece.align as u8]);
+        hash(start.chain(piece.bytes.iter().copied()))
     };
-    let mut marks: Vec<u64> = pieces.all.iter().map(own).collect();
-    for _ in 0..DEPTH {
+    let mut marks: Vec<u64> = pieces.all.iter().enumerate().map(first).collect();
+    let mut kinds = 0;
+    // As long as looking one reference further tells any two apart.
+    loop {
         let deeper = pieces.all.iter().zip(&marks).map(|(piece, mark)| {
             let references = piece.references.iter().flat_map(|reference| {
                 let to = match reference.to {
@@ -32,6 +33,10 @@ pub fn marks(pieces: &Pieces) -> Vec<u64> {
             hash([*mark].into_iter().chain(references).flat_map(u64::to_le_bytes))
         });
         marks = deeper.collect();
+        let now = marks.iter().collect::<HashSet<_>>().len();
+        if now == kinds {
+            return marks;
+        }
+        kinds = now;
     }
-    marks
 }
