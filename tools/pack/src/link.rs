@@ -25,12 +25,12 @@ pub fn link(executable: &Path) -> Result<PathBuf, String> {
     let (joined, how) = (made.with_extension("all.o"), made.with_extension("link"));
     let bytes = fs::read(&joined).map_err(failed(&joined))?;
     let arguments = fs::read_to_string(&how).map_err(failed(&how))?;
-    let (ordered, out) = (made.with_extension("ordered.o"), executable.with_extension("ordered"));
-    fs::write(&ordered, ordered_object(&bytes)?).map_err(failed(&ordered))?;
+    let (object, out) = (made.with_extension("ordered.o"), executable.with_extension("ordered"));
+    fs::write(&object, ordered(&bytes)?).map_err(failed(&object))?;
 
     let start = Command::new("cc").arg("-print-file-name=crt1.o").output().map_err(failed(Path::new("cc")))?;
     let mut cc = Command::new("cc");
-    cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(&ordered);
+    cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(&object);
     // Of two `-o` the last one counts.
     cc.args(arguments.lines()).arg("-o").arg(&out);
     let done = cc.output().map_err(failed(Path::new("cc")))?;
@@ -49,7 +49,7 @@ fn linked(executable: &Path) -> Result<PathBuf, String> {
 }
 
 /// The joined object with its pieces in order.
-fn ordered_object(joined: &[u8]) -> Result<Vec<u8>, String> {
+pub fn ordered(joined: &[u8]) -> Result<Vec<u8>, String> {
     let object = ElfFile64::parse(joined).map_err(|error| format!("the joined object: {error}"))?;
     let (mut pieces, parts) = Pieces::read(&object)?;
     fold(&mut pieces);
