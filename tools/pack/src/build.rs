@@ -1,7 +1,7 @@
 //! The intro's executable before it is packed: cargo, with everything that makes it small.
 
 use crate::toolchain::Toolchain;
-use crate::{library, link};
+use crate::{library, link, stub};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -70,7 +70,8 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     cargo.args(["--", "-Copt-level=z", "-Clinker=tools/pack/cc"]);
     cargo.args(LLVM.iter().map(|setting| format!("-Cllvm-args={setting}")));
     run(&mut cargo)?;
-    link::link(&target.join(TARGET).join("release/paprsek"))
+    let unpacker = stub::unpacker(toolchain, &target)?;
+    link::link(&target.join(TARGET).join("release/paprsek"), &unpacker)
 }
 
 /// Runs cargo, whose own messages go where ours go.

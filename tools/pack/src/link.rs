@@ -1,6 +1,7 @@
 //! Links the intro once more: its functions and data in the order that packs best, and nothing that nobody needs.
 
-use crate::order::{self, fold::fold};
+use crate::order::{self, TASTES, Taste, fold::fold};
+use crate::packer;
 use crate::pieces::{GDB_SCRIPTS, Kind, Parts, Pieces, Target};
 use object::elf::{RelocationType, SHF_ALLOC, SHF_WRITE, SHT_INIT_ARRAY};
 use object::read::elf::ElfFile64;
@@ -10,50 +11,66 @@ use object::{
     RelocationTarget, SectionFlags, SectionIndex, SectionKind, SymbolFlags, SymbolKind, SymbolScope,
 };
 use std::collections::HashMap;
-use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{fs, io};
 
-/// Links what `cc` has joined for `executable`, which cargo made; gives the path of what comes out, beside it.
-pub fn link(executable: &Path) -> Result<PathBuf, String> {
-    let failed = |path: &Path| {
-        let path = path.display().to_string();
-        move |error| format!("{path}: {error}")
-    };
+/// Links what `cc` has joined for `executable`, which cargo made, in several orders; gives the path of the one that
+/// packs best with this unpacker, beside it.
+pub fn link(executable: &Path, unpacker: &[u8]) -> Result<PathBuf, String> {
     let made = linked(executable)?;
     let (joined, how) = (made.with_extension("all.o"), made.with_extension("link"));
     let bytes = fs::read(&joined).map_err(failed(&joined))?;
     let arguments = fs::read_to_string(&how).map_err(failed(&how))?;
     let (object, out) = (made.with_extension("ordered.o"), executable.with_extension("ordered"));
-    fs::write(&object, ordered(&bytes)?).map_err(failed(&object))?;
+    let mut best: Option<(f64, Vec<u8>)> = None;
+    for taste in TASTES {
+        fs::write(&object, ordered(&bytes, taste)?).map_err(failed(&object))?;
+        run(&object, &arguments, &out)?;
+        let program = fs::read(&out).map_err(failed(&out))?;
+        let bits = packer::measure(&program, unpacker)?.bits.iter().map(|&bits| bits as f64).sum();
+        if best.as_ref().is_none_or(|(least, _)| bits < *least) {
+            best = Some((bits, program));
+        }
+    }
+    let (_, program) = best.expect("some were tried");
+    fs::write(&out, program).map_err(failed(&out))?;
+    Ok(out)
+}
 
+/// Links an object with the arguments that the compiler gave for what it was made of.
+fn run(object: &Path, arguments: &str, out: &Path) -> Result<(), String> {
     let start = Command::new("cc").arg("-print-file-name=crt1.o").output().map_err(failed(Path::new("cc")))?;
     let mut cc = Command::new("cc");
-    cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(&object);
+    cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(object);
     // Of two `-o` the last one counts.
-    cc.args(arguments.lines()).arg("-o").arg(&out);
-    let done = cc.output().map_err(failed(Path::new("cc")))?;
-    if done.status.success() { Ok(out) } else { Err(String::from_utf8_lossy(&done.stderr).into_owned()) }
+    let done = cc.args(arguments.lines()).arg("-o").arg(out).output().map_err(failed(Path::new("cc")))?;
+    if done.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&done.stderr).into_owned()) }
+}
+
+/// Says at what path something failed.
+fn failed(path: &Path) -> impl Fn(io::Error) -> String {
+    let path = path.display().to_string();
+    move |error| format!("{path}: {error}")
 }
 
 /// The linker's own copy of an executable, which cargo has made a second name for.
 fn linked(executable: &Path) -> Result<PathBuf, String> {
-    let failed = |error| format!("{}: {error}", executable.display());
     let number = |path: &Path| path.metadata().map(|data| (data.dev(), data.ino()));
-    let wanted = number(executable).map_err(failed)?;
-    let entries = fs::read_dir(executable.with_file_name("deps")).map_err(failed)?;
+    let wanted = number(executable).map_err(failed(executable))?;
+    let entries = fs::read_dir(executable.with_file_name("deps")).map_err(failed(executable))?;
     let mut paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let found = paths.find(|path| number(path).is_ok_and(|number| number == wanted));
     found.ok_or(format!("{} is not what was linked", executable.display()))
 }
 
 /// The joined object with its pieces in order.
-pub fn ordered(joined: &[u8]) -> Result<Vec<u8>, String> {
+pub fn ordered(joined: &[u8], taste: Taste) -> Result<Vec<u8>, String> {
     let object = ElfFile64::parse(joined).map_err(|error| format!("the joined object: {error}"))?;
     let (mut pieces, parts) = Pieces::read(&object)?;
     fold(&mut pieces);
-    write(&object, &pieces, &parts, &order::order(&pieces))
+    write(&object, &pieces, &parts, &order::order(&pieces, taste))
 }
 
 /// Where pieces go, and the kind of section that this is.

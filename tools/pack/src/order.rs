@@ -9,18 +9,35 @@ use crate::pieces::{Kind, Piece, Pieces, Target};
 use likeness::Likeness;
 use std::cmp::Reverse;
 
-/// What is left of a function's pull on those to come when one more has been placed: the packer's model remembers
-/// what it saw last best.
-const KEPT: f64 = 0.93;
+/// What makes functions follow each other. None is best for all programs, so the packer tries some.
+#[derive(Clone, Copy, Debug)]
+pub struct Taste {
+    /// Instructions of the longest runs that functions are compared by.
+    pub longest: usize,
+    /// What is left of a function's pull on those to come when one more has been placed: the packer's model remembers
+    /// what it saw last best.
+    pub kept: f64,
+}
+
+/// Those that are tried.
+pub const TASTES: [Taste; 9] = {
+    let mut all = [Taste { longest: 0, kept: 0.0 }; 9];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = Taste { longest: [3, 4, 5][i % 3], kept: [0.90, 0.93, 0.95][i / 3] };
+        i += 1;
+    }
+    all
+};
 
 /// All that `main` leads to, in order.
-pub fn order(pieces: &Pieces) -> Vec<usize> {
+pub fn order(pieces: &Pieces, taste: Taste) -> Vec<usize> {
     let marks = mark::marks(pieces, |_, _| 0);
     let roots: Vec<usize> = (0..pieces.all.len()).filter(|&i| is_root(&pieces.all[i])).collect();
     let mut code: Vec<usize> = reached(pieces, &roots, |_| true);
     code.retain(|&i| pieces.all[i].kind == Kind::Code);
     code.sort_by_key(|&i| (Reverse(pieces.all[i].bytes.len()), marks[i]));
-    let mut order = chain(pieces, &code);
+    let mut order = chain(pieces, &code, taste);
     let users: Vec<usize> = order.iter().chain(&roots).copied().collect();
     let mut data = reached(pieces, &users, |piece| piece.kind != Kind::Code);
     data.sort_by_key(|&i| place(&pieces.all[i]));
@@ -61,8 +78,8 @@ fn reached(pieces: &Pieces, from: &[usize], wanted: impl Fn(&Piece) -> bool) -> 
 }
 
 /// Functions, from the first one on: each the one that is most like those just before it.
-fn chain(pieces: &Pieces, code: &[usize]) -> Vec<usize> {
-    let likeness = Likeness::of(code.iter().map(|&i| &pieces.all[i]));
+fn chain(pieces: &Pieces, code: &[usize], taste: Taste) -> Vec<usize> {
+    let likeness = Likeness::of(code.iter().map(|&i| &pieces.all[i]), taste.longest);
     let mut pull = vec![0.0; code.len()];
     let mut open: Vec<usize> = (0..code.len()).collect();
     let mut order = Vec::new();
@@ -72,7 +89,7 @@ fn chain(pieces: &Pieces, code: &[usize]) -> Vec<usize> {
         let next = open.remove(next.expect("some are open"));
         order.push(code[next]);
         for &other in &open {
-            pull[other] = pull[other] * KEPT + likeness.between(next, other);
+            pull[other] = pull[other] * taste.kept + likeness.between(next, other);
         }
     }
     order
@@ -127,7 +144,10 @@ mod tests {
     }
 
     fn names(pieces: &Pieces) -> Vec<(String, Vec<u8>)> {
-        order(pieces).into_iter().map(|i| (pieces.all[i].name.clone(), pieces.all[i].bytes.clone())).collect()
+        order(pieces, TASTES[4])
+            .into_iter()
+            .map(|i| (pieces.all[i].name.clone(), pieces.all[i].bytes.clone()))
+            .collect()
     }
 
     /// The same program with its pieces in another order and with other names.
@@ -197,7 +217,7 @@ mod tests {
                 Target::Piece(to) => Some(pieces.all[to].bytes.clone()),
                 Target::Import(_) => None,
             };
-            order(pieces).into_iter().map(read).collect()
+            order(pieces, TASTES[4]).into_iter().map(read).collect()
         };
         let turned = shuffled(&program, &[7, 6, 5, 4, 3, 2, 1, 0], str::to_owned);
         assert_eq!(constants(&turned), constants(&program));

@@ -2,6 +2,7 @@
 
 use object::{Object, ObjectSymbol};
 use pack::link;
+use pack::order::TASTES;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -35,7 +36,8 @@ fn a_program_in_order_does_the_same() {
         let (object, ordered) = (work(&format!("as-is{options}.o")), work(&format!("ordered{options}.o")));
         let sections = ["-ffunction-sections", "-fdata-sections", "-fno-pie", "-fno-asynchronous-unwind-tables"];
         cc(&[&[options, "-g", "-c", path(&source), "-o", path(&object)], &sections[..]].concat());
-        fs::write(&ordered, link::ordered(&fs::read(&object).expect("just compiled")).expect("an object")).unwrap();
+        fs::write(&ordered, link::ordered(&fs::read(&object).expect("just compiled"), TASTES[0]).expect("an object"))
+            .unwrap();
         let (before, said) = linked(&object, &format!("as-is{options}"));
         let (after, says) = linked(&ordered, &format!("ordered{options}"));
         assert_eq!(said, says);

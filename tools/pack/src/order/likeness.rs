@@ -5,13 +5,11 @@ use crate::pieces::Piece;
 use iced_x86::{Decoder, DecoderOptions, OpKind};
 use std::collections::BTreeMap;
 
-/// Instructions of the longest runs.
-const LONGEST: usize = 4;
 /// How much of a function's own weight is taken off what it shares, so that large ones are not like all others.
 const SHARE: f64 = 0.3;
 
-/// The hashes of a function's runs of instructions, without the addresses in them; sorted, each once.
-pub fn runs(piece: &Piece) -> Vec<u64> {
+/// The hashes of a function's runs of up to `longest` instructions, without the addresses in them; sorted, each once.
+pub fn runs(piece: &Piece, longest: usize) -> Vec<u64> {
     let mut decoder = Decoder::new(64, &piece.bytes, DecoderOptions::NONE);
     let mut words = Vec::new();
     while decoder.can_decode() {
@@ -24,7 +22,7 @@ pub fn runs(piece: &Piece) -> Vec<u64> {
         });
     }
     let run = |run: &[u64]| hash(run.iter().flat_map(|word| word.to_le_bytes()));
-    let mut all: Vec<u64> = (1..=LONGEST).flat_map(|length| words.windows(length).map(run)).collect();
+    let mut all: Vec<u64> = (1..=longest).flat_map(|length| words.windows(length).map(run)).collect();
     all.sort_unstable();
     all.dedup();
     all
@@ -40,8 +38,8 @@ pub struct Likeness {
 
 impl Likeness {
     /// Of these functions.
-    pub fn of<'a>(functions: impl Iterator<Item = &'a Piece>) -> Likeness {
-        let runs: Vec<Vec<u64>> = functions.map(runs).collect();
+    pub fn of<'a>(functions: impl Iterator<Item = &'a Piece>, longest: usize) -> Likeness {
+        let runs: Vec<Vec<u64>> = functions.map(|piece| runs(piece, longest)).collect();
         let mut owners = BTreeMap::new();
         for run in runs.iter().flatten() {
             *owners.entry(*run).or_insert(0.0) += 1.0;
