@@ -33,7 +33,8 @@ pub const TASTES: [Taste; 9] = {
 /// All that `main` leads to, in order.
 pub fn order(pieces: &Pieces, taste: Taste) -> Vec<usize> {
     let marks = mark::marks(pieces, |_, _| 0);
-    let roots: Vec<usize> = (0..pieces.all.len()).filter(|&i| is_root(&pieces.all[i])).collect();
+    let mut roots: Vec<usize> = (0..pieces.all.len()).filter(|&i| is_root(&pieces.all[i])).collect();
+    roots.sort_by_key(|&i| (pieces.all[i].kind, marks[i]));
     let mut code: Vec<usize> = reached(pieces, &roots, |_| true);
     code.retain(|&i| pieces.all[i].kind == Kind::Code);
     code.sort_by_key(|&i| (Reverse(pieces.all[i].bytes.len()), marks[i]));
@@ -175,6 +176,20 @@ mod tests {
         assert_eq!(place("blue").abs_diff(place("azure")), 1);
         assert_eq!(place("red").abs_diff(place("ruby")), 1);
         assert_eq!(order[5..], [(".cst4".into(), vec![5, 0, 0, 0]), (".cst4".into(), vec![9, 0, 0, 0])]);
+    }
+
+    #[test]
+    fn a_new_function_goes_beside_its_likes() {
+        let old: Vec<_> = names(&program()).into_iter().map(|(name, _)| name).collect();
+        let mut program = program();
+        program.all.push(code("scarlet", &additions(&[30, 31, 32, 33, 36, 38]), &[]));
+        let new = program.all.len() - 1;
+        program.all[0].references.push(Reference { at: 9, kind: 2, to: Target::Piece(new), addend: -4 });
+        let mut order: Vec<_> = names(&program).into_iter().map(|(name, _)| name).collect();
+        let at = order.iter().position(|name| name == "scarlet").unwrap();
+        assert!([at - 1, at + 1].iter().any(|&i| ["red", "ruby"].contains(&&*order[i])), "{order:?}");
+        order.remove(at);
+        assert_eq!(order, old);
     }
 
     #[test]
