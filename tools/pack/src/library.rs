@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 4] = [
+const CUTS: [Cuts; 6] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -25,8 +25,28 @@ const CUTS: [Cuts; 4] = [
                 "",
             ),
             ("            crate::sys::backtrace::__rust_begin_short_backtrace(|| hooks.run());\n", ""),
-            // No thread has a name.
+            // No thread has a name, and those that draw bands never ask who they are: so none has a handle of its own.
             ("        if let Some(name) = self.handle.cname() {\n            imp::set_name(name);\n        }\n", ""),
+            (
+                "        if let Err(_thread) = set_current(self.handle.clone()) {
+            // The current thread should not have set yet. Use an abort to save binary size (see #123356).
+            rtabort!(\"current thread handle already set during thread spawn\");
+        }
+",
+                "",
+            ),
+            ("    pub handle: Thread,\n", ""),
+            ("ThreadInit { handle: thread.clone(), rust_start }", "ThreadInit { rust_start }"),
+            ("    let id = ThreadId::new();\n    let thread = Thread::new(id, name);\n", ""),
+            ("    thread: Thread,\n    packet:", "    packet:"),
+            ("        thread,\n        packet:", "        packet:"),
+            ("        &self.thread\n", "        unreachable!()\n"),
+            // No thread gives a result, and a panic ends the process.
+            ("        unsafe { *their_packet.result.get() = Some(try_result) };\n", ""),
+            ("    result: UnsafeCell<Option<Result<T>>>,", "    result: UnsafeCell<ManuallyDrop<Option<Result<T>>>>,"),
+            ("result: UnsafeCell::new(None)", "result: UnsafeCell::new(ManuallyDrop::new(None))"),
+            ("matches!(self.result.get_mut(), Some(Err(_)))", "false"),
+            ("            *self.result.get_mut() = None;\n", ""),
         ],
     ),
     (
@@ -34,16 +54,77 @@ const CUTS: [Cuts; 4] = [
         &[
             // The stack that is asked for is larger.
             ("let stack_size = cmp::max(stack, min_stack_size(attr.as_ptr()));", "let stack_size = stack;"),
+            // It is a multiple of the page.
+            ("assert_eq!(n, libc::EINVAL);", "return Err(io::Error::from_raw_os_error(n));"),
+            // These cannot fail, and what the second frees was never asked for.
+            (
+                "assert_eq!(libc::pthread_attr_init(attr.as_mut_ptr()), 0);",
+                "libc::pthread_attr_init(attr.as_mut_ptr());",
+            ),
+            (
+                "        let mut attr = DropGuard::new(&mut attr, |attr| {
+            assert_eq!(libc::pthread_attr_destroy(attr.as_mut_ptr()), 0)
+        });
+",
+                "",
+            ),
             // No handler tells a stack overflow from other faults.
             ("let _handler = sys::stack_overflow::Handler::new();", ""),
         ],
     ),
-    // No local of a thread has a destructor but the thread's handle.
-    ("std/src/sys/thread_local/guard/key.rs", &[("            destructors::run();\n", "")]),
+    (
+        "std/src/sys/thread_local/guard/key.rs",
+        // No local of a thread has a destructor but the thread's handle, and threads that have one never end.
+        &[
+            ("            destructors::run();\n", ""),
+            ("        set(DTORS.force(), ptr::without_provenance_mut(1));\n", ""),
+        ],
+    ),
+    (
+        "std/src/sys/alloc/unix.rs",
+        // One function of the system's for every alignment, which hands those that need none on to `malloc`.
+        &[
+            (
+                "        if layout.align() <= MIN_ALIGN && layout.align() <= layout.size() {
+            unsafe { libc::malloc",
+                "        if false {
+            unsafe { libc::malloc",
+            ),
+            (
+                "        if layout.align() <= MIN_ALIGN && layout.align() <= layout.size() {
+            unsafe { libc::calloc",
+                "        if false {
+            unsafe { libc::calloc",
+            ),
+            ("layout.align() <= MIN_ALIGN && layout.align() <= new_size", "false"),
+            ("let mut out = ptr::null_mut();", ""),
+            (
+                "            let ret = unsafe { libc::posix_memalign(&mut out, align, layout.size()) };
+            if ret != 0 { ptr::null_mut() } else { out as *mut u8 }
+",
+                "            unsafe { libc::aligned_alloc(align, layout.size()) as *mut u8 }\n",
+            ),
+        ],
+    ),
+    (
+        "std/src/sys/pal/unix/mod.rs",
+        &[
+            // A standard stream that is closed is an error where it is written to.
+            ("    sanitize_standard_fds();\n", ""),
+            // The page's size, which nobody asks for; arguments, which are there before.
+            ("    stack_overflow::init();\n", ""),
+            ("    crate::sys::args::init(argc, argv);\n", "    let _ = (argc, argv);\n"),
+        ],
+    ),
     (
         "std/src/rt.rs",
-        // What is written to stdout is flushed at once, and only `main` ends the process.
-        &[("\n        cleanup();\n", ""), ("        crate::sys::exit::unique_thread_exit();\n", "")],
+        &[
+            // What is written to stdout is flushed at once, and only `main` ends the process.
+            ("\n        cleanup();\n", ""),
+            ("        crate::sys::exit::unique_thread_exit();\n", ""),
+            // No message names a thread.
+            ("    unsafe { main_thread::set(thread::current_id()) };\n", ""),
+        ],
     ),
 ];
 
@@ -53,6 +134,7 @@ pub fn cut(original: &Path, copy: &Path) -> Result<(), String> {
 }
 
 fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
+    unlink(&copy.join(place));
     fs::create_dir_all(copy.join(place))?;
     for entry in fs::read_dir(original.join(place))? {
         let place = place.join(entry?.file_name());
@@ -60,6 +142,7 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
         match CUTS.iter().find(|(path, _)| Path::new(path).starts_with(&place)) {
             Some((path, cuts)) if Path::new(path) == place => {
                 let text = cuts.iter().fold(fs::read_to_string(&from)?, without);
+                unlink(&to);
                 // Written anew, a file that is the same would have cargo build all that needs it once more.
                 if fs::read(&to).ok().as_deref() != Some(text.as_bytes()) {
                     fs::write(&to, text)?;
@@ -68,12 +151,20 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
             Some(_) => mirror(original, copy, &place)?,
             None if fs::read_link(&to).is_ok_and(|there| there == from) => {}
             None => {
-                let _ = fs::remove_file(&to);
+                // What an older packer has cut.
+                let _ = fs::remove_file(&to).or_else(|_| fs::remove_dir_all(&to));
                 symlink(&from, &to)?;
             }
         }
     }
     Ok(())
+}
+
+/// Removes what an older packer has linked: to write there would change the toolchain's own files.
+fn unlink(path: &Path) {
+    if path.is_symlink() {
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// The text with a part replaced that is in it once.
@@ -110,6 +201,9 @@ mod tests {
         };
         file(path, &text);
         file("core/src/lib.rs", "core");
+        // As an older packer left it: links where there are cuts now, cuts where there are none any more.
+        fs::create_dir_all(copy.join("core/src")).unwrap();
+        symlink(original.join("std"), copy.join("std")).unwrap();
         for _ in 0..2 {
             cut(&original, &copy).unwrap();
         }
