@@ -7,7 +7,7 @@
 use rustix::fs::{Mode, OFlags, open};
 use rustix::io::{read, write};
 use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
-use std::ffi::{CStr, CString};
+use std::ffi::CStr;
 use std::os::fd::OwnedFd;
 
 /// Words of an answer, an event or an error.
@@ -30,17 +30,17 @@ pub struct Server {
 impl Server {
     /// The server that `DISPLAY` names. Each cookie that there is for it is tried.
     pub fn find() -> Option<Server> {
-        let environment = contents(c"/proc/self/environ");
+        let environment = contents(b"/proc/self/environ\0");
         let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
-        let address = SocketAddrUnix::new(&*CString::new([b"/tmp/.X11-unix/X", number].concat()).ok()?).ok()?;
+        let address = SocketAddrUnix::new(path(&[b"/tmp/.X11-unix/X", number, b"\0"].concat())).ok()?;
         let authority = match variable(b"XAUTHORITY=") {
-            Some(path) => path.to_vec(),
-            None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority"].concat(),
+            Some(path) => [path, b"\0"].concat(),
+            None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority\0"].concat(),
         };
         // Of an entry: number, method and cookie, each after its length, big-endian.
         let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
-        let entries = contents(&CString::new(authority).ok()?);
+        let entries = contents(&authority);
         let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
         // A server that wants none ignores it.
         let mut server = cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))?;
@@ -139,10 +139,15 @@ fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<Server> {
     (head[0] & 255 == 1).then_some(server)
 }
 
+/// A path, which ends with a zero.
+fn path(bytes: &[u8]) -> &CStr {
+    CStr::from_bytes_until_nul(bytes).unwrap_or_default()
+}
+
 /// A file's first megabyte, which is all; nothing where it cannot be read.
-fn contents(path: &CStr) -> Vec<u8> {
+fn contents(name: &[u8]) -> Vec<u8> {
     let mut bytes = vec![0; 1 << 20];
-    let file = open(path, OFlags::RDONLY, Mode::empty());
+    let file = open(path(name), OFlags::RDONLY, Mode::empty());
     let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
     bytes.truncate(length);
     bytes

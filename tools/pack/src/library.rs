@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 6] = [
+const CUTS: [Cuts; 8] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -105,6 +105,135 @@ const CUTS: [Cuts; 6] = [
                 "            unsafe { libc::aligned_alloc(align, layout.size()) as *mut u8 }\n",
             ),
         ],
+    ),
+    (
+        "alloc/src/raw_vec/mod.rs",
+        // Vectors of all types grow in one place, where no memory is the end; that crates have functions of their own for
+        // it comes from the allocator, a parameter.
+        &[
+            (
+                "    fn try_allocate_in(\n        capacity",
+                "    #[inline(always)]
+    fn try_allocate_in(
+        capacity: usize,
+        init: AllocInit,
+        alloc: A,
+        elem_layout: Layout,
+    ) -> Result<Self, TryReserveError> {
+        let arguments = (capacity, matches!(init, AllocInit::Zeroed), elem_layout);
+        let new = core::intrinsics::const_eval_select(arguments, never_new, fresh);
+        Ok(Self { ptr: new.ptr, cap: new.cap, alloc })
+    }
+
+    fn unused_try_allocate_in(\n        capacity",
+            ),
+            (
+                "    unsafe fn grow_amortized(",
+                "    #[inline(always)]
+    unsafe fn grow_amortized(
+        &mut self,
+        len: usize,
+        additional: usize,
+        elem_layout: Layout,
+    ) -> Result<(), TryReserveError> {
+        let arguments = (&raw mut *self as *mut RawVecInner, len + additional, elem_layout);
+        core::intrinsics::const_eval_select(arguments, never_grows, grow);
+        Ok(())
+    }
+
+    unsafe fn unused_grow_amortized(",
+            ),
+            (
+                "        let cap = len.checked_add(additional).ok_or(CapacityOverflow)?;
+
+        // SAFETY: preconditions passed to caller
+        let ptr = unsafe { self.finish_grow(cap, elem_layout)? };
+
+        // SAFETY: `finish_grow` would have failed if `cap > isize::MAX`
+        unsafe { self.set_ptr_and_cap(ptr, cap) };
+        Ok(())
+",
+                "        let roomy = room(unsafe { &mut *(&raw mut *self as *mut RawVecInner) }, len + additional, elem_layout);
+        if roomy { Ok(()) } else { Err(CapacityOverflow.into()) }
+",
+            ),
+            (
+                "    unsafe fn deallocate(&mut self, elem_layout: Layout) {
+        // SAFETY: Precondition passed to caller
+        if let Some((ptr, layout)) = unsafe { self.current_memory(elem_layout) } {
+            unsafe {
+                self.alloc.deallocate(ptr, layout);
+            }
+        }
+    }
+",
+                "    #[inline(always)]
+    unsafe fn deallocate(&mut self, elem_layout: Layout) {
+        if self.cap.as_inner() != 0 {
+            unsafe { crate::alloc::dealloc(self.ptr.as_ptr(), elem_layout) };
+        }
+    }
+",
+            ),
+            (
+                "enum AllocInit {",
+                "const fn never_new(_: usize, _: bool, _: Layout) -> RawVecInner {
+    panic!()
+}
+
+const fn never_grows(_: *mut RawVecInner, _: usize, _: Layout) {
+    panic!()
+}
+
+#[inline(never)]
+fn fresh(capacity: usize, zeroed: bool, elem_layout: Layout) -> RawVecInner {
+    let mut vec = RawVecInner::new_in(Global, elem_layout.alignment());
+    if capacity * elem_layout.size() != 0 {
+        enlarge(&mut vec, capacity, elem_layout);
+        if zeroed {
+            unsafe { ptr::write_bytes(vec.ptr.as_ptr(), 0, capacity * elem_layout.size()) };
+        }
+    }
+    vec
+}
+
+#[inline(never)]
+fn grow(vec: *mut RawVecInner, needed: usize, elem_layout: Layout) {
+    let vec = unsafe { &mut *vec };
+    enlarge(vec, cmp::max(cmp::max(vec.cap.as_inner() * 2, needed), 4), elem_layout);
+}
+
+fn enlarge(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) {
+    if !room(vec, capacity, elem_layout) {
+        core::intrinsics::abort();
+    }
+}
+
+#[inline(never)]
+fn room(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) -> bool {
+    let Some(size) = capacity.checked_mul(elem_layout.size()) else { return false };
+    unsafe {
+        let new = crate::alloc::alloc(Layout::from_size_align_unchecked(size, elem_layout.align()));
+        if new.is_null() {
+            return false;
+        }
+        let old = vec.ptr.as_ptr();
+        ptr::copy_nonoverlapping(old, new, vec.cap.as_inner() * elem_layout.size());
+        vec.deallocate(elem_layout);
+        vec.ptr = Unique::new_unchecked(new);
+        vec.cap = Cap::new_unchecked(capacity);
+    }
+    true
+}
+
+enum AllocInit {",
+            ),
+        ],
+    ),
+    (
+        "core/src/slice/memchr.rs",
+        // Texts are short.
+        &[("    memchr_aligned(x, text)\n}", "    memchr_naive(x, text)\n}")],
     ),
     (
         "std/src/sys/pal/unix/mod.rs",
