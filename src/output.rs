@@ -11,7 +11,7 @@ pub const SPACES: &[u8] = &[b' '; 16];
 #[cfg(unix)]
 mod system {
     use rustix::fs::{self, Mode, OFlags};
-    use rustix::io::{Errno, retry_on_intr, write};
+    use rustix::io::{Errno, read, retry_on_intr, write};
     use rustix::stdio::{stderr, stdout};
     use std::ffi::CStr;
     use std::os::fd::{AsFd, BorrowedFd};
@@ -24,13 +24,23 @@ mod system {
         Ok(())
     }
 
-    /// A path with the zero behind it that the system wants, to be read by [`named`]. A word of the command line has none.
+    /// A path with the zero behind it that the system wants. A word of the command line has none.
     fn path(bytes: &[u8]) -> Vec<u8> {
         [bytes, b"\0"].concat()
     }
 
-    fn named(path: &[u8]) -> &CStr {
+    /// Such a path, as the system takes it.
+    pub fn named(path: &[u8]) -> &CStr {
         CStr::from_bytes_until_nul(path).unwrap_or_default()
+    }
+
+    /// A file's first megabyte, which is all; nothing where it cannot be read. Its path ends with a zero.
+    pub fn contents(path: &[u8]) -> Vec<u8> {
+        let mut bytes = vec![0; 1 << 20];
+        let file = fs::open(named(path), OFlags::RDONLY, Mode::empty());
+        let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
+        bytes.truncate(length);
+        bytes
     }
 
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
@@ -99,6 +109,8 @@ mod system {
 
 /// Makes a directory where there is none yet and it can be made.
 pub use system::make_directory;
+#[cfg(unix)]
+pub use system::{contents, named};
 
 /// The template with a word for each `%`, and for each `#` one that ends where it stands, over the spaces before it.
 pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
