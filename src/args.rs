@@ -3,6 +3,8 @@
 //! Words are bytes, as a directory need not be Unicode.
 
 use crate::number::{decimal, whole};
+#[cfg(target_os = "linux")]
+use crate::output::contents;
 use crate::output::fill;
 use paprsek::camera::Stereo;
 use paprsek::quality::Quality;
@@ -154,8 +156,7 @@ impl Args {
     /// Reads the command line of this process; the error is one line without the program's name.
     #[inline(never)]
     pub fn from_env() -> Result<Args, Vec<u8>> {
-        // They stay for the whole run.
-        let mut words = std::env::args_os().map(|word| &*word.into_encoded_bytes().leak());
+        let mut words = words();
         let (mut scene, mut values) = (None, [None; OPTIONS]);
         // The first is the program's own name.
         words.next();
@@ -301,6 +302,18 @@ fn understood(
     let name = values[QUALITY].unwrap_or(b"default");
     let quality = Quality::NAMED.iter().find(|named| named.0.as_bytes() == name).ok_or(QUALITY)?;
     Ok((numbers, threads, size, quality))
+}
+
+/// The words of this process's command line, which stay for the whole run.
+#[cfg(target_os = "linux")]
+fn words() -> impl Iterator<Item = &'static [u8]> {
+    let text: &[u8] = contents(b"/proc/self/cmdline\0").leak();
+    text.split_inclusive(|&byte| byte == 0).map(|word| &word[..word.len() - 1])
+}
+
+#[cfg(not(target_os = "linux"))]
+fn words() -> impl Iterator<Item = &'static [u8]> {
+    std::env::args_os().map(|word| &*word.into_encoded_bytes().leak())
 }
 
 /// A line of a text.

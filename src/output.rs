@@ -11,9 +11,9 @@ pub const SPACES: &[u8] = &[b' '; 16];
 #[cfg(unix)]
 mod system {
     use rustix::fs::{self, Mode, OFlags};
-    use rustix::io::{Errno, retry_on_intr, write};
+    use rustix::io::{Errno, read, retry_on_intr, write};
     use rustix::stdio::{stderr, stdout};
-    use std::ffi::CString;
+    use std::ffi::CStr;
     use std::os::fd::{AsFd, BorrowedFd};
 
     fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), Errno> {
@@ -24,9 +24,23 @@ mod system {
         Ok(())
     }
 
-    fn path(bytes: &[u8]) -> CString {
-        // A word of the command line has no zero in it.
-        CString::new(bytes).unwrap_or_default()
+    /// A path with the zero behind it that the system wants. A word of the command line has none.
+    fn path(bytes: &[u8]) -> Vec<u8> {
+        [bytes, b"\0"].concat()
+    }
+
+    /// Such a path, as the system takes it.
+    pub fn named(path: &[u8]) -> &CStr {
+        CStr::from_bytes_until_nul(path).unwrap_or_default()
+    }
+
+    /// A file's first megabyte, which is all; nothing where it cannot be read. Its path ends with a zero.
+    pub fn contents(path: &[u8]) -> Vec<u8> {
+        let mut bytes = vec![0; 1 << 20];
+        let file = fs::open(named(path), OFlags::RDONLY, Mode::empty());
+        let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
+        bytes.truncate(length);
+        bytes
     }
 
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
@@ -38,17 +52,18 @@ mod system {
     }
 
     pub fn make_directory(name: &[u8]) {
-        let _ = fs::mkdir(&*path(name), Mode::from_raw_mode(0o777));
+        let _ = fs::mkdir(named(&path(name)), Mode::from_raw_mode(0o777));
     }
 
     pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
         let old = if fresh { OFlags::EXCL } else { OFlags::TRUNC };
         let flags = OFlags::CREATE | OFlags::WRONLY | OFlags::CLOEXEC | old;
-        let file = fs::open(&*part, flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)?;
-        write_all(file.as_fd(), bytes).and_then(|()| fs::rename(&*part, &*name)).map_err(|error| {
+        let (part, name) = (named(&part), named(&name));
+        let file = fs::open(part, flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)?;
+        write_all(file.as_fd(), bytes).and_then(|()| fs::rename(part, name)).map_err(|error| {
             // The first error is the one to report.
-            let _ = fs::unlink(&*part);
+            let _ = fs::unlink(part);
             error.raw_os_error()
         })
     }
@@ -94,6 +109,8 @@ mod system {
 
 /// Makes a directory where there is none yet and it can be made.
 pub use system::make_directory;
+#[cfg(unix)]
+pub use system::{contents, named};
 
 /// The template with a word for each `%`, and for each `#` one that ends where it stands, over the spaces before it.
 pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {

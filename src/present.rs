@@ -124,7 +124,7 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
         }
         let Some(time) = now else { return Ok(()) };
         if last == Some(time) {
-            thread::sleep(POLL);
+            thread::park_timeout(POLL);
             continue;
         }
         let began = Instant::now();
@@ -141,7 +141,10 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
         shared.fresh = true;
         drop(shared);
         window.unpark();
-        thread::sleep(PERIOD.saturating_sub(began.elapsed()));
+        // Threads that have drawn wake this one, so a single rest may end at once.
+        while let Some(rest) = PERIOD.checked_sub(began.elapsed()) {
+            thread::park_timeout(rest);
+        }
     }
 }
 

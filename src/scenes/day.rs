@@ -21,7 +21,7 @@ use crate::timeline::{self, ease};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::f32::consts::TAU;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex};
 
 /// The part.
 pub const DAY: Scene = Scene::part("day", "a hill by a lake: four days, one of each season", 4.0 * LENGTH, picture);
@@ -104,20 +104,20 @@ const fn pale(color: Word) -> [Word; 5] {
 }
 
 /// The bodies: the land, the woods, the lake, the chapel; last the aeroplane and its propeller, which move.
-pub(super) fn bodies() -> &'static Vec<Body> {
-    static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
-    BODIES.get_or_init(|| {
+fn bodies() -> Vec<Body> {
+    static BODIES: Mutex<Vec<Body>> = Mutex::new(Vec::new());
+    let mut bodies = BODIES.lock().unwrap();
+    if bodies.is_empty() {
         let mut meshes = land::ground();
         meshes.append(&mut tree::woods(&tree::trees()));
         for mesh in [land::lake(), chapel::chapel(), mustang::airframe(), mustang::propeller()] {
             meshes.push(mesh);
         }
-        let mut bodies = Vec::new();
         for mesh in meshes {
             bodies.push(Body::new(Arc::new(mesh), Affine3A::IDENTITY));
         }
-        bodies
-    })
+    }
+    bodies.clone()
 }
 
 /// What the plan has for a day: the camera at an hour, the date and the textures.
@@ -159,7 +159,7 @@ pub(super) fn show(shot: &Shot, dome: Dome, world: World, view: View, between: O
 #[inline(never)]
 pub(super) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
     let now = dome.lighting();
-    let mut bodies = bodies().clone();
+    let mut bodies = bodies();
     // Turns a second, five.
     let turns = 5.0 * time;
     let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);

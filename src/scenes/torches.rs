@@ -16,7 +16,7 @@ use crate::tile::Picture;
 use crate::timeline::{self, Key};
 use crate::view::View;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex};
 
 /// The scene.
 pub const TORCHES: Scene = Scene::part("torches", "fires in a ruin under the moon", LENGTH, picture);
@@ -87,9 +87,10 @@ pub static SHOTS: &[(f64, [Key<8>; 3])] = &[
 ];
 
 /// What fires burn in.
-fn bowls() -> &'static Body {
-    static BOWLS: OnceLock<Body> = OnceLock::new();
-    BOWLS.get_or_init(|| {
+fn bowls() -> Body {
+    static BOWLS: Mutex<Option<Body>> = Mutex::new(None);
+    let mut bowls = BOWLS.lock().unwrap();
+    let make = || {
         let mut mesh = Mesh::painted(&PAINTS);
         for [x, y, z, inner, outer, _] in FIRES {
             let mut size = Mat3::IDENTITY;
@@ -102,7 +103,8 @@ fn bowls() -> &'static Body {
             }
         }
         Body::new(Arc::new(mesh), Affine3A::IDENTITY)
-    })
+    };
+    bowls.get_or_insert_with(make).clone()
 }
 
 /// The light of fire `number`; bodies before number `from` cast no shadow of it.
@@ -185,7 +187,7 @@ fn picture(shot: &Shot) -> Picture {
     // Of the chapel and what it holds lamps cast shadows, of the land they do not. Nobody flies.
     let from = world.bodies.len() - 3;
     world.bodies.truncate(from + 1);
-    world.bodies.push(bowls().clone());
+    world.bodies.push(bowls());
     let moon = &mut world.lights[0];
     // Silver, as beside fires it seems.
     moon.color *= vec3(0.9, 1.1, 1.5);

@@ -4,10 +4,9 @@
 //! A request is little-endian words of 32 bits: the first has its code, a byte of its own and its length in words.
 //! Answers, events and errors are eight words; an answer may have more.
 
-use rustix::fs::{Mode, OFlags, open};
-use rustix::io::{read, write};
+use crate::output::{contents, named};
+use rustix::io::write;
 use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
-use std::ffi::{CStr, CString};
 use std::os::fd::OwnedFd;
 
 /// Words of an answer, an event or an error.
@@ -30,17 +29,17 @@ pub struct Server {
 impl Server {
     /// The server that `DISPLAY` names. Each cookie that there is for it is tried.
     pub fn find() -> Option<Server> {
-        let environment = contents(c"/proc/self/environ");
+        let environment = contents(b"/proc/self/environ\0");
         let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
-        let address = SocketAddrUnix::new(&*CString::new([b"/tmp/.X11-unix/X", number].concat()).ok()?).ok()?;
+        let address = SocketAddrUnix::new(named(&[b"/tmp/.X11-unix/X", number, b"\0"].concat())).ok()?;
         let authority = match variable(b"XAUTHORITY=") {
-            Some(path) => path.to_vec(),
-            None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority"].concat(),
+            Some(path) => [path, b"\0"].concat(),
+            None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority\0"].concat(),
         };
         // Of an entry: number, method and cookie, each after its length, big-endian.
         let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
-        let entries = contents(&CString::new(authority).ok()?);
+        let entries = contents(&authority);
         let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
         // A server that wants none ignores it.
         let mut server = cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))?;
@@ -137,13 +136,4 @@ fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<Server> {
     let head = server.receive(2)?;
     server.setup = server.receive((head[1] >> 16) as usize)?;
     (head[0] & 255 == 1).then_some(server)
-}
-
-/// A file's first megabyte, which is all; nothing where it cannot be read.
-fn contents(path: &CStr) -> Vec<u8> {
-    let mut bytes = vec![0; 1 << 20];
-    let file = open(path, OFlags::RDONLY, Mode::empty());
-    let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
-    bytes.truncate(length);
-    bytes
 }

@@ -1,4 +1,4 @@
-//! The standard library's sources without what the intro never uses: 1.5 kB packed.
+//! The standard library's sources without what the intro never uses: 3 kB packed.
 //!
 //! Links lead to the toolchain's own files but for those that are cut.
 
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 4] = [
+const CUTS: [Cuts; 12] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -25,8 +25,28 @@ const CUTS: [Cuts; 4] = [
                 "",
             ),
             ("            crate::sys::backtrace::__rust_begin_short_backtrace(|| hooks.run());\n", ""),
-            // No thread has a name.
+            // No thread has a name, and those that draw bands never ask who they are: so none has a handle of its own.
             ("        if let Some(name) = self.handle.cname() {\n            imp::set_name(name);\n        }\n", ""),
+            (
+                "        if let Err(_thread) = set_current(self.handle.clone()) {
+            // The current thread should not have set yet. Use an abort to save binary size (see #123356).
+            rtabort!(\"current thread handle already set during thread spawn\");
+        }
+",
+                "",
+            ),
+            ("    pub handle: Thread,\n", ""),
+            ("ThreadInit { handle: thread.clone(), rust_start }", "ThreadInit { rust_start }"),
+            ("    let id = ThreadId::new();\n    let thread = Thread::new(id, name);\n", ""),
+            ("    thread: Thread,\n    packet:", "    packet:"),
+            ("        thread,\n        packet:", "        packet:"),
+            ("        &self.thread\n", "        unreachable!()\n"),
+            // No thread gives a result, and a panic ends the process.
+            ("        unsafe { *their_packet.result.get() = Some(try_result) };\n", ""),
+            ("    result: UnsafeCell<Option<Result<T>>>,", "    result: UnsafeCell<ManuallyDrop<Option<Result<T>>>>,"),
+            ("result: UnsafeCell::new(None)", "result: UnsafeCell::new(ManuallyDrop::new(None))"),
+            ("matches!(self.result.get_mut(), Some(Err(_)))", "false"),
+            ("            *self.result.get_mut() = None;\n", ""),
         ],
     ),
     (
@@ -34,16 +54,257 @@ const CUTS: [Cuts; 4] = [
         &[
             // The stack that is asked for is larger.
             ("let stack_size = cmp::max(stack, min_stack_size(attr.as_ptr()));", "let stack_size = stack;"),
+            // It is a multiple of the page.
+            ("assert_eq!(n, libc::EINVAL);", "return Err(io::Error::from_raw_os_error(n));"),
+            // These cannot fail, and what the second frees was never asked for.
+            (
+                "assert_eq!(libc::pthread_attr_init(attr.as_mut_ptr()), 0);",
+                "libc::pthread_attr_init(attr.as_mut_ptr());",
+            ),
+            (
+                "        let mut attr = DropGuard::new(&mut attr, |attr| {
+            assert_eq!(libc::pthread_attr_destroy(attr.as_mut_ptr()), 0)
+        });
+",
+                "",
+            ),
             // No handler tells a stack overflow from other faults.
             ("let _handler = sys::stack_overflow::Handler::new();", ""),
         ],
     ),
-    // No local of a thread has a destructor but the thread's handle.
-    ("std/src/sys/thread_local/guard/key.rs", &[("            destructors::run();\n", "")]),
+    (
+        "std/src/sys/thread_local/guard/key.rs",
+        // No local of a thread has a destructor but the thread's handle, and threads that have one never end.
+        &[
+            ("            destructors::run();\n", ""),
+            ("        set(DTORS.force(), ptr::without_provenance_mut(1));\n", ""),
+        ],
+    ),
+    (
+        "std/src/sys/alloc/unix.rs",
+        // One function of the system's for every alignment, which hands those that need none on to `malloc`.
+        &[
+            (
+                "        if layout.align() <= MIN_ALIGN && layout.align() <= layout.size() {
+            unsafe { libc::malloc",
+                "        if false {
+            unsafe { libc::malloc",
+            ),
+            (
+                "        if layout.align() <= MIN_ALIGN && layout.align() <= layout.size() {
+            unsafe { libc::calloc",
+                "        if false {
+            unsafe { libc::calloc",
+            ),
+            ("layout.align() <= MIN_ALIGN && layout.align() <= new_size", "false"),
+            ("let mut out = ptr::null_mut();", ""),
+            (
+                "            let ret = unsafe { libc::posix_memalign(&mut out, align, layout.size()) };
+            if ret != 0 { ptr::null_mut() } else { out as *mut u8 }
+",
+                "            unsafe { libc::aligned_alloc(align, layout.size()) as *mut u8 }\n",
+            ),
+        ],
+    ),
+    (
+        "alloc/src/raw_vec/mod.rs",
+        // Vectors of all types grow in one place, where no memory is the end; that crates have functions of their own for
+        // it comes from the allocator, a parameter.
+        &[
+            (
+                "    fn try_allocate_in(\n        capacity",
+                "    #[inline(always)]
+    fn try_allocate_in(
+        capacity: usize,
+        init: AllocInit,
+        alloc: A,
+        elem_layout: Layout,
+    ) -> Result<Self, TryReserveError> {
+        let arguments = (capacity, matches!(init, AllocInit::Zeroed), elem_layout);
+        let new = core::intrinsics::const_eval_select(arguments, never_new, fresh);
+        Ok(Self { ptr: new.ptr, cap: new.cap, alloc })
+    }
+
+    fn unused_try_allocate_in(\n        capacity",
+            ),
+            (
+                "    unsafe fn grow_amortized(",
+                "    #[inline(always)]
+    unsafe fn grow_amortized(
+        &mut self,
+        len: usize,
+        additional: usize,
+        elem_layout: Layout,
+    ) -> Result<(), TryReserveError> {
+        let arguments = (&raw mut *self as *mut RawVecInner, len + additional, elem_layout);
+        core::intrinsics::const_eval_select(arguments, never_grows, grow);
+        Ok(())
+    }
+
+    unsafe fn unused_grow_amortized(",
+            ),
+            (
+                "        let cap = len.checked_add(additional).ok_or(CapacityOverflow)?;
+
+        // SAFETY: preconditions passed to caller
+        let ptr = unsafe { self.finish_grow(cap, elem_layout)? };
+
+        // SAFETY: `finish_grow` would have failed if `cap > isize::MAX`
+        unsafe { self.set_ptr_and_cap(ptr, cap) };
+        Ok(())
+",
+                "        let roomy = room(unsafe { &mut *(&raw mut *self as *mut RawVecInner) }, len + additional, elem_layout);
+        if roomy { Ok(()) } else { Err(CapacityOverflow.into()) }
+",
+            ),
+            (
+                "    unsafe fn deallocate(&mut self, elem_layout: Layout) {
+        // SAFETY: Precondition passed to caller
+        if let Some((ptr, layout)) = unsafe { self.current_memory(elem_layout) } {
+            unsafe {
+                self.alloc.deallocate(ptr, layout);
+            }
+        }
+    }
+",
+                "    #[inline(always)]
+    unsafe fn deallocate(&mut self, _: Layout) {
+        release(self.cap, self.ptr.as_ptr());
+    }
+",
+            ),
+            (
+                "enum AllocInit {",
+                "const fn never_new(_: usize, _: bool, _: Layout) -> RawVecInner {
+    panic!()
+}
+
+const fn never_grows(_: *mut RawVecInner, _: usize, _: Layout) {
+    panic!()
+}
+
+#[inline(never)]
+fn fresh(capacity: usize, zeroed: bool, elem_layout: Layout) -> RawVecInner {
+    let mut vec = RawVecInner::new_in(Global, elem_layout.alignment());
+    if capacity * elem_layout.size() != 0 {
+        enlarge(&mut vec, capacity, elem_layout);
+        if zeroed {
+            unsafe { ptr::write_bytes(vec.ptr.as_ptr(), 0, capacity * elem_layout.size()) };
+        }
+    }
+    vec
+}
+
+#[inline(never)]
+fn grow(vec: *mut RawVecInner, needed: usize, elem_layout: Layout) {
+    let vec = unsafe { &mut *vec };
+    enlarge(vec, cmp::max(cmp::max(vec.cap.as_inner() * 2, needed), 4), elem_layout);
+}
+
+fn enlarge(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) {
+    if !room(vec, capacity, elem_layout) {
+        core::intrinsics::abort();
+    }
+}
+
+#[inline(never)]
+fn release(capacity: Cap, place: *mut u8) {
+    if capacity.as_inner() != 0 {
+        unsafe { crate::alloc::dealloc(place, Layout::new::<u8>()) };
+    }
+}
+
+#[inline(never)]
+fn room(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) -> bool {
+    let Some(size) = capacity.checked_mul(elem_layout.size()) else { return false };
+    unsafe {
+        let new = crate::alloc::alloc(Layout::from_size_align_unchecked(size, elem_layout.align()));
+        if new.is_null() {
+            return false;
+        }
+        let old = vec.ptr.as_ptr();
+        ptr::copy_nonoverlapping(old, new, vec.cap.as_inner() * elem_layout.size());
+        vec.deallocate(elem_layout);
+        vec.ptr = Unique::new_unchecked(new);
+        vec.cap = Cap::new_unchecked(capacity);
+    }
+    true
+}
+
+enum AllocInit {",
+            ),
+        ],
+    ),
+    (
+        "core/src/slice/memchr.rs",
+        // Texts are short.
+        &[("    memchr_aligned(x, text)\n}", "    memchr_naive(x, text)\n}")],
+    ),
+    (
+        "std/src/io/error/repr_bitpacked.rs",
+        // No error is more than a number.
+        &[("            let _ = decode_repr(self.0, |p| Box::<Custom>::from_raw(p));\n", "")],
+    ),
+    (
+        "std/src/sys/pal/unix/futex.rs",
+        // Who waits looks again why, so one signal may end it, and times are short: they need not be instants.
+        &[
+            (
+                "        .and_then(|d| Timespec::now(libc::CLOCK_MONOTONIC).checked_add_duration(&d))
+        .and_then(|t| t.to_timespec());
+",
+                "        .map(|d| libc::timespec { tv_sec: d.as_secs() as _, tv_nsec: d.subsec_nanos() as _ });\n",
+            ),
+            ("libc::FUTEX_WAIT_BITSET | libc", "libc::FUTEX_WAIT | libc"),
+            (
+                "        match (r < 0).then(crate::sys::io::errno) {
+            Some(libc::ETIMEDOUT) => return false,
+            Some(libc::EINTR) => continue,
+            _ => return true,
+        }
+",
+                "        return r == 0;\n",
+            ),
+        ],
+    ),
+    (
+        "std/src/sys/pal/unix/time.rs",
+        // The clock never goes back, and no span is as long as five centuries.
+        &[(
+            "Timespec) -> Result<Duration, Duration> {\n",
+            "Timespec) -> Result<Duration, Duration> {
+        let nanos = self.tv_nsec.as_inner() as i64 - other.tv_nsec.as_inner() as i64;
+        return Ok(Duration::from_nanos(((self.tv_sec - other.tv_sec) * NSEC_PER_SEC as i64 + nanos) as u64));
+",
+        )],
+    ),
+    (
+        "std/src/thread/current.rs",
+        // No thread asks for a number.
+        &[("        let id = id::get_or_init();\n", "        let id = unsafe { crate::mem::transmute(1u64) };\n")],
+    ),
+    (
+        "std/src/sys/pal/unix/mod.rs",
+        &[
+            // That signal can be ignored, and what ends the program ends it like a panic.
+            ("rtassert!(signal(libc::SIGPIPE, handler) != libc::SIG_ERR);", "signal(libc::SIGPIPE, handler);"),
+            ("    unsafe { libc::abort() }\n", "    core::intrinsics::abort()\n"),
+            // A standard stream that is closed is an error where it is written to.
+            ("    sanitize_standard_fds();\n", ""),
+            // The page's size, which nobody asks for; arguments, which are there before.
+            ("    stack_overflow::init();\n", ""),
+            ("    crate::sys::args::init(argc, argv);\n", "    let _ = (argc, argv);\n"),
+        ],
+    ),
     (
         "std/src/rt.rs",
-        // What is written to stdout is flushed at once, and only `main` ends the process.
-        &[("\n        cleanup();\n", ""), ("        crate::sys::exit::unique_thread_exit();\n", "")],
+        &[
+            // What is written to stdout is flushed at once, and only `main` ends the process.
+            ("\n        cleanup();\n", ""),
+            ("        crate::sys::exit::unique_thread_exit();\n", ""),
+            // No message names a thread.
+            ("    unsafe { main_thread::set(thread::current_id()) };\n", ""),
+        ],
     ),
 ];
 
@@ -53,6 +314,7 @@ pub fn cut(original: &Path, copy: &Path) -> Result<(), String> {
 }
 
 fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
+    unlink(&copy.join(place));
     fs::create_dir_all(copy.join(place))?;
     for entry in fs::read_dir(original.join(place))? {
         let place = place.join(entry?.file_name());
@@ -60,6 +322,7 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
         match CUTS.iter().find(|(path, _)| Path::new(path).starts_with(&place)) {
             Some((path, cuts)) if Path::new(path) == place => {
                 let text = cuts.iter().fold(fs::read_to_string(&from)?, without);
+                unlink(&to);
                 // Written anew, a file that is the same would have cargo build all that needs it once more.
                 if fs::read(&to).ok().as_deref() != Some(text.as_bytes()) {
                     fs::write(&to, text)?;
@@ -68,12 +331,20 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
             Some(_) => mirror(original, copy, &place)?,
             None if fs::read_link(&to).is_ok_and(|there| there == from) => {}
             None => {
-                let _ = fs::remove_file(&to);
+                // What an older packer has cut.
+                let _ = fs::remove_file(&to).or_else(|_| fs::remove_dir_all(&to));
                 symlink(&from, &to)?;
             }
         }
     }
     Ok(())
+}
+
+/// Removes what an older packer has linked: to write there would change the toolchain's own files.
+fn unlink(path: &Path) {
+    if path.is_symlink() {
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// The text with a part replaced that is in it once.
@@ -110,6 +381,9 @@ mod tests {
         };
         file(path, &text);
         file("core/src/lib.rs", "core");
+        // As an older packer left it: links where there are cuts now, cuts where there are none any more.
+        fs::create_dir_all(copy.join("core/src")).unwrap();
+        symlink(original.join("std"), copy.join("std")).unwrap();
         for _ in 0..2 {
             cut(&original, &copy).unwrap();
         }
