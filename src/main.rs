@@ -40,7 +40,8 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Play => play(args),
         #[cfg(feature = "bench-scenes")]
         Mode::Bench { json } => bench::run(args, *json),
-        Mode::Capture(target) => capture::run(args, target),
+        Mode::Capture(target) if !cfg!(without = "capture") => capture::run(args, target),
+        Mode::Capture(_) => Ok(()),
         Mode::Print(text) => print(text.as_bytes()),
         Mode::List if BENCH => list(),
         Mode::List => Ok(()),

@@ -56,7 +56,7 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
         lock(desk).ended = Some(ended);
     };
     start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
-    if args.full {
+    if args.full && !cfg!(without = "fullscreen") {
         window.fill();
     }
 
@@ -94,8 +94,8 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
                 PAUSE => desk.clock.toggle(),
                 BACK => desk.clock.seek(-SEEK),
                 FORWARD => desk.clock.seek(SEEK),
-                FILL => window.fill(),
-                STILL => desk.still = time,
+                FILL if !cfg!(without = "fullscreen") => window.fill(),
+                STILL if !cfg!(without = "stills") => desk.still = time,
                 FIRST_PART..=LAST_PART => desk.clock.jump((symbol - FIRST_PART) as usize),
                 _ => {}
             }
@@ -131,7 +131,7 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
         // What does not move can be waited for.
         let step = if rests { 0 } else { governor.step };
         draw(args, &mut renderer, time, step, &mut frame);
-        if args.governed && !rests {
+        if args.governed && !rests && !cfg!(without = "governor") {
             governor.frame(began.elapsed().as_secs_f64() * args.fps);
         }
         last = Some(time);

@@ -168,6 +168,11 @@ pub struct Picture {
     pub transfer: Transfer,
 }
 
+impl Picture {
+    /// No layers.
+    pub const EMPTY: Picture = Picture { layers: Vec::new(), transfer: Transfer::Srgb };
+}
+
 /// Renders frames on a fixed number of threads at one SIMD level.
 pub struct Renderer {
     crew: Crew,

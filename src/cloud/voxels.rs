@@ -8,6 +8,7 @@ use glam::Vec3;
 const LEAP: usize = 4;
 
 /// Density and sunlight at the points of a cubic lattice, trilinear between them and as at the edge beyond it.
+#[derive(Clone)]
 pub struct Voxels {
     /// Points along an edge: a multiple of 4.
     edge: usize,
@@ -46,13 +47,19 @@ impl Voxels {
     /// Makes what lookups read, after density or light have changed.
     pub fn pack(&mut self) {
         let n = self.edge;
+        self.cells.clear();
         // One layer more than there are, since every lookup reads two.
-        self.cells.resize(n * n * (n + 1), [0; 2]);
-        for (index, cell) in self.cells.iter_mut().enumerate() {
-            let (i, j, l) = (index % n, index / n % n, (index / (n * n)).min(n - 1));
-            let (right, below) = ((i + 1).min(n - 1), (j + 1).min(n - 1));
-            let at = [(i, j), (right, j), (i, below), (right, below)].map(|(i, j)| i + n * (j + n * l));
-            *cell = [&self.density, &self.light].map(|bytes| u32::from_le_bytes(at.map(|at| bytes[at])));
+        for row in 0..n * (n + 1) {
+            let (j, l) = (row % n, (row / n).min(n - 1));
+            let starts = [j, (j + 1).min(n - 1)].map(|j| (j + n * l) * n);
+            for i in 0..n {
+                let columns = [i, (i + 1).min(n - 1)];
+                let cell = |bytes: &[u8]| {
+                    let [[a, b], [c, d]] = starts.map(|start| columns.map(|i| bytes[start + i]));
+                    u32::from_le_bytes([a, b, c, d])
+                };
+                self.cells.push([cell(&self.density), cell(&self.light)]);
+            }
         }
     }
 

@@ -278,7 +278,7 @@ pub fn draw<S: Simd>(
             let (u, v) = (x * a + by, x * c + dy);
             let rest = (one - (u * u + v * v)).max(zero);
             let mut weight = rest * rest;
-            if sprite.crystal > CRYSTAL {
+            if sprite.crystal > CRYSTAL && !cfg!(without = "crystals") {
                 weight = grown(simd, crystal, u, v, sprite.crystal);
             }
             let at = row * Tile::SIZE + column;

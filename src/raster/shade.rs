@@ -210,7 +210,9 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
             i += 1;
         }
     }
-    if let (Some(snow), Some(sight)) = (&world.snow, sights.last()) {
+    if let (Some(snow), Some(sight)) = (&world.snow, sights.last())
+        && !cfg!(without = "snow-cover")
+    {
         settle(simd, context, snow, sight, queue);
     }
     let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
@@ -330,7 +332,9 @@ pub fn shine<S: Simd>(
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (load3(simd, points, i), load3(simd, normals, i));
         let mut gives = light.at(simd, sight, context.rasters, p, n);
-        if let (Source::Sun(_), Some(veil)) = (light.source, &context.world.veil) {
+        if let (Source::Sun(_), Some(veil)) = (light.source, &context.world.veil)
+            && !cfg!(without = "cloud-shadows")
+        {
             gives = gives * Lane(veil.at(simd, p));
         }
         store3(load3(simd, out, i) + gives, out, i);

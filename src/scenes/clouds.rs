@@ -63,7 +63,7 @@ fn shapes(crew: &Crew, towards: Vec3) -> Vec<Arc<Voxels>> {
         if *lit != sun || shape.is_none() {
             let kind = if number < 4 { Kind::CUMULUS } else { Kind::CONGESTUS };
             let mut new = match shape {
-                Some(old) => Voxels::new(64, old.density.clone()),
+                Some(old) => Voxels::clone(old),
                 None => dispatch!(level, simd => Kind::grow(simd, &kind, number as u32, 64)),
             };
             dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, FIELD.extinction));
@@ -109,7 +109,9 @@ fn picture(shot: &Shot) -> Picture {
         points.push(vec3(corner.x + x, 0.0, corner.y + z));
     }
     let passes = shadow::shares(&clouds, now.direction, &points);
-    world.veil = Some(Veil { passes, corner, texel, slope });
+    if !cfg!(without = "cloud-shadows") {
+        world.veil = Some(Veil { passes, corner, texel, slope });
+    }
     let view = View::new(camera, shot.width, shot.height);
     // What is brightest without glare is to be no more than white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);

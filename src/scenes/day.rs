@@ -110,8 +110,9 @@ fn bodies() -> Vec<Body> {
     if bodies.is_empty() {
         let mut meshes = land::ground();
         meshes.append(&mut tree::woods(&tree::trees()));
-        for mesh in [land::lake(), chapel::chapel(), mustang::airframe(), mustang::propeller()] {
-            meshes.push(mesh);
+        meshes.extend([land::lake(), chapel::chapel()]);
+        if !cfg!(without = "aeroplane") {
+            meshes.extend([mustang::airframe(), mustang::propeller()]);
         }
         for mesh in meshes {
             bodies.push(Body::new(Arc::new(mesh), Affine3A::IDENTITY));

@@ -21,20 +21,25 @@ pub const INTRO: Scene =
 /// June, the flight, a sunset in September, the first snow, a night with fires, and the last light.
 #[rustfmt::skip]
 pub const PARTS: &[(f64, (Scene, f64))] = &[
-    (0.0, (lumen::LUMEN, 0.0)),
+    (0.0, (unless(cfg!(without = "lumen"), lumen::LUMEN), 0.0)),
     #[cfg(feature = "day")]
-    (21.0, (day::DAY, 2.0)),
+    (21.0, (unless(cfg!(without = "day"), day::DAY), 2.0)),
     #[cfg(feature = "day")]
-    (35.0, (clouds::CLOUDS, 0.0)),
+    (35.0, (unless(cfg!(without = "clouds"), clouds::CLOUDS), 0.0)),
     #[cfg(feature = "day")]
-    (69.0, (day::DAY, day::LENGTH + 31.0)),
+    (69.0, (unless(cfg!(without = "day"), day::DAY), day::LENGTH + 31.0)),
     #[cfg(feature = "day")]
-    (83.0, (snowfall::SNOWFALL, 1.0)),
+    (83.0, (unless(cfg!(without = "snowfall"), snowfall::SNOWFALL), 1.0)),
     #[cfg(feature = "day")]
-    (113.0, (torches::TORCHES, 0.0)),
+    (113.0, (unless(cfg!(without = "torches"), torches::TORCHES), 0.0)),
     #[cfg(feature = "day")]
-    (143.0, (lumen::LUMEN, 45.0)),
+    (143.0, (unless(cfg!(without = "lumen"), lumen::LUMEN), 45.0)),
 ];
+
+/// The scene, or nothing in its place where it is left out.
+const fn unless(left_out: bool, scene: Scene) -> Scene {
+    if left_out { Scene::EMPTY } else { scene }
+}
 
 /// Seconds that the show takes.
 const END: f64 = if cfg!(feature = "day") { 154.0 } else { 21.0 };
@@ -68,6 +73,9 @@ pub const READ: f64 = 6.5;
 
 /// Lines of sparks that come together and fly apart.
 fn write(shot: &Shot, picture: &mut Picture) {
+    if cfg!(without = "writing") {
+        return;
+    }
     let mut lines = Vec::new();
     for &([start, x, y, size], text) in WRITING {
         let age = shot.time - start as f64;

@@ -59,6 +59,9 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Nothing, for no time.
+    const EMPTY: Scene = Scene { name: "", about: "", duration: 0.0, picture: |_| Picture::EMPTY };
+
     /// A part of the show, which the 64 kB build does not play alone: there it has no name.
     const fn part(name: &'static str, about: &'static str, duration: f64, picture: fn(&Shot) -> Picture) -> Scene {
         if BENCH { Scene { name, about, duration, picture } } else { Scene { name: "", about: "", duration, picture } }

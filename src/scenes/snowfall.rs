@@ -13,7 +13,7 @@ use crate::raster::light::{Haze, Light, Source};
 use crate::raster::project::Projection;
 use crate::raster::settle::Settled;
 use crate::raster::shadow::{Bias, Plan};
-use crate::tile::Picture;
+use crate::tile::{Layer, Picture};
 use crate::timeline::{self, Key, ease};
 use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
@@ -110,7 +110,9 @@ fn picture(shot: &Shot) -> Picture {
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
     let plan = Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: true };
     let from = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
-    world.snow = Some(Settled { amount, from, gives: sky * 0.6 });
+    if !cfg!(without = "snow-cover") {
+        world.snow = Some(Settled { amount, from, gives: sky * 0.6 });
+    }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
     day::lamp(&mut world, ease(20.0, 26.0, shot.time));
@@ -129,5 +131,10 @@ fn picture(shot: &Shot) -> Picture {
     }
     let flakes = Particles::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, shot.width, shot.height);
     let drawn = Drawn::new(world, view, shot.width, shot.height, shot.quality);
-    Picture { layers: vec![Box::new(drawn), Box::new(fog), Box::new(flakes)], transfer: Transfer::Srgb }
+    let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
+    if !cfg!(without = "fog") {
+        layers.push(Box::new(fog));
+    }
+    layers.push(Box::new(flakes));
+    Picture { layers, transfer: Transfer::Srgb }
 }

@@ -48,7 +48,10 @@ impl Backdrop {
             size /= 2;
         }
         let discs = [dome.sun_disc(camera.forward, look.sun), dome.moon_disc(look.moon)];
-        let stars = dome.stars(&view, width, height, look.shimmer, look.moon);
+        let mut stars = Vec::new();
+        if !cfg!(without = "stars") {
+            stars = dome.stars(&view, width, height, look.shimmer, look.moon);
+        }
         Backdrop { dome, view, size, behind: look.behind, discs, stars }
     }
 }
@@ -60,8 +63,10 @@ impl Layer for Backdrop {
             tile.clear();
         }
         dispatch!(level, simd => grid::fill(simd, &self.dome, &self.view, self.size, tile));
-        stars::draw(&self.stars, tile);
-        for disc in &self.discs {
+        if !cfg!(without = "stars") {
+            stars::draw(&self.stars, tile);
+        }
+        for disc in self.discs.iter().filter(|_| !cfg!(without = "discs")) {
             dispatch!(level, simd => disc::draw(simd, disc, &self.view, tile));
         }
         Stats::default()

@@ -36,16 +36,18 @@ const SETTINGS: &[&str] = &[
     "profile.release.debug='line-tables-only'",
     // As fast as 3 for half of its bytes, see ARCHITECTURE.md.
     "profile.release.package.paprsek.opt-level=2",
-    // Kernels say themselves what is inlined.
-    "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inlinedefault-threshold=10']",
 ];
+
+/// Flags of the renderer and the executable: kernels say themselves what is inlined.
+const OWN: &str = "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inlinedefault-threshold=10'";
 
 /// Settings of LLVM where the whole program is compiled: fewer bytes once packed, a twentieth slower.
 const LLVM: &[&str] = &["-regalloc=basic", "-unroll-threshold=60", "-disable-block-placement"];
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
-/// Its code is the same wherever `root` is, as long as `target` is below it at the same place.
-pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBuf, String> {
+/// Its code is the same wherever `root` is, as long as `target` is below it at the same place. What [`crate::marginal`]
+/// lists can be left out.
+pub fn build(root: &Path, toolchain: &Toolchain, target: &Path, without: Option<&str>) -> Result<PathBuf, String> {
     let whole = |path: &Path| {
         let made = fs::create_dir_all(path).and_then(|()| path.canonicalize());
         made.map_err(|error| format!("cannot make {}: {error}", path.display()))
@@ -64,6 +66,8 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path) -> Result<PathBu
     for setting in SETTINGS {
         cargo.args(["--config", setting]);
     }
+    let left_out = without.map_or(String::new(), |name| format!(", '--cfg', 'without=\"{name}\"'"));
+    cargo.args(["--config", &format!("{OWN}{left_out}]")]);
     cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
     // The executable's own files are the shell around the renderer, where size alone counts; and it is linked.
     // The linker has no part in FLAGS: cargo names crates by their flags, and no name may depend on a path.

@@ -7,6 +7,7 @@ pub mod encoder;
 pub mod first;
 mod library;
 pub mod link;
+pub mod marginal;
 pub mod order;
 pub mod packer;
 pub mod pieces;

@@ -1,11 +1,12 @@
 //! `pack`: builds the intro for size, packs it into `target/intro/paprsek` and says where its bytes go.
 //! `pack FILE -o OUT`: packs any executable.
+//! `pack marginal`: what the packed intro would save without each of its dearer features.
 //! `pack shuffle`: packs the intro of sources that are shuffled, too, and says how far apart the sizes are.
 
 use pack::packer::{self, Packed};
 use pack::table::{Profile, Row, View, markdown, rounded};
 use pack::toolchain::Toolchain;
-use pack::{build, elf, shuffle, stub};
+use pack::{build, elf, marginal, shuffle, stub};
 use std::ffi::OsString;
 use std::io::Write;
 use std::os::unix::fs::PermissionsExt;
@@ -17,9 +18,10 @@ fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
     let said = match &arguments[..] {
         [] => intro(),
+        [word] if word == "marginal" => marginal(),
         [word] if word == "shuffle" => shuffle(),
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
-        _ => Err("usage: pack, pack FILE -o OUT, or pack shuffle".into()),
+        _ => Err("usage: pack, pack FILE -o OUT, pack marginal, or pack shuffle".into()),
     };
     let printed =
         said.and_then(|said| io::stdout().write_all(said.as_bytes()).map_err(|error| format!("stdout: {error}")));
@@ -37,7 +39,7 @@ fn intro() -> Result<String, String> {
     let (root, target) = places();
     let target = target.join("intro");
     let toolchain = Toolchain::find()?;
-    let program = read(&build::build(&root, &toolchain, &target.join("build"))?)?;
+    let program = read(&build::build(&root, &toolchain, &target.join("build"), None)?)?;
     let unpacker = stub::unpacker(&toolchain, &target)?;
     let packed = packer::pack(&program, &unpacker)?;
     write(&target.join("paprsek.elf"), &elf::trim(&program)?.bytes)?;
@@ -59,6 +61,16 @@ fn places() -> (PathBuf, PathBuf) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target")));
     (root, target)
+}
+
+/// Builds and packs the intro without one feature after another; gives a table of what each saves.
+fn marginal() -> Result<String, String> {
+    let (root, target) = places();
+    let target = target.join("intro");
+    let toolchain = Toolchain::find()?;
+    fs::create_dir_all(&target).map_err(|error| format!("{}: {error}", target.display()))?;
+    let unpacker = stub::unpacker(&toolchain, &target)?;
+    marginal::table(&root, &toolchain, &unpacker, &target.join("build"))
 }
 
 /// Builds and packs the intro of shuffled sources; gives a table of the sizes.
