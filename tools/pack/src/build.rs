@@ -70,8 +70,9 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path, without: Option<
     cargo.args(["--config", &format!("{OWN}{left_out}]")]);
     cargo.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join("\x1f"));
     // The executable's own files are the shell around the renderer, where size alone counts; and it is linked.
+    // Its path starts with a dot so that what was linked before the order was found is linked anew.
     // The linker has no part in FLAGS: cargo names crates by their flags, and no name may depend on a path.
-    cargo.args(["--", "-Copt-level=z", "-Clinker=tools/pack/cc"]);
+    cargo.args(["--", "-Copt-level=z", "-Clinker=./tools/pack/cc"]);
     cargo.args(LLVM.iter().map(|setting| format!("-Cllvm-args={setting}")));
     run(&mut cargo)?;
     let unpacker = stub::unpacker(toolchain, &target)?;
