@@ -308,7 +308,8 @@ fn understood(
 #[cfg(target_os = "linux")]
 fn words() -> impl Iterator<Item = &'static [u8]> {
     let text: &[u8] = contents(b"/proc/self/cmdline\0").leak();
-    text.split_inclusive(|&byte| byte == 0).map(|word| &word[..word.len() - 1])
+    // Each ends with a zero.
+    pieces(&text[..text.len().saturating_sub(1)], 0)
 }
 
 #[cfg(not(target_os = "linux"))]
@@ -318,7 +319,12 @@ fn words() -> impl Iterator<Item = &'static [u8]> {
 
 /// A line of a text.
 fn line(text: &'static str, number: usize) -> &'static [u8] {
-    text.as_bytes().split(|&byte| byte == b'\n').nth(number).unwrap_or_default()
+    pieces(text.as_bytes(), b'\n').nth(number).unwrap_or_default()
+}
+
+/// What is between such bytes.
+fn pieces(text: &'static [u8], by: u8) -> impl Iterator<Item = &'static [u8]> {
+    text.split(move |&byte| byte == by)
 }
 
 /// What [`HELP`] has about an option: its name and what its value is, then what it does.

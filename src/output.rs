@@ -26,7 +26,7 @@ mod system {
 
     /// A path with the zero behind it that the system wants. A word of the command line has none.
     fn path(bytes: &[u8]) -> Vec<u8> {
-        [bytes, b"\0"].concat()
+        super::fill("%\0", &[bytes])
     }
 
     /// Such a path, as the system takes it.

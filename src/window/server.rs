@@ -4,7 +4,7 @@
 //! A request is little-endian words of 32 bits: the first has its code, a byte of its own and its length in words.
 //! Answers, events and errors are eight words; an answer may have more.
 
-use crate::output::{contents, named};
+use crate::output::{contents, fill, named};
 use rustix::io::write;
 use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
 use std::os::fd::OwnedFd;
@@ -32,13 +32,13 @@ impl Server {
         let environment = contents(b"/proc/self/environ\0");
         let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
-        let address = SocketAddrUnix::new(named(&[b"/tmp/.X11-unix/X", number, b"\0"].concat())).ok()?;
+        let address = SocketAddrUnix::new(named(&fill("/tmp/.X11-unix/X%\0", &[number]))).ok()?;
         let authority = match variable(b"XAUTHORITY=") {
-            Some(path) => [path, b"\0"].concat(),
-            None => [variable(b"HOME=").unwrap_or_default(), b"/.Xauthority\0"].concat(),
+            Some(path) => fill("%\0", &[path]),
+            None => fill("%/.Xauthority\0", &[variable(b"HOME=").unwrap_or_default()]),
         };
         // Of an entry: number, method and cookie, each after its length, big-endian.
-        let key = [&[0, number.len() as u8], number, b"\0\x12MIT-MAGIC-COOKIE-1\0\x10"].concat();
+        let key = fill("%%\0\x12MIT-MAGIC-COOKIE-1\0\x10", &[&[0, number.len() as u8], number]);
         let entries = contents(&authority);
         let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
         // A server that wants none ignores it.
@@ -132,7 +132,7 @@ fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<Server> {
     let socket = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
     connect(&socket, address).ok()?;
     let mut server = Server { socket, setup: Vec::new(), state: [0; 2], full: false };
-    server.send_bytes(&[b"l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0", cookie].concat())?;
+    server.send_bytes(&fill("l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0%", &[cookie]))?;
     let head = server.receive(2)?;
     server.setup = server.receive((head[1] >> 16) as usize)?;
     (head[0] & 255 == 1).then_some(server)

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 12] = [
+const CUTS: [Cuts; 14] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -269,14 +269,45 @@ enum AllocInit {",
     ),
     (
         "std/src/sys/pal/unix/time.rs",
-        // The clock never goes back, and no span is as long as five centuries.
-        &[(
-            "Timespec) -> Result<Duration, Duration> {\n",
-            "Timespec) -> Result<Duration, Duration> {
+        &[
+            // The clock never goes back, and no span is as long as five centuries.
+            (
+                "Timespec) -> Result<Duration, Duration> {\n",
+                "Timespec) -> Result<Duration, Duration> {
         let nanos = self.tv_nsec.as_inner() as i64 - other.tv_nsec.as_inner() as i64;
         return Ok(Duration::from_nanos(((self.tv_sec - other.tv_sec) * NSEC_PER_SEC as i64 + nanos) as u64));
 ",
+            ),
+            // There is such a clock.
+            (
+                "cvt(unsafe { libc::clock_gettime(clock, t.as_mut_ptr()) }).unwrap();",
+                "unsafe { libc::clock_gettime(clock, t.as_mut_ptr()) };",
+            ),
+            (
+                "        let t = unsafe { t.assume_init() };
+        Timespec::new(t.tv_sec as i64, t.tv_nsec as i64).unwrap()
+",
+                "        let t = unsafe { t.assume_init() };
+        unsafe { Timespec::new_unchecked(t.tv_sec as i64, t.tv_nsec as i64) }
+",
+            ),
+        ],
+    ),
+    (
+        "std/src/thread/thread.rs",
+        // No thread has a name.
+        &[(
+            "        let name = name.map(ThreadNameString::from);\n",
+            "        crate::mem::forget(name);\n        let name: Option<ThreadNameString> = None;\n",
         )],
+    ),
+    (
+        "std/src/thread/scoped.rs",
+        // No thread starts others when it ends, and a panic in one ends all.
+        &[
+            ("main_thread: current_or_unnamed(),", "main_thread: super::current::current(),"),
+            ("Ok(_) if scope.data.a_thread_panicked.load(Ordering::Relaxed) =>", "Ok(_) if false =>"),
+        ],
     ),
     (
         "std/src/thread/current.rs",
