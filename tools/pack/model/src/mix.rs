@@ -59,8 +59,11 @@ pub fn dot(x: &[Vector], w: &[Vector]) -> i32 {
     fn vectors(x: &[Vector], w: &[Vector]) -> i64 {
         let mut sums = _mm256_setzero_si256();
         for (x, w) in x.iter().zip(w) {
+            // One after the other: as an array of two they would pass through memory, a fifth of the unpacker's time.
             // SAFETY: reads sixteen numbers where there are sixteen.
-            let [x, w] = [x, w].map(|v| unsafe { _mm256_loadu_si256(v.as_ptr().cast()) });
+            let x = unsafe { _mm256_loadu_si256(x.as_ptr().cast()) };
+            // SAFETY: likewise.
+            let w = unsafe { _mm256_loadu_si256(w.as_ptr().cast()) };
             sums = _mm256_add_epi32(sums, _mm256_madd_epi16(x, w));
         }
         let sums = _mm_add_epi32(_mm256_castsi256_si128(sums), _mm256_extracti128_si256::<1>(sums));
