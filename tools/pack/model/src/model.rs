@@ -65,7 +65,8 @@ pub struct Model {
     logistic: Logistic,
     weights: [[[Vector; VECTORS]; ROWS]; MIXERS],
     last: [[[Vector; 1]; ROWS]; LAST],
-    histories: [[[u32; 256]; CONTEXTS]; 2],
+    /// What followed histories, by the place of the byte ([`Self::kind`]).
+    histories: [[[u32; 256]; CONTEXTS]; 64],
     matches: [u32; 64],
     heads: [u32; 1 << 16],
     text: [u8; MOST],
@@ -98,7 +99,7 @@ impl Model {
         logistic: Logistic::ZERO,
         weights: [[[[0; 16]; VECTORS]; ROWS]; MIXERS],
         last: [[[[0; 16]; 1]; ROWS]; LAST],
-        histories: [[[0; 256]; CONTEXTS]; 2],
+        histories: [[[0; 256]; CONTEXTS]; 64],
         matches: [0; 64],
         heads: [0; 1 << 16],
         text: [0; MOST],
@@ -213,7 +214,7 @@ impl Model {
             self.node = 1;
         }
         let [direct, certain, indirect, more] = &mut self.inputs;
-        let histories = &self.histories[self.class as usize & 1];
+        let histories = &self.histories[self.place as usize & 63];
         let mut known = 0;
         for i in 0..CONTEXTS {
             let slot = self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
@@ -271,7 +272,7 @@ impl Model {
         }
         for i in 0..CONTEXTS {
             let slot = &mut self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
-            slot::update(&mut self.histories[self.class as usize & 1][i][slot::history(*slot)], bit);
+            slot::update(&mut self.histories[self.place as usize & 63][i][slot::history(*slot)], bit);
             slot::update(slot, bit);
         }
         if self.match_slot != 0 {
