@@ -49,8 +49,8 @@ pub struct Plan {
     pub smooth: bool,
 }
 
-/// Nearness of nothing: any light passes.
-pub const NOTHING: f32 = f32::MIN;
+/// Nearness of nothing, -1.7e38: any light passes. Its bytes are all the same, so that a map is cleared by one call.
+pub const NOTHING: f32 = f32::from_bits(0xfefe_fefe);
 /// Texels after the last row, and one row after the last view, which lookups of whole vectors read and leave out.
 const SLACK: usize = 4;
 
