@@ -198,7 +198,8 @@ impl<'a> Writer<'a> {
         self.object.add_relocation(section, relocation).map_err(|error| format!("cannot link: {error}"))
     }
 
-    /// What tells lines of source from addresses. Of functions that are left out it says that they are at 0.
+    /// What tells lines of source from addresses. Of functions that are left out it says that they are at 0; in lists of
+    /// ranges, which a pair of zeros ends, that they are from 1 to 1.
     fn tables(&mut self, joined: &ElfFile64<'_, LittleEndian>, parts: &Parts) -> Result<(), String> {
         let text = |error: object::read::Error| format!("the joined object: {error}");
         let mut tables = Vec::new();
@@ -215,7 +216,10 @@ impl<'a> Writer<'a> {
             for (offset, relocation) in table.relocations() {
                 let RelocationFlags::Elf { r_type } = relocation.flags() else { return Err("not ELF".into()) };
                 if let Some(target) = parts.target(joined, &relocation) {
-                    self.refer(*id, offset, r_type, target)?;
+                    let there = self.refer(*id, offset, r_type, target)?;
+                    if !there && table.name().map_err(text)? == ".debug_ranges" {
+                        self.object.section_mut(*id).data_mut()[offset as usize] = 1;
+                    }
                 } else if let RelocationTarget::Symbol(index) = relocation.target() {
                     let symbol = joined.symbol_by_index(index).map_err(text)?;
                     let Some(&to) = symbol.section_index().and_then(|section| ids.get(&section)) else { continue };
