@@ -131,8 +131,10 @@ impl Crew {
         make: impl Fn() -> M + Sync,
         work: impl Fn(&mut M, T) -> u64 + Sync,
     ) -> u64 {
+        // A thread without a job would start for nothing.
+        let most = jobs.size_hint().1.unwrap_or(usize::MAX);
         let jobs = Mutex::new(jobs);
-        self.pool.sum(&|| {
+        self.pool.sum(most, &|| {
             let mut own = make();
             let mut sum = 0;
             loop {

@@ -18,15 +18,15 @@ impl Pool {
         self.0
     }
 
-    /// Does `work` on every thread at once; the sum of what it gives.
-    pub fn sum(&self, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
+    /// Does `work` on `most` threads at once, or on as many as there are; the sum of what it gives.
+    pub fn sum(&self, most: usize, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         let sum = AtomicU64::new(0);
         // As an object, as [`super::start`] has it, so that there is one way to start a thread.
         let add: &(dyn Fn() + Sync) = &|| {
             sum.fetch_add(work(), Ordering::Relaxed);
         };
         thread::scope(|scope| {
-            for _ in 1..self.0 {
+            for _ in 1..self.0.min(most) {
                 // Where no more threads can start, those that did do the work.
                 if Builder::new().stack_size(STACK).spawn_scoped(scope, add).is_err() {
                     break;
@@ -40,11 +40,12 @@ impl Pool {
 
 /// The cores that this process may run on. The standard answer also reads the quota of a container, for 4 kB packed.
 #[cfg(target_os = "linux")]
-fn cores() -> usize {
+pub fn cores() -> usize {
     rustix::thread::sched_getaffinity(None).map_or(1, |cores| cores.count() as usize)
 }
 
+/// The same as the standard library has it.
 #[cfg(not(target_os = "linux"))]
-fn cores() -> usize {
+pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }

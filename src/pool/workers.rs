@@ -2,6 +2,7 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread::available_parallelism;
 
 /// A fixed number of threads that work together.
 pub struct Pool(ThreadPool);
@@ -21,15 +22,20 @@ impl Pool {
         self.0.current_num_threads()
     }
 
-    /// Does `work` on every thread at once; the sum of what it gives.
-    pub fn sum(&self, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
+    /// Does `work` on `most` threads at once, or on as many as there are; the sum of what it gives.
+    pub fn sum(&self, most: usize, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         let sum = AtomicU64::new(0);
         let add = || sum.fetch_add(work(), Ordering::Relaxed);
         self.0.scope(|scope| {
-            (1..self.threads()).for_each(|_| scope.spawn(|_| _ = add()));
+            (1..self.threads().min(most)).for_each(|_| scope.spawn(|_| _ = add()));
             // Not a task: it starts at once.
             add();
         });
         sum.into_inner()
     }
+}
+
+/// The cores that this process may use at once.
+pub fn cores() -> usize {
+    available_parallelism().map_or(1, usize::from)
 }
