@@ -7,6 +7,7 @@ use crate::number::{decimal, whole};
 use crate::output::contents;
 use crate::output::fill;
 use paprsek::camera::Stereo;
+use paprsek::pool::cores;
 use paprsek::quality::Quality;
 use paprsek::scenes::{self, Scene};
 use std::ops::Range;
@@ -18,11 +19,11 @@ macro_rules! help {
         concat!(
             $play,
             " in a window
-  --at SECONDS                one instant
-  --from SECONDS              start there
-  --to SECONDS                end there
+  --at SECONDS                one instant, up to 10^12
+  --from SECONDS              start there, up to 10^12
+  --to SECONDS                end there, up to 10^12
   --fps N                     frames per second of a capture, or held while playing: up to 1000; default 30
-  --threads N                 1 to 1024; default: all cores
+  --threads N                 1 to 1024, cores at most; default: all cores
   --size WxH                  pixels: 1 to 16384 each, up to 67108864; default 1280x720, fewer if that plays too slowly
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
@@ -77,13 +78,14 @@ const CLASHES: &str = "\
 
 /// Options that take a decimal number, with the least, the largest and the usual one.
 ///
+/// Up to some 10^12 a time in milliseconds is exact, and so is the name of its still.
 /// A lens shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean
 /// distance of adults' eyes is 0.063 (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the
 /// show's subjects are at 3 to 10 metres.
 const RANGES: [(usize, f64, f64, f64); 6] = [
-    (0, 0.0, f64::MAX, 0.0),
-    (1, 0.0, f64::MAX, 0.0),
-    (2, 0.0, f64::MAX, f64::INFINITY),
+    (0, 0.0, 1e12, 0.0),
+    (1, 0.0, 1e12, 0.0),
+    (2, 0.0, 1e12, f64::INFINITY),
     (3, f64::MIN_POSITIVE, 1000.0, 30.0),
     (11, 0.0, 100.0, 0.065),
     (12, 0.01, 10000.0, 5.0),
@@ -288,7 +290,8 @@ fn understood(
     }
     let within = |text: &[u8], most| whole(text).filter(|number| (1..=most).contains(number));
     let threads = match values[THREADS] {
-        Some(value) => within(value, MAX_THREADS).ok_or(THREADS)?,
+        // Threads without a core would wait for the others, and each takes memory.
+        Some(value) => within(value, MAX_THREADS).ok_or(THREADS)?.min(cores()),
         None => 0,
     };
     let size = match values[SIZE] {

@@ -16,8 +16,9 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
         match byte {
             b'0'..=b'9' => {
                 digits = true;
-                // Digits past the eighteenth cannot change the value any more, only its power of ten.
-                let kept = mantissa < 10u64.pow(18);
+                // Digits past the eighteenth cannot change the value any more, only its power of ten; past 300 places they
+                // mean nothing.
+                let kept = mantissa < 10u64.pow(18) && scale > -300;
                 if kept {
                     mantissa = mantissa * 10 + u64::from(byte - b'0');
                 }
@@ -30,8 +31,7 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
     if !digits {
         return None;
     }
-    // Past 300 places it is infinite, or too little to mean anything, all the same.
-    let power = (0..scale.unsigned_abs().min(300)).fold(1.0, |power: f64, _| power * 10.0);
+    let power = (0..scale.unsigned_abs()).fold(1.0, |power: f64, _| power * 10.0);
     let value = if scale < 0 { mantissa as f64 / power } else { mantissa as f64 * power };
     value.is_finite().then_some(value)
 }
@@ -91,6 +91,17 @@ mod tests {
             let (ours, exact) = (decimal(text.as_bytes()).unwrap_or(f64::NAN), text.parse::<f64>().unwrap());
             assert!((ours - exact).abs() <= 8.0 * exact * f64::EPSILON, "{text}: {ours:e} {exact:e}");
         }
+    }
+
+    #[test]
+    fn places_without_end_are_nothing_or_too_much() {
+        let zeros = "0".repeat(400);
+        assert_eq!(decimal(format!("0.{zeros}1").as_bytes()), Some(0.0));
+        assert_eq!(decimal(format!("1{zeros}").as_bytes()), None);
+        assert_eq!(decimal(format!("{zeros}1.5{zeros}").as_bytes()), Some(1.5));
+        let little = format!("0.{}25{zeros}", &zeros[..200]);
+        let (ours, exact) = (decimal(little.as_bytes()).unwrap(), little.parse::<f64>().unwrap());
+        assert!((ours - exact).abs() <= 200.0 * exact * f64::EPSILON, "{ours:e} {exact:e}");
     }
 
     #[test]
