@@ -6,6 +6,10 @@ use crate::number::{digits, figure};
 use crate::output::{fill, make_directory, print, save};
 use paprsek::scenes::Scene;
 use paprsek::tile::Frame;
+use std::mem::take;
+
+/// Pixels that are written at once.
+const PIECE: usize = 1 << 14;
 
 /// Writes the frames that `args` ask for into the directory `target`, or to stdout where it is `-`.
 #[inline(never)]
@@ -22,15 +26,13 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
         // Of a range the film's frames that lie in it, whatever else was captured: so pieces make the whole.
         let time = if args.still { args.start.unwrap_or(0.0) } else { number as f64 / args.fps };
         renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
-        let bytes = ppm(&frame);
+        let mut pieces = ppm(&frame);
         if stream {
-            print(&bytes)?;
+            pieces.try_for_each(|piece| print(&piece))?;
         } else {
             // The one before the six digits keeps their zeros.
             let name = fill("%/frame-%.ppm", &[target, &digits(1_000_000 + number)[1..]]);
-            // Machines that share the directory may share the number of a process, but no frame.
-            let part = fill("%.%", &[&name, &digits(std::process::id() as usize)]);
-            save(&part, &name, &bytes, false)?;
+            save(&name, pieces, false)?;
         }
     }
     Ok(())
@@ -39,14 +41,16 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
 /// Saves a frame of `scene` under its time, in the working directory; an error where there is such a file.
 pub fn still(scene: &Scene, time: f64, frame: &Frame) -> Result<(), Vec<u8>> {
     let name = fill("paprsek-%-%.ppm", &[scene.name.as_bytes(), &figure(time)]);
-    save(&name, &name, &ppm(frame), true)
+    save(&name, ppm(frame), true)
 }
 
-/// A binary PPM (P6).
-fn ppm(frame: &Frame) -> Vec<u8> {
+/// A binary PPM (P6) in pieces: there may be no memory for all of it beside the frame.
+fn ppm(frame: &Frame) -> impl Iterator<Item = Vec<u8>> {
     let mut bytes = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
-    for pixel in &frame.pixels {
-        bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
-    }
-    bytes
+    frame.pixels.chunks(PIECE).map(move |pixels| {
+        for pixel in pixels {
+            bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
+        }
+        take(&mut bytes)
+    })
 }

@@ -10,28 +10,29 @@ use rustix::stdio::dup2_stderr;
 use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, PipeReader, PipeWriter, Read, Write};
-use std::os::fd::AsFd;
+use std::os::fd::{AsFd, BorrowedFd};
 use std::process;
+use std::sync::OnceLock;
 
 /// Where stderr goes, and where it goes while a call lasts.
 struct Stderr {
-    real: File,
+    real: &'static File,
     call: (PipeReader, PipeWriter),
     in_call: Cell<bool>,
 }
 
 impl Stderr {
     fn open() -> io::Result<Stderr> {
-        let real = io::stderr().as_fd().try_clone_to_owned()?.into();
+        let real = io::stderr().as_fd().try_clone_to_owned()?;
         let call = io::pipe()?;
         // Nobody waits: neither Xlib for room in the pipe nor the last word for text in it.
         ioctl_fionbio(&call.0, true)?;
         ioctl_fionbio(&call.1, true)?;
-        Ok(Stderr { real, call, in_call: Cell::new(false) })
+        Ok(Stderr { real: REAL.get_or_init(|| real.into()), call, in_call: Cell::new(false) })
     }
 
     fn set(&self, in_call: bool) {
-        let moved = if in_call { dup2_stderr(&self.call.1) } else { dup2_stderr(&self.real) };
+        let moved = if in_call { dup2_stderr(&self.call.1) } else { dup2_stderr(self.real) };
         if moved.is_ok() {
             self.in_call.set(in_call);
         }
@@ -50,13 +51,21 @@ impl Drop for Stderr {
         if [&b"BadDrawable"[..], b"BadWindow"].iter().any(|name| said.windows(name.len()).any(|part| part == *name)) {
             process::exit(0);
         }
-        let _ = self.real.write_all(b"paprsek: the display went away\n");
+        let _ = { self.real }.write_all(b"paprsek: the display went away\n");
     }
 }
+
+/// Where stderr goes, once calls can have it go elsewhere.
+static REAL: OnceLock<File> = OnceLock::new();
 
 thread_local! {
     /// `None` where there are no descriptors to spare: then Xlib speaks for itself.
     static STDERR: Option<Stderr> = Stderr::open().ok();
+}
+
+/// Where stderr goes whatever call lasts: another thread speaks meanwhile.
+pub fn stderr() -> BorrowedFd<'static> {
+    REAL.get().map_or(rustix::stdio::stderr(), File::as_fd)
 }
 
 /// Calls into Xlib. Should it end the process, that is said in one line; what else it prints is not.

@@ -4,22 +4,34 @@
 //! the system, and an error is its number.
 
 use crate::number::digits;
+#[cfg(target_os = "linux")]
+use rustix::rand::{GetRandomFlags, getrandom};
 
 /// What the first column of a table is filled up with.
 pub const SPACES: &[u8] = &[b' '; 16];
 
 #[cfg(unix)]
 mod system {
+    #[cfg(feature = "minifb")]
+    use crate::last_word::stderr;
+    use rustix::event::{PollFd, PollFlags, poll};
     use rustix::fs::{self, Mode, OFlags};
-    use rustix::io::{Errno, read, retry_on_intr, write};
-    use rustix::stdio::{stderr, stdout};
+    use rustix::io::{Errno, read, write};
+    #[cfg(not(feature = "minifb"))]
+    use rustix::stdio::stderr;
+    use rustix::stdio::stdout;
     use std::ffi::CStr;
-    use std::os::fd::{AsFd, BorrowedFd};
+    use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 
-    fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), Errno> {
+    fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), i32> {
         while !bytes.is_empty() {
-            let count = retry_on_intr(|| write(to, bytes))?;
-            bytes = &bytes[count..];
+            match write(to, bytes) {
+                Ok(count) => bytes = &bytes[count..],
+                Err(Errno::INTR) => {}
+                // A pipe that is full and was told not to wait: its reader is slow.
+                Err(Errno::AGAIN) => _ = poll(&mut [PollFd::new(&to, PollFlags::OUT)], None),
+                Err(error) => return Err(error.raw_os_error()),
+            }
         }
         Ok(())
     }
@@ -44,7 +56,7 @@ mod system {
     }
 
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
-        write_all(stdout(), bytes).map_err(Errno::raw_os_error)
+        write_all(stdout(), bytes)
     }
 
     pub fn write_error(bytes: &[u8]) {
@@ -55,17 +67,30 @@ mod system {
         let _ = fs::mkdir(named(&path(name)), Mode::from_raw_mode(0o777));
     }
 
-    pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), i32> {
+    /// A new file, which is nobody else's: a link is not followed. Its path ends with a zero.
+    fn create(path: &[u8]) -> Result<OwnedFd, i32> {
+        let flags = OFlags::CREATE | OFlags::EXCL | OFlags::WRONLY | OFlags::CLOEXEC;
+        fs::open(named(path), flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)
+    }
+
+    pub fn save(part: &[u8], name: &[u8], mut pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
-        let old = if fresh { OFlags::EXCL } else { OFlags::TRUNC };
-        let flags = OFlags::CREATE | OFlags::WRONLY | OFlags::CLOEXEC | old;
-        let (part, name) = (named(&part), named(&name));
-        let file = fs::open(part, flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)?;
-        write_all(file.as_fd(), bytes).and_then(|()| fs::rename(part, name)).map_err(|error| {
-            // The first error is the one to report.
-            let _ = fs::unlink(part);
-            error.raw_os_error()
-        })
+        let file = create(&part)?;
+        let mut put = || {
+            pieces.try_for_each(|piece| write_all(file.as_fd(), &piece))?;
+            if fresh {
+                if fs::link(named(&part), named(&name)).is_ok() {
+                    return Ok(());
+                }
+                // The name is taken, or the file system has no links: then it is taken now.
+                create(&name)?;
+            }
+            fs::rename(named(&part), named(&name)).map_err(Errno::raw_os_error)
+        };
+        let done = put();
+        // Where it is still there it is of no use. The first error is the one to report.
+        let _ = fs::unlink(named(&part));
+        done
     }
 }
 
@@ -95,15 +120,26 @@ mod system {
         let _ = fs::create_dir(path(name));
     }
 
-    pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), i32> {
+    fn create(path: &str) -> Result<fs::File, i32> {
+        fs::OpenOptions::new().write(true).create_new(true).open(path).map_err(number)
+    }
+
+    pub fn save(part: &[u8], name: &[u8], mut pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
-        let mut open = fs::OpenOptions::new();
-        let open = open.write(true).create(true).truncate(!fresh).create_new(fresh);
-        let mut file = open.open(&part).map_err(number)?;
-        file.write_all(bytes).and_then(|()| fs::rename(&part, &name)).map_err(|error| {
-            let _ = fs::remove_file(&part);
-            number(error)
-        })
+        let mut file = create(&part)?;
+        let mut put = || {
+            pieces.try_for_each(|piece| file.write_all(&piece)).map_err(number)?;
+            if fresh {
+                if fs::hard_link(&part, &name).is_ok() {
+                    return Ok(());
+                }
+                create(&name)?;
+            }
+            fs::rename(&part, &name).map_err(number)
+        };
+        let done = put();
+        let _ = fs::remove_file(&part);
+        done
     }
 }
 
@@ -134,10 +170,26 @@ pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
     system::write_out(bytes).map_err(|error| failed(b"to stdout", error))
 }
 
-/// Writes a file under the name `part` first, so that the other name always holds a whole file. A `fresh` part is not
-/// written over another file.
-pub fn save(part: &[u8], name: &[u8], bytes: &[u8], fresh: bool) -> Result<(), Vec<u8>> {
-    system::save(part, name, bytes, fresh).map_err(|error| failed(name, error))
+/// Writes a file, in pieces, under another name first, so that its own always is a whole file's. A `fresh` one is not put
+/// in place of another.
+pub fn save(name: &[u8], pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), Vec<u8>> {
+    let part = fill("%.%", &[name, &digits(chance())]);
+    system::save(&part, name, pieces, fresh).map_err(|error| failed(name, error))
+}
+
+/// A number that nobody can foretell: others may write in the same directory, and their names are not to be met.
+#[cfg(target_os = "linux")]
+fn chance() -> usize {
+    let mut bytes = [0; 8];
+    // Without it a name can be foretold, but what has it is still not written over.
+    let _ = getrandom(&mut bytes, GetRandomFlags::empty());
+    usize::from_le_bytes(bytes)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn chance() -> usize {
+    use std::hash::{BuildHasher, RandomState};
+    RandomState::new().hash_one(0) as usize
 }
 
 /// One line on stderr, whatever the message quotes. Where that fails there is no place left to say so.

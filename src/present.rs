@@ -37,17 +37,19 @@ struct Desk {
     frame: Frame,
     time: f64,
     fresh: bool,
-    /// The scene time of a still that has been asked for.
+    /// The scene time of a still that has been asked for, until it is taken up; is one being saved?
     still: Option<f64>,
+    saving: bool,
     /// The renderer is at work no more: the end of the range, or an error.
     ended: Option<Result<(), Vec<u8>>>,
 }
 
 /// Plays until Esc, until the window is closed or until the range ends.
 pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
-    let mut frame = canvas::frame(args.size)?;
+    let frame = canvas::frame(args.size)?;
     let back = canvas::frame(args.size)?;
-    let desk = Desk { clock: Clock::new(args), frame: back, time: 0.0, fresh: false, still: None, ended: None };
+    let clock = Clock::new(args);
+    let desk = Desk { clock, frame: back, time: 0.0, fresh: false, still: None, saving: false, ended: None };
     // Kept for good: when the window goes, the process goes, in the middle of a frame if need be.
     let desk: &Mutex<Desk> = Box::leak(Box::new(Mutex::new(desk)));
     let here = thread::current();
@@ -59,7 +61,19 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     if args.full && !cfg!(without = "fullscreen") {
         window.fill();
     }
+    let ended = watch(window, frame, desk);
+    // The window is gone at once; a still that has been asked for is saved.
+    while {
+        let desk = lock(desk);
+        desk.saving || desk.still.is_some()
+    } {
+        thread::park_timeout(POLL);
+    }
+    ended
+}
 
+/// Shows frames and hears keys, until the end.
+fn watch(mut window: Window, mut frame: Frame, desk: &Mutex<Desk>) -> Result<(), Vec<u8>> {
     // The time of the frame that is shown, and how often the keys have been looked at since.
     let (mut time, mut looks) = (None, 0);
     loop {
@@ -80,8 +94,8 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
         if looks % REFRESH == 0 {
             if time.is_none() {
                 // What is made before the first frame takes its time: a light runs along the middle.
-                let width = args.size.0;
-                let line = &mut frame.pixels[width * (args.size.1 / 2)..][..width];
+                let width = frame.width;
+                let line = &mut frame.pixels[width * (frame.height / 2)..][..width];
                 line.fill(0);
                 line[width * (looks / REFRESH % STEPS) / STEPS..][..width.div_ceil(STEPS)].fill(GREY);
             }
@@ -103,7 +117,7 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     }
 }
 
-/// Renders what the clock says, until it says nothing any more.
+/// Renders what the clock says, and stills, also when it says nothing any more; ends with an error alone.
 fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8>> {
     let mut renderer = Renderer::new(args.threads)?;
     let mut frame = canvas::frame(args.size)?;
@@ -112,7 +126,12 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
     loop {
         let (now, rests, still) = {
             let mut desk = lock(desk);
-            (desk.clock.now(), desk.clock.rests(), desk.still.take())
+            let (now, still) = (desk.clock.now(), desk.still.take());
+            desk.saving = still.is_some();
+            if now.is_none() {
+                desk.ended = Some(Ok(()));
+            }
+            (now, desk.clock.rests(), still)
         };
         if let Some(still) = still {
             // Of the time that its name tells.
@@ -121,12 +140,12 @@ fn render(args: &Args, desk: &Mutex<Desk>, window: &Thread) -> Result<(), Vec<u8
             if let Err(why) = capture::still(args.scene(), still, &frame) {
                 complain(&why);
             }
-        }
-        let Some(time) = now else { return Ok(()) };
-        if last == Some(time) {
-            thread::park_timeout(POLL);
             continue;
         }
+        let (Some(time), true) = (now, now != last) else {
+            thread::park_timeout(POLL);
+            continue;
+        };
         let began = Instant::now();
         // What does not move can be waited for.
         let step = if rests { 0 } else { governor.step };

@@ -7,13 +7,17 @@ use paprsek::quality::Quality;
 #[cfg(feature = "bench-scenes")]
 use paprsek::scenes;
 use paprsek::scenes::intro::INTRO;
-use program::{fails, paprsek, succeeds};
+use program::{after, fails, paprsek, succeeds};
 #[cfg(feature = "bench-scenes")]
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::Read;
+#[cfg(unix)]
+use std::os::{fd::OwnedFd, unix::net::UnixStream};
 use std::path::Path;
 use std::process::{Output, Stdio};
+use std::thread::{available_parallelism, sleep};
+use std::time::Duration;
 
 /// Are there scenes to name, and a benchmark?
 const MEASURES: bool = cfg!(feature = "bench-scenes");
@@ -83,6 +87,8 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--at -inf",
         "--at 1e999",
         "--at soon",
+        "--at 1000000000001",
+        "--at 20000000000000000",
         "--at 1s",
         "--at --bench",
         "--from -0.5",
@@ -90,6 +96,7 @@ fn bad_usage_is_one_line_and_exit_2() {
         "--to inf",
         "--to -1",
         "--from 5 --to 4",
+        "--to 1000000000001",
         "--from 1000000000",
         "--at 1 --from 0",
         "--at 1 --to 2",
@@ -332,6 +339,106 @@ fn a_frame_that_cannot_be_put_in_place_leaves_nothing() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_link_that_is_planted_is_not_followed() {
+    let directory = tempfile::tempdir().unwrap();
+    let (mine, target) = (directory.path().join("mine"), directory.path().join("target"));
+    fs::write(&mine, "mine").unwrap();
+    fs::create_dir(&target).unwrap();
+    // Under the frame's own name, and under that with the number of the process, which anybody can foretell.
+    let deed = "ln -s ../mine target/frame-000000.ppm; ln -s ../mine target/frame-000000.ppm.$$";
+    let words = ["--at", "1", "--size", "8x8", "--capture", "target"];
+    succeeds(after(deed).args(words).current_dir(&directory).output().unwrap());
+    assert_eq!(fs::read(&mine).unwrap(), b"mine");
+    assert!(capture(&words[..4])[0] == files(&target)[0], "another picture");
+    assert!(!fs::symlink_metadata(target.join("frame-000000.ppm")).unwrap().is_symlink());
+    assert_eq!(files(&target).len(), 2, "something is left over");
+}
+
+/// Kilobytes of addresses that a frame of 64 MB fits into, but not its 48 MB as a file too.
+#[cfg(target_os = "linux")]
+const ROOM: usize = 100_000;
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_needs_no_memory_beside_its_frame() {
+    let room = format!("ulimit -v {ROOM}");
+    let words = ["--at", "1", "--size", "4000x4000", "--quality", "fast", "--threads", "1", "--capture", "-"];
+    assert_eq!(succeeds(after(&room).args(words).output().unwrap()).len(), "P6\n4000 4000\n255\n".len() + 48_000_000);
+    let words = ["--at", "1", "--size", "8000x8000", "--capture", "-"];
+    assert!(fails(&after(&room).args(words).output().unwrap(), 1).contains("no memory"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stream_waits_for_a_slow_reader() {
+    let (to, mut from) = UnixStream::pair().unwrap();
+    // Whoever writes to it is told at once that it is full.
+    to.set_nonblocking(true).unwrap();
+    let words = ["--at", "1", "--size", "640x360", "--quality", "fast", "--capture", "-"];
+    let child = paprsek().args(words).stdout(OwnedFd::from(to)).stderr(Stdio::piped()).spawn().unwrap();
+    let mut picture = Vec::new();
+    let mut piece = [0; 100_000];
+    loop {
+        sleep(Duration::from_millis(50));
+        match from.read(&mut piece).unwrap() {
+            0 => break,
+            count => picture.extend_from_slice(&piece[..count]),
+        }
+    }
+    succeeds(child.wait_with_output().unwrap());
+    assert!(picture == succeeds(run(&words)));
+}
+
+/// The standard library of the plain build opens `/dev/null` in place of a stream that is closed, before `main`; in the packed
+/// file it is left out.
+#[cfg(all(unix, not(feature = "bench-scenes")))]
+#[test]
+fn a_closed_stdout_is_said() {
+    if std::env::var_os("PAPRSEK").is_some() {
+        for words in [&["--help"][..], &["--at", "1", "--size", "8x8", "--capture", "-"]] {
+            fails(&after("exec >&-").args(words).output().unwrap(), 1);
+        }
+    }
+}
+
+/// Words that capture a pixel of much else to do: shapes of clouds, or a landscape with clouds.
+#[cfg(target_os = "linux")]
+fn pixel() -> Vec<&'static str> {
+    let scene: &[_] = if MEASURES { &["sky-of-clouds", "--at", "1"] } else { &["--at", "40"] };
+    [scene, &["--size", "1x1", "--capture", "-", "--threads"]].concat()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn no_more_threads_start_than_there_are_cores() {
+    let cores = available_parallelism().unwrap().get();
+    let child = paprsek().args(pixel()).arg("1024").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let tasks = format!("/proc/{}/task", child.id());
+    let mut most = 0;
+    // A process that has ended, but that nobody has waited for, has one.
+    while fs::read_to_string(format!("/proc/{}/stat", child.id())).is_ok_and(|stat| !stat.contains(") Z ")) {
+        most = most.max(fs::read_dir(&tasks).map_or(0, Iterator::count));
+        sleep(Duration::from_millis(1));
+    }
+    let picture = succeeds(child.wait_with_output().unwrap());
+    assert!(most > 0 && most <= cores, "{most} threads");
+    assert!(picture == succeeds(paprsek().args(pixel()).arg("1").output().unwrap()));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_start_are_said_or_not_needed() {
+    // Where the standard library is asked how large stacks are, no thread gets so large a one.
+    let output = paprsek().args(pixel()).arg("2").env("RUST_MIN_STACK", (1usize << 46).to_string()).output().unwrap();
+    if output.status.success() {
+        assert!(succeeds(output) == succeeds(paprsek().args(pixel()).arg("1").output().unwrap()));
+    } else {
+        assert!(fails(&output, 1).contains("threads"));
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_device_is_said() {
@@ -370,7 +477,8 @@ fn a_benchmark_prints_one_object_a_line() {
     let text = |key: &str| row[key].as_str().unwrap_or_else(|| panic!("{key} in {row}")).to_owned();
     let number = |key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key} in {row}"));
     assert_eq!((text("scene"), text("quality")), ("lumen".into(), "fast".into()));
-    assert_eq!((number("width"), number("height"), number("threads")), (64.0, 36.0, 2.0));
+    let threads = available_parallelism().unwrap().get().min(2) as f64;
+    assert_eq!((number("width"), number("height"), number("threads")), (64.0, 36.0, threads));
     assert!(!text("simd").is_empty() && number("frames") >= 1.0 && number("samples") > 0.0);
     assert!(number("fps_p1") > 0.0 && number("fps_p1") <= number("fps_median"), "{row}");
     // The milliseconds are rounded to three places.

@@ -260,6 +260,62 @@ fn a_still_is_the_capture_of_its_instant_and_is_never_overwritten() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
 }
 
+/// A still that takes a while.
+const LARGE: [&str; 6] = ["--size", "2400x1600", "--at", "12.345", "--threads", "2"];
+
+#[test]
+fn esc_lets_a_still_be_saved() {
+    let Some(display) = Display::open() else { return };
+    let words = [&LARGE[..], &["--capture", "-"]].concat();
+    let expected = succeeds(paprsek().args(words).output().unwrap());
+    // While it is drawn, and while it is written.
+    for pause in ["0", "0.2", "0.4", "0.6"] {
+        let directory = tempfile::tempdir().unwrap();
+        let child = display.play_in(directory.path(), &LARGE);
+        display.xdotool(&["key", "s", "sleep", pause, "key", "Escape"]);
+        assert!(succeeds(ending(child, PATIENCE)).is_empty());
+        let still = fs::read(directory.path().join("paprsek-intro-12.345.ppm")).unwrap();
+        assert!(still == expected, "Esc after {pause} s");
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+}
+
+#[test]
+fn a_still_has_its_name_once_it_is_whole() {
+    let Some(display) = Display::open() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("paprsek-intro-12.345.ppm");
+    let child = display.play_in(directory.path(), &LARGE);
+    display.xdotool(&["key", "s"]);
+    let began = Instant::now();
+    while !path.exists() {
+        assert!(began.elapsed() < PATIENCE, "no still");
+    }
+    assert_eq!(fs::metadata(&path).unwrap().len(), 17 + 3 * 2400 * 1600);
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
+
+#[test]
+fn a_still_that_cannot_be_saved_is_said_while_the_display_hangs() {
+    let Some(display) = Display::open() else { return };
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("paprsek-intro-12.345.ppm"), "mine").unwrap();
+    let child = display.play_in(directory.path(), &LARGE);
+    display.xdotool(&["key", "s"]);
+    // So the window waits for the display while the renderer speaks.
+    let signal = |name: &str| {
+        let kill = Command::new("kill").args([name, &display.0.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+    };
+    signal("-STOP");
+    sleep(Duration::from_secs(4));
+    signal("-CONT");
+    display.xdotool(&["key", "Escape"]);
+    let said = fails(&ending(child, PATIENCE), 0);
+    assert!(said.contains("paprsek-intro-12.345.ppm"), "{said}");
+}
+
 fn wait_for(path: &Path) {
     let began = Instant::now();
     while !path.exists() {

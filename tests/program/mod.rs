@@ -12,6 +12,15 @@ pub fn paprsek() -> Command {
     command
 }
 
+/// The same by a shell that does something before, in the process that becomes the executable.
+pub fn after(deed: &str) -> Command {
+    let program = paprsek();
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("{deed}; exec \"$0\" \"$@\"")]).arg(program.get_program());
+    shell.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    shell
+}
+
 /// Asserts the exit code and one line of the program's own on stderr, and gives the line.
 #[track_caller]
 pub fn fails(output: &Output, code: i32) -> String {
