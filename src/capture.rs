@@ -3,7 +3,7 @@
 use crate::args::Args;
 use crate::canvas;
 use crate::number::{digits, figure};
-use crate::output::{fill, make_directory, print, save};
+use crate::output::{fill, make_directory, save, stream};
 use paprsek::scenes::Scene;
 use paprsek::tile::Frame;
 use std::mem::take;
@@ -14,10 +14,10 @@ const PIECE: usize = 1 << 14;
 /// Writes the frames that `args` ask for into the directory `target`, or to stdout where it is `-`.
 #[inline(never)]
 pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
-    let stream = target == b"-";
+    let piped = target == b"-";
     // The directory and those above it. Most exist; what fails is said by the first file that cannot be written.
     for end in 1..=target.len() {
-        if !stream && target.get(end).is_none_or(|&byte| byte == b'/') {
+        if !piped && target.get(end).is_none_or(|&byte| byte == b'/') {
             make_directory(&target[..end]);
         }
     }
@@ -26,9 +26,9 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
         // Of a range the film's frames that lie in it, whatever else was captured: so pieces make the whole.
         let time = if args.still { args.start.unwrap_or(0.0) } else { number as f64 / args.fps };
         renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
-        let mut pieces = ppm(&frame);
-        if stream {
-            pieces.try_for_each(|piece| print(&piece))?;
+        let pieces = ppm(&frame);
+        if piped {
+            stream(pieces)?;
         } else {
             // The one before the six digits keeps their zeros.
             let name = fill("%/frame-%.ppm", &[target, &digits(1_000_000 + number)[1..]]);

@@ -55,8 +55,17 @@ mod system {
         bytes
     }
 
+    #[inline(never)]
+    fn write_pieces(to: BorrowedFd<'_>, mut pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), i32> {
+        pieces.try_for_each(|piece| write_all(to, &piece))
+    }
+
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
         write_all(stdout(), bytes)
+    }
+
+    pub fn stream(pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), i32> {
+        write_pieces(stdout(), pieces)
     }
 
     pub fn write_error(bytes: &[u8]) {
@@ -73,11 +82,11 @@ mod system {
         fs::open(named(path), flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)
     }
 
-    pub fn save(part: &[u8], name: &[u8], mut pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), i32> {
+    pub fn save(part: &[u8], name: &[u8], pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), i32> {
         let (part, name) = (path(part), path(name));
         let file = create(&part)?;
-        let mut put = || {
-            pieces.try_for_each(|piece| write_all(file.as_fd(), &piece))?;
+        let put = || {
+            write_pieces(file.as_fd(), pieces)?;
             if fresh {
                 if fs::link(named(&part), named(&name)).is_ok() {
                     return Ok(());
@@ -110,6 +119,10 @@ mod system {
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
         let mut out = io::stdout().lock();
         out.write_all(bytes).and_then(|()| out.flush()).map_err(number)
+    }
+
+    pub fn stream(mut pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), i32> {
+        pieces.try_for_each(|piece| write_out(&piece))
     }
 
     pub fn write_error(bytes: &[u8]) {
@@ -168,6 +181,11 @@ pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
     system::write_out(bytes).map_err(|error| failed(b"to stdout", error))
+}
+
+/// The same in pieces.
+pub fn stream(pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), Vec<u8>> {
+    system::stream(pieces).map_err(|error| failed(b"to stdout", error))
 }
 
 /// Writes a file, in pieces, under another name first, so that its own always is a whole file's. A `fresh` one is not put
