@@ -40,8 +40,10 @@ struct Desk {
     /// The scene time of a still that has been asked for, until it is taken up; is one being saved?
     still: Option<f64>,
     saving: bool,
-    /// The renderer is at work no more: the end of the range, or an error.
+    /// There are no more frames: the end of the range, or an error.
     ended: Option<Result<(), Vec<u8>>>,
+    /// After an error, no more stills either.
+    failed: bool,
 }
 
 /// Plays until Esc, until the window is closed or until the range ends.
@@ -49,13 +51,16 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     let frame = canvas::frame(args.size)?;
     let back = canvas::frame(args.size)?;
     let clock = Clock::new(args);
-    let desk = Desk { clock, frame: back, time: 0.0, fresh: false, still: None, saving: false, ended: None };
+    let desk =
+        Desk { clock, frame: back, time: 0.0, fresh: false, still: None, saving: false, ended: None, failed: false };
     // Kept for good: when the window goes, the process goes, in the middle of a frame if need be.
     let desk: &Mutex<Desk> = Box::leak(Box::new(Mutex::new(desk)));
     let here = thread::current();
     let render = move || {
         let ended = render(args, desk, &here);
-        lock(desk).ended = Some(ended);
+        let mut desk = lock(desk);
+        desk.failed = true;
+        desk.ended = Some(ended);
     };
     start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
     if args.full && !cfg!(without = "fullscreen") {
@@ -65,7 +70,7 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     // The window is gone at once; a still that has been asked for is saved.
     while {
         let desk = lock(desk);
-        desk.saving || desk.still.is_some()
+        !desk.failed && (desk.saving || desk.still.is_some())
     } {
         thread::park_timeout(POLL);
     }
