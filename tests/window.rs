@@ -4,12 +4,12 @@
 mod program;
 
 use paprsek::scenes::intro::PARTS;
-use program::{fails, paprsek, succeeds};
+use program::{ending, fails, paprsek, succeeds};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -146,19 +146,6 @@ impl Drop for Display {
     fn drop(&mut self) {
         self.kill();
     }
-}
-
-/// Waits for the end, but not for ever.
-fn ending(mut child: Child, patience: Duration) -> Output {
-    let began = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if began.elapsed() > patience {
-            let _ = child.kill();
-            panic!("still playing after {patience:?}");
-        }
-        sleep(Duration::from_millis(5));
-    }
-    child.wait_with_output().unwrap()
 }
 
 #[test]

@@ -5,30 +5,55 @@
 //! Answers, events and errors are eight words; an answer may have more.
 
 use crate::output::{contents, fill, named};
-use rustix::io::write;
-use rustix::net::{AddressFamily, RecvFlags, SocketAddrUnix, SocketType, connect, recv, socket};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::{read, write};
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType, connect, socket_with};
 use std::os::fd::OwnedFd;
 
 /// Words of an answer, an event or an error.
 pub const PACKET: usize = 8;
 /// Bytes of a cookie.
 const COOKIE: usize = 16;
+/// Of an entry of the authority file, big-endian: the method and the length of the cookie that follows.
+const METHOD: &[u8] = b"\0\x12MIT-MAGIC-COOKIE-1\0\x10";
+/// Most words that an answer may have after its packet, against a server that says anything: a set-up has no more, and 255
+/// keys of 255 symbols have less.
+const MOST: usize = 0xffff;
+/// How often the server is waited for, a hundredth of a second at most: 5 s for the whole of the opening, and for each
+/// request of a frame. Counted and not timed, so that a process that was stopped for long gives up nothing.
+pub const WAITS: u32 = 500;
+const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
+
+/// Why there is no connection: no server of this machine was found; it is silent, says what makes no sense or has other
+/// pixels; it wants another cookie. The 64 kB build, which tries nothing else then, does not tell the first two apart.
+pub const ABSENT: &str = if cfg!(feature = "minifb") { "no X server of this machine" } else { UNFIT };
+pub const UNFIT: &str = "no X server answers with 32 bits a pixel";
+const REFUSED: &str = "the display refused us";
 
 /// A connection.
 pub struct Server {
-    /// The socket.
+    /// The socket, which never blocks.
     pub socket: OwnedFd,
-    /// What the server says of itself.
+    /// What the server says of itself, with zeros behind it: whatever lengths it names, all places are there. Empty where it
+    /// refused us.
     pub setup: Vec<u32>,
     /// The atoms `_NET_WM_STATE` and `_NET_WM_STATE_FULLSCREEN`.
     state: [u32; 2],
     /// Does a window of ours fill the screen?
     full: bool,
+    /// How often it may be waited for.
+    pub waits: u32,
 }
 
 impl Server {
-    /// The server that `DISPLAY` names. Each cookie that there is for it is tried.
-    pub fn find() -> Option<Server> {
+    /// The server that `DISPLAY` names; the error says why there is none.
+    pub fn find() -> Result<Server, &'static str> {
+        let mut why = ABSENT;
+        Server::seek(&mut why).ok_or(why)
+    }
+
+    /// The same. Each cookie that may be for it is tried.
+    fn seek(why: &mut &'static str) -> Option<Server> {
         let environment = contents(b"/proc/self/environ\0");
         let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
@@ -37,48 +62,108 @@ impl Server {
             Some(path) => fill("%\0", &[path]),
             None => fill("%/.Xauthority\0", &[variable(b"HOME=").unwrap_or_default()]),
         };
-        // Of an entry: number, method and cookie, each after its length, big-endian.
-        let key = fill("%%\0\x12MIT-MAGIC-COOKIE-1\0\x10", &[&[0, number.len() as u8], number]);
         let entries = contents(&authority);
-        let cookies = entries.windows(key.len() + COOKIE).filter_map(|entry| entry.strip_prefix(&*key));
+        // Before the method is the number of the display after its length; none stands for any.
+        let own = fill("%%", &[&[0, number.len() as u8], number]);
+        let cookies = (0..entries.len()).filter_map(|at| {
+            let (before, rest) = entries.split_at(at);
+            let cookie = rest.strip_prefix(METHOD)?.get(..COOKIE)?;
+            (before.ends_with(&own) || before.ends_with(&[0; 2])).then_some(cookie)
+        });
+        let mut waits = WAITS;
         // A server that wants none ignores it.
-        let mut server = cookies.chain([&[0; COOKIE][..]]).find_map(|cookie| greet(&address, cookie))?;
-        server.state = [server.atom(b"_NET_WM_STATE")?, server.atom(b"_NET_WM_STATE_FULLSCREEN")?];
+        for cookie in cookies.chain([&[0; COOKIE][..]]) {
+            let mut server = Server::greet(&address, cookie, waits, why)?;
+            if !server.setup.is_empty() {
+                server.state = [server.atom(b"_NET_WM_STATE")?, server.atom(b"_NET_WM_STATE_FULLSCREEN")?];
+                return Some(server);
+            }
+            *why = REFUSED;
+            waits = server.waits;
+        }
+        None
+    }
+
+    /// Connects, with a cookie, and hears the answer.
+    fn greet(address: &SocketAddrUnix, cookie: &[u8], waits: u32, why: &mut &'static str) -> Option<Server> {
+        let flags = SocketFlags::NONBLOCK | SocketFlags::CLOEXEC;
+        let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, flags, None).ok()?;
+        connect(&socket, address).ok()?;
+        *why = UNFIT;
+        let mut server = Server { socket, setup: Vec::new(), state: [0; 2], full: false, waits };
+        server.send_bytes(&fill("l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0%", &[cookie]))?;
+        let head = server.receive(2)?;
+        if head[0] & 255 == 1 {
+            server.setup = server.receive((head[1] >> 16) as usize)?;
+            server.setup.resize(MOST, 0);
+        }
         Some(server)
     }
 
     /// Sends whole requests.
-    pub fn send(&self, words: &[u32]) -> Option<()> {
-        let mut bytes = Vec::new();
-        for word in words {
-            bytes.extend_from_slice(&word.to_le_bytes());
-        }
-        self.send_bytes(&bytes)
+    pub fn send(&mut self, words: &[u32]) -> Option<()> {
+        self.send_bytes(&bytes(words))
     }
 
     /// The same of bytes.
-    pub fn send_bytes(&self, mut bytes: &[u8]) -> Option<()> {
+    pub fn send_bytes(&mut self, mut bytes: &[u8]) -> Option<()> {
         while !bytes.is_empty() {
-            bytes = &bytes[write(&self.socket, bytes).ok()?..];
+            bytes = &bytes[self.push(bytes)?..];
         }
         Some(())
     }
 
-    /// Waits for words.
-    pub fn receive(&self, count: usize) -> Option<Vec<u32>> {
-        let mut bytes = vec![0; 4 * count];
-        let (got, _) = recv(&self.socket, &mut *bytes, RecvFlags::WAITALL).ok()?;
-        (got == bytes.len()).then(|| bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
+    /// Sends as many bytes as go within one wait.
+    pub fn push(&mut self, bytes: &[u8]) -> Option<usize> {
+        if self.ready(PollFlags::OUT)? { write(&self.socket, bytes).ok() } else { Some(0) }
     }
 
-    /// The number of an atom. Not where events may come before the answer.
-    pub fn atom(&self, name: &[u8]) -> Option<u32> {
+    /// Waits for words.
+    pub fn receive(&mut self, count: usize) -> Option<Vec<u32>> {
+        if count > MOST {
+            return None;
+        }
+        let (mut bytes, mut got) = (vec![0; 4 * count], 0);
+        while got < bytes.len() {
+            if self.ready(PollFlags::IN)? {
+                // Of a server that has gone nothing, until there are no waits left.
+                got += read(&self.socket, &mut bytes[got..]).ok()?;
+            }
+        }
+        Some(words(&bytes))
+    }
+
+    /// Waits for an answer. Events before it are lost, so not where any matter.
+    pub fn answer(&mut self) -> Option<Vec<u32>> {
+        loop {
+            let packet = self.receive(PACKET)?;
+            if packet[0] & 255 == 1 {
+                return Some(packet);
+            }
+        }
+    }
+
+    /// Can it be read or written? Waits for that, but not for long.
+    fn ready(&mut self, what: PollFlags) -> Option<bool> {
+        self.waits = self.waits.checked_sub(1)?;
+        poll(&mut [PollFd::new(&self.socket, what)], Some(&WAIT)).ok().map(|count| count > 0)
+    }
+
+    /// The number of an atom.
+    pub fn atom(&mut self, name: &[u8]) -> Option<u32> {
         let length = name.len() as u32;
         // InternAtom
         self.send(&[16 | (2 + length.div_ceil(4)) << 16, length])?;
         self.send_bytes(name)?;
         self.send_bytes(&[0; 3][..name.len().wrapping_neg() % 4])?;
-        Some(self.receive(PACKET)?[2])
+        Some(self.answer()?[2])
+    }
+
+    /// Has the first screen 32 bits a pixel, little-endian? Gives how many of them are shown.
+    pub fn depth(&self) -> Option<u32> {
+        let (formats, screen) = self.formats();
+        let (order, depth) = (self.setup[5] >> 16 & 255, screen[9] >> 16 & 255);
+        formats.chunks(2).any(|format| format[0] & 0xffff == (32 << 8 | depth) && order == 0).then_some(depth)
     }
 
     /// Formats of pixels, two words each, and the first screen.
@@ -100,6 +185,7 @@ impl Server {
         self.full = !self.full;
         let root = self.formats().1[0];
         let ([state, fullscreen], [left, top, width, height]) = (self.state, self.place(size));
+        self.waits = WAITS;
         // A lost display is noticed where the next frame is shown.
         let _ = self.send(&[
             // SendEvent to the root window, where the window manager listens: ClientMessage, which adds the state or
@@ -127,13 +213,16 @@ impl Server {
     }
 }
 
-/// Connects, with a cookie, and gives the server if it agrees.
-fn greet(address: &SocketAddrUnix, cookie: &[u8]) -> Option<Server> {
-    let socket = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
-    connect(&socket, address).ok()?;
-    let mut server = Server { socket, setup: Vec::new(), state: [0; 2], full: false };
-    server.send_bytes(&fill("l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0%", &[cookie]))?;
-    let head = server.receive(2)?;
-    server.setup = server.receive((head[1] >> 16) as usize)?;
-    (head[0] & 255 == 1).then_some(server)
+/// Words as bytes.
+pub fn bytes(words: &[u32]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for word in words {
+        bytes.extend_from_slice(&word.to_le_bytes());
+    }
+    bytes
+}
+
+/// Bytes as words.
+pub fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }
