@@ -5,7 +5,7 @@
 mod fake;
 mod program;
 
-use fake::{Client, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, WINDOW, agreed, entry, refusal, set_up};
+use fake::{Client, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, agreed, entry, refusal, set_up};
 use program::{ending, fails, paprsek, succeeds};
 use std::fs;
 use std::io::Result;
@@ -93,8 +93,8 @@ fn is_left(talk: impl Fn(&mut Client) -> Result<()> + Clone + Send + 'static) {
 fn a_polite_server_gets_a_window() {
     let (child, _fake) = against(|mut client| {
         client.agree()?;
-        client.serve_until(PUT_IMAGE)?;
-        client.press_esc(WINDOW)?;
+        client.serve_until_shown()?;
+        client.press_esc()?;
         client.serve_until(0)
     });
     assert!(succeeds(child.end(PATIENCE)).is_empty());
@@ -155,7 +155,8 @@ fn odd_set_ups_are_said_in_one_line() {
     for reply in replies {
         let (child, _fake) = against(move |mut client| {
             client.hello()?;
-            client.say(&reply)
+            client.say(&reply)?;
+            client.serve_until(0)
         });
         has_no_window(&child.end(PATIENCE));
     }
@@ -188,7 +189,7 @@ fn a_server_that_falls_silent_later_is_a_lost_display() {
         client.agree()?;
         client.serve_until(MAP_WINDOW)?;
         // What it draws is more than a socket holds.
-        client.resize(WINDOW, 1600, 900)?;
+        client.resize(1600, 900)?;
         sender.send(Instant::now()).unwrap();
         // Kept, but neither read nor answered any more.
         sleep(2 * PATIENCE);
@@ -220,9 +221,9 @@ fn esc_is_heard_while_the_server_does_not_read() {
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
         client.serve_until(MAP_WINDOW)?;
-        client.resize(WINDOW, 1600, 900)?;
+        client.resize(1600, 900)?;
         sleep(AT_ONCE);
-        client.press_esc(WINDOW)?;
+        client.press_esc()?;
         sender.send(()).unwrap();
         sleep(2 * PATIENCE);
         Ok(())
@@ -241,7 +242,7 @@ fn the_largest_window_gets_a_smaller_picture_and_esc_ends_at_once() {
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
         client.serve_until(MAP_WINDOW)?;
-        client.resize(WINDOW, u16::MAX, u16::MAX)?;
+        client.resize(u16::MAX, u16::MAX)?;
         let mut count = 0;
         loop {
             let request = client.request()?;
@@ -250,7 +251,7 @@ fn the_largest_window_gets_a_smaller_picture_and_esc_ends_at_once() {
                 count += 1;
             }
             if count == 100 {
-                client.press_esc(WINDOW)?;
+                client.press_esc()?;
                 tell.send(vec![]).unwrap();
             }
         }
@@ -278,8 +279,8 @@ fn with_authority(prepare: impl Fn(&Path, &str)) -> Output {
             return client.say(&refusal());
         }
         client.say(&set_up(24, 32))?;
-        client.serve_until(PUT_IMAGE)?;
-        client.press_esc(WINDOW)?;
+        client.serve_until_shown()?;
+        client.press_esc()?;
         client.serve_until(0)
     });
     let directory = tempfile::tempdir().unwrap();

@@ -14,8 +14,11 @@ use std::os::fd::OwnedFd;
 pub const PACKET: usize = 8;
 /// Bytes of a cookie.
 const COOKIE: usize = 16;
-/// Of an entry of the authority file, big-endian: the method and the length of the cookie that follows.
-const METHOD: &[u8] = b"\0\x12MIT-MAGIC-COOKIE-1\0\x10";
+/// An entry of the authority file from the display's number on, big-endian: for any display, and with the cookie that a server
+/// ignores that wants none.
+const LAST: &[u8] = b"\0\0\0\x12MIT-MAGIC-COOKIE-1\0\x10\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+/// The same without the cookie.
+const ANY: &[u8] = LAST.split_at(LAST.len() - COOKIE).0;
 /// Most words that an answer may have after its packet, against a server that says anything: a set-up has no more, and 255
 /// keys of 255 symbols have less.
 const MOST: usize = 0xffff;
@@ -27,15 +30,14 @@ const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
 /// Why there is no connection: no server of this machine was found; it is silent, says what makes no sense or has other
 /// pixels; it wants another cookie. The 64 kB build, which tries nothing else then, does not tell the first two apart.
 pub const ABSENT: &str = if cfg!(feature = "minifb") { "no X server of this machine" } else { UNFIT };
-pub const UNFIT: &str = "no X server answers with 32 bits a pixel";
+pub const UNFIT: &str = "no X server with 32 bits a pixel";
 const REFUSED: &str = "the display refused us";
 
 /// A connection.
 pub struct Server {
     /// The socket, which never blocks.
     pub socket: OwnedFd,
-    /// What the server says of itself, with zeros behind it: whatever lengths it names, all places are there. Empty where it
-    /// refused us.
+    /// What the server says of itself: whatever lengths it names, all places are there. Empty where it refused us.
     pub setup: Vec<u32>,
     /// The atoms `_NET_WM_STATE` and `_NET_WM_STATE_FULLSCREEN`.
     state: [u32; 2],
@@ -62,24 +64,24 @@ impl Server {
             Some(path) => fill("%\0", &[path]),
             None => fill("%/.Xauthority\0", &[variable(b"HOME=").unwrap_or_default()]),
         };
-        let entries = contents(&authority);
-        // Before the method is the number of the display after its length; none stands for any.
-        let own = fill("%%", &[&[0, number.len() as u8], number]);
-        let cookies = (0..entries.len()).filter_map(|at| {
-            let (before, rest) = entries.split_at(at);
-            let cookie = rest.strip_prefix(METHOD)?.get(..COOKIE)?;
-            (before.ends_with(&own) || before.ends_with(&[0; 2])).then_some(cookie)
-        });
+        // The same with the number of this display, after its length.
+        let own = fill("%%%", &[&[0, number.len() as u8], number, &ANY[2..]]);
+        let mut entries = contents(&authority);
+        entries.extend_from_slice(LAST);
         let mut waits = WAITS;
-        // A server that wants none ignores it.
-        for cookie in cookies.chain([&[0; COOKIE][..]]) {
-            let mut server = Server::greet(&address, cookie, waits, why)?;
-            if !server.setup.is_empty() {
-                server.state = [server.atom(b"_NET_WM_STATE")?, server.atom(b"_NET_WM_STATE_FULLSCREEN")?];
-                return Some(server);
+        for at in 0..entries.len() {
+            let rest = &entries[at..];
+            if let Some(rest) = rest.strip_prefix(&*own).or(rest.strip_prefix(ANY))
+                && let Some(cookie) = rest.get(..COOKIE)
+            {
+                let mut server = Server::greet(&address, cookie, waits, why)?;
+                if !server.setup.is_empty() {
+                    server.state = [server.atom(b"_NET_WM_STATE")?, server.atom(b"_NET_WM_STATE_FULLSCREEN")?];
+                    return Some(server);
+                }
+                *why = REFUSED;
+                waits = server.waits;
             }
-            *why = REFUSED;
-            waits = server.waits;
         }
         None
     }
@@ -95,7 +97,6 @@ impl Server {
         let head = server.receive(2)?;
         if head[0] & 255 == 1 {
             server.setup = server.receive((head[1] >> 16) as usize)?;
-            server.setup.resize(MOST, 0);
         }
         Some(server)
     }
@@ -113,50 +114,38 @@ impl Server {
         Some(())
     }
 
-    /// Sends as many bytes as go within one wait.
+    /// Sends what there is room for within one wait.
     pub fn push(&mut self, bytes: &[u8]) -> Option<usize> {
-        if self.ready(PollFlags::OUT)? { write(&self.socket, bytes).ok() } else { Some(0) }
+        self.wait(PollFlags::OUT)?;
+        // A server that has gone takes nothing, until there are no waits left.
+        Some(write(&self.socket, bytes).unwrap_or(0))
     }
 
-    /// Waits for words.
+    /// Waits for words; behind them are zeros, [`MOST`] in all.
     pub fn receive(&mut self, count: usize) -> Option<Vec<u32>> {
-        if count > MOST {
-            return None;
-        }
-        let (mut bytes, mut got) = (vec![0; 4 * count], 0);
-        while got < bytes.len() {
-            if self.ready(PollFlags::IN)? {
-                // Of a server that has gone nothing, until there are no waits left.
-                got += read(&self.socket, &mut bytes[got..]).ok()?;
-            }
+        let (mut bytes, end, mut got) = (vec![0; 4 * MOST], 4 * count.min(MOST), 0);
+        while got < end {
+            self.wait(PollFlags::IN)?;
+            got += read(&self.socket, &mut bytes[got..end]).unwrap_or(0);
         }
         Some(words(&bytes))
     }
 
-    /// Waits for an answer. Events before it are lost, so not where any matter.
-    pub fn answer(&mut self) -> Option<Vec<u32>> {
-        loop {
-            let packet = self.receive(PACKET)?;
-            if packet[0] & 255 == 1 {
-                return Some(packet);
-            }
-        }
-    }
-
-    /// Can it be read or written? Waits for that, but not for long.
-    fn ready(&mut self, what: PollFlags) -> Option<bool> {
+    /// Waits until it can be read or written, but not for long.
+    fn wait(&mut self, what: PollFlags) -> Option<()> {
         self.waits = self.waits.checked_sub(1)?;
-        poll(&mut [PollFd::new(&self.socket, what)], Some(&WAIT)).ok().map(|count| count > 0)
+        let _ = poll(&mut [PollFd::new(&self.socket, what)], Some(&WAIT));
+        Some(())
     }
 
-    /// The number of an atom.
+    /// The number of an atom. Not where events may come before the answer.
     pub fn atom(&mut self, name: &[u8]) -> Option<u32> {
         let length = name.len() as u32;
         // InternAtom
         self.send(&[16 | (2 + length.div_ceil(4)) << 16, length])?;
         self.send_bytes(name)?;
         self.send_bytes(&[0; 3][..name.len().wrapping_neg() % 4])?;
-        Some(self.answer()?[2])
+        Some(self.receive(PACKET)?[2])
     }
 
     /// Has the first screen 32 bits a pixel, little-endian? Gives how many of them are shown.

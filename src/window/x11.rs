@@ -55,7 +55,7 @@ impl Window {
         let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
         // GetKeyboardMapping
         server.send(&[101 | 2 << 16, first | (last + 1).wrapping_sub(first) << 8])?;
-        let keyboard = server.answer()?;
+        let keyboard = server.receive(PACKET)?;
         let symbols = (server.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
         let [left, top, width, height] = server.place(size);
         let [context, pixmap, cursor, pen] = [id | 1, id | 2, id | 3, id | 4];

@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
 /// Codes of requests (X11/Xproto.h).
+const CREATE_WINDOW: u8 = 1;
+const WINDOW_ATTRIBUTES: u8 = 3;
 pub const MAP_WINDOW: u8 = 8;
 pub const PUT_IMAGE: u8 = 72;
 const INTERN_ATOM: u8 = 16;
@@ -24,9 +26,6 @@ const ANSWERED: [u8; 41] = [
 /// The first key that there may be, and which one is Esc.
 const FIRST_KEY: u8 = 8;
 const ESC: u8 = 9;
-
-/// The first number for what a client makes: in either build its window.
-pub const WINDOW: u32 = 0x400000;
 
 /// A server; it stops listening at the end of the test.
 pub struct Fake {
@@ -42,7 +41,7 @@ impl Fake {
         thread::spawn(move || {
             for stream in listener.incoming() {
                 let (talk, stream) = (talk.clone(), stream.unwrap());
-                thread::spawn(move || talk(Client { stream, asked: 0 }));
+                thread::spawn(move || talk(Client { stream, asked: 0, window: [0; 4] }));
             }
         });
         fake
@@ -74,10 +73,11 @@ impl Drop for Fake {
     }
 }
 
-/// A connection, and how many requests it has made.
+/// A connection, how many requests it has made, and the window that it has made last.
 pub struct Client {
     pub stream: UnixStream,
     asked: u16,
+    window: [u8; 4],
 }
 
 impl Client {
@@ -108,12 +108,26 @@ impl Client {
         }
     }
 
+    /// Serves until there is a picture in the window.
+    pub fn serve_until_shown(&mut self) -> Result<()> {
+        loop {
+            let request = self.request()?;
+            self.answer(&request)?;
+            if request[0] == PUT_IMAGE && request[4..8] == self.window {
+                return Ok(());
+            }
+        }
+    }
+
     /// The next request.
     pub fn request(&mut self) -> Result<Vec<u8>> {
         let mut request = self.hear(4)?;
         let words = usize::from(u16::from_le_bytes([request[2], request[3]]));
         request.extend(self.hear(4 * words.max(1) - 4)?);
         self.asked = self.asked.wrapping_add(1);
+        if request[0] == CREATE_WINDOW {
+            self.window.copy_from_slice(&request[4..8]);
+        }
         Ok(request)
     }
 
@@ -128,6 +142,10 @@ impl Client {
         match request[0] {
             // No two names are the same here.
             INTERN_ATOM => (answer[8], answer[9]) = (low, high | 1),
+            WINDOW_ATTRIBUTES => {
+                answer[4] = 3;
+                answer.extend([0; 12]);
+            }
             KEYBOARD_MAPPING => {
                 let (first, count) = (request[4], request[5]);
                 (answer[1], answer[4]) = (1, count);
@@ -141,20 +159,20 @@ impl Client {
     }
 
     /// Presses Esc and lets it go.
-    pub fn press_esc(&mut self, window: u32) -> Result<()> {
-        for kind in [2, 3] {
-            let mut event = [0; 32];
-            (event[0], event[1], event[30]) = (kind, ESC, 1);
-            event[12..16].copy_from_slice(&window.to_le_bytes());
-            self.say(&event)?;
-        }
-        Ok(())
+    pub fn press_esc(&mut self) -> Result<()> {
+        self.event(2, ESC, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())?;
+        self.event(3, ESC, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())
     }
 
-    /// ConfigureNotify: the window has another size.
-    pub fn resize(&mut self, window: u32, width: u16, height: u16) -> Result<()> {
+    /// The window has another size.
+    pub fn resize(&mut self, width: u16, height: u16) -> Result<()> {
         let sides = [width.to_le_bytes(), height.to_le_bytes()].concat();
-        let mut event = [&[22, 0, 0, 0][..], &window.to_le_bytes(), &window.to_le_bytes(), &[0; 8], &sides].concat();
+        self.event(22, 0, &[&self.window, &self.window, &[0; 8][..], &sides].concat())
+    }
+
+    /// An event: its code, its byte, and what follows the number of the latest request.
+    fn event(&mut self, code: u8, detail: u8, rest: &[u8]) -> Result<()> {
+        let mut event = [&[code, detail][..], &self.asked.to_le_bytes(), rest].concat();
         event.resize(32, 0);
         self.say(&event)
     }
@@ -175,7 +193,7 @@ pub fn set_up(depth: u8, bits: u8) -> Vec<u8> {
     let mut words = vec![
         // Release; first number for what the client makes, and which bits there are for it; motion buffer.
         1,
-        WINDOW,
+        0x400000,
         0x1fffff,
         256,
         // Bytes of the vendor's name and words of the longest request; one screen, one format, little-endian; keys.
@@ -209,8 +227,9 @@ pub fn refusal() -> Vec<u8> {
 
 /// An entry of an authority file, for the display of that number.
 pub fn entry(number: &str, method: &str, cookie: &[u8]) -> Vec<u8> {
-    let mut entry = vec![1, 0];
-    for part in [b"here", number.as_bytes(), method.as_bytes(), cookie] {
+    // Of any machine.
+    let mut entry = vec![0xff, 0xff];
+    for part in [b"", number.as_bytes(), method.as_bytes(), cookie] {
         entry.extend((part.len() as u16).to_be_bytes());
         entry.extend(part);
     }
