@@ -4,7 +4,7 @@
 //! and dies of it without a word. Xlib in its turn reads whatever the authority's name leads to, and asks an input method
 //! that nobody needs here.
 
-use super::server::{ABSENT, Server, UNFIT};
+use super::server::{Server, UNFIT};
 use std::env;
 use std::ffi::OsStr;
 use std::fs;
@@ -46,10 +46,11 @@ fn authority() -> Result<(), String> {
 
 /// A server that we do not find may be one of another machine: Xlib's error for that is a safe one.
 fn server() -> Result<(), String> {
-    match Server::find() {
-        Ok(server) if server.depth().is_none() => Err(UNFIT.into()),
-        Err(why) if why != ABSENT => Err(why.into()),
-        _ => Ok(()),
+    let mut why = "";
+    match Server::find(&mut why) {
+        Some(server) => server.screen().map(drop).ok_or(UNFIT.into()),
+        None if why.is_empty() => Ok(()),
+        None => Err(why.into()),
     }
 }
 

@@ -57,7 +57,7 @@ impl Window {
     #[cfg(all(unix, not(feature = "wayland")))]
     pub fn fill(&mut self) {
         let (server, size) = &mut self.screen;
-        *server = server.take().or_else(|| Server::find().ok());
+        *server = server.take().or_else(|| Server::find(&mut ""));
         if let Some(server) = server {
             server.fill(self.window.get_window_handle() as usize as u32, *size);
         }

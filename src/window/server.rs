@@ -27,9 +27,7 @@ const MOST: usize = 0xffff;
 pub const WAITS: u32 = 500;
 const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
 
-/// Why there is no connection: no server of this machine was found; it is silent, says what makes no sense or has other
-/// pixels; it wants another cookie. The 64 kB build, which tries nothing else then, does not tell the first two apart.
-pub const ABSENT: &str = if cfg!(feature = "minifb") { "no X server of this machine" } else { UNFIT };
+/// Why there is no window: the server is silent, makes no sense, or has other pixels; or it wants another cookie.
 pub const UNFIT: &str = "no X server with 32 bits a pixel";
 const REFUSED: &str = "the display refused us";
 
@@ -37,7 +35,7 @@ const REFUSED: &str = "the display refused us";
 pub struct Server {
     /// The socket, which never blocks.
     pub socket: OwnedFd,
-    /// What the server says of itself: whatever lengths it names, all places are there. Empty where it refused us.
+    /// What the server says of itself: whatever lengths it names, all places are there.
     pub setup: Vec<u32>,
     /// The atoms `_NET_WM_STATE` and `_NET_WM_STATE_FULLSCREEN`.
     state: [u32; 2],
@@ -48,15 +46,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// The server that `DISPLAY` names; the error says why there is none.
-    pub fn find() -> Result<Server, &'static str> {
-        let mut why = ABSENT;
-        Server::seek(&mut why).ok_or(why)
-    }
-
-    /// The same. Each cookie that may be for it is tried.
-    fn seek(why: &mut &'static str) -> Option<Server> {
-        let environment = contents(b"/proc/self/environ\0");
+    /// The server that `DISPLAY` names; else `why` is what has come between. Each cookie that may be for it is tried.
+    pub fn find(why: &mut &'static str) -> Option<Server> {
+        // What is read for it stays: to drop it would be code.
+        let environment = contents(b"/proc/self/environ\0").leak();
         let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
         let address = SocketAddrUnix::new(named(&fill("/tmp/.X11-unix/X%\0", &[number]))).ok()?;
@@ -65,17 +58,18 @@ impl Server {
             None => fill("%/.Xauthority\0", &[variable(b"HOME=").unwrap_or_default()]),
         };
         // The same with the number of this display, after its length.
-        let own = fill("%%%", &[&[0, number.len() as u8], number, &ANY[2..]]);
-        let mut entries = contents(&authority);
+        let own = fill("\0%%\0\x12MIT-MAGIC-COOKIE-1\0\x10", &[&[number.len() as u8], number]).leak();
+        let mut entries = contents(authority.leak());
         entries.extend_from_slice(LAST);
+        let entries = entries.leak();
         let mut waits = WAITS;
         for at in 0..entries.len() {
             let rest = &entries[at..];
-            if let Some(rest) = rest.strip_prefix(&*own).or(rest.strip_prefix(ANY))
+            if let Some(rest) = rest.strip_prefix(own).or(rest.strip_prefix(ANY))
                 && let Some(cookie) = rest.get(..COOKIE)
             {
-                let mut server = Server::greet(&address, cookie, waits, why)?;
-                if !server.setup.is_empty() {
+                let (mut server, agreed) = Server::greet(&address, cookie, waits, why)?;
+                if agreed {
                     server.state = [server.atom(b"_NET_WM_STATE")?, server.atom(b"_NET_WM_STATE_FULLSCREEN")?];
                     return Some(server);
                 }
@@ -86,19 +80,24 @@ impl Server {
         None
     }
 
-    /// Connects, with a cookie, and hears the answer.
-    fn greet(address: &SocketAddrUnix, cookie: &[u8], waits: u32, why: &mut &'static str) -> Option<Server> {
+    /// Connects, with a cookie, and hears whether the server agrees.
+    fn greet(address: &SocketAddrUnix, cookie: &[u8], waits: u32, why: &mut &'static str) -> Option<(Server, bool)> {
         let flags = SocketFlags::NONBLOCK | SocketFlags::CLOEXEC;
         let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, flags, None).ok()?;
         connect(&socket, address).ok()?;
-        *why = UNFIT;
-        let mut server = Server { socket, setup: Vec::new(), state: [0; 2], full: false, waits };
-        server.send_bytes(&fill("l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0%", &[cookie]))?;
-        let head = server.receive(2)?;
-        if head[0] & 255 == 1 {
-            server.setup = server.receive((head[1] >> 16) as usize)?;
+        // In the 64 kB build it is that already.
+        if cfg!(feature = "minifb") {
+            *why = UNFIT;
         }
-        Some(server)
+        let mut server = Server { socket, setup: Vec::new(), state: [0; 2], full: false, waits };
+        server.send_bytes(b"l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0")?;
+        server.send_bytes(cookie)?;
+        server.setup = server.receive(2)?;
+        let agreed = server.setup[0] & 255 == 1;
+        if agreed {
+            server.setup = server.receive((server.setup[1] >> 16) as usize)?;
+        }
+        Some((server, agreed))
     }
 
     /// Sends whole requests.
@@ -121,14 +120,14 @@ impl Server {
         Some(write(&self.socket, bytes).unwrap_or(0))
     }
 
-    /// Waits for words; behind them are zeros, [`MOST`] in all.
+    /// Waits for words, of whose count 16 bits are believed; behind them are zeros, [`MOST`] in all.
     pub fn receive(&mut self, count: usize) -> Option<Vec<u32>> {
-        let (mut bytes, end, mut got) = (vec![0; 4 * MOST], 4 * count.min(MOST), 0);
+        let (mut bytes, end, mut got) = (vec![0; 4 * MOST], 4 * (count & MOST), 0);
         while got < end {
             self.wait(PollFlags::IN)?;
             got += read(&self.socket, &mut bytes[got..end]).unwrap_or(0);
         }
-        Some(words(&bytes))
+        Some(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
     }
 
     /// Waits until it can be read or written, but not for long.
@@ -148,11 +147,12 @@ impl Server {
         Some(self.receive(PACKET)?[2])
     }
 
-    /// Has the first screen 32 bits a pixel, little-endian? Gives how many of them are shown.
-    pub fn depth(&self) -> Option<u32> {
+    /// Root window, black and bits that are shown, of the first screen, where it has 32 bits a pixel, little-endian.
+    pub fn screen(&self) -> Option<[u32; 3]> {
         let (formats, screen) = self.formats();
         let (order, depth) = (self.setup[5] >> 16 & 255, screen[9] >> 16 & 255);
-        formats.chunks(2).any(|format| format[0] & 0xffff == (32 << 8 | depth) && order == 0).then_some(depth)
+        let fit = formats.chunks(2).any(|format| format[0] & 0xffff == (32 << 8 | depth) && order == 0);
+        fit.then_some([screen[0], screen[3], depth])
     }
 
     /// Formats of pixels, two words each, and the first screen.
@@ -209,9 +209,4 @@ pub fn bytes(words: &[u32]) -> Vec<u8> {
         bytes.extend_from_slice(&word.to_le_bytes());
     }
     bytes
-}
-
-/// Bytes as words.
-pub fn words(bytes: &[u8]) -> Vec<u32> {
-    bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }

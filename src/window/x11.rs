@@ -1,11 +1,12 @@
 //! A window on this machine's X server, by the protocol itself ([`super::server`]): 1 kB packed, where minifb, Xlib's
 //! table of functions and what they take of the standard library are 6.
 
-use super::server::{PACKET, Server, UNFIT, WAITS, bytes, words};
+use super::server::{PACKET, Server, UNFIT, WAITS, bytes};
 use super::{BACK, FORWARD, LEAVE, TITLE};
 use paprsek::scale;
 use paprsek::tile::Frame;
 use rustix::io::read;
+use std::array::from_fn;
 use std::mem::take;
 
 /// Words of a PutImage request before its pixels.
@@ -43,14 +44,14 @@ pub struct Window {
 impl Window {
     /// Opens a window of `size`, in pixels; the error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
-        Ok(Server::find().and_then(|server| Window::create(server, size).ok_or(UNFIT))?)
+        let mut why = UNFIT;
+        Server::find(&mut why).and_then(|server| Window::create(server, size)).ok_or_else(|| why.into())
     }
 
     /// The window, where the server has 32 bits a pixel, little-endian.
     fn create(mut server: Server, size: (usize, usize)) -> Option<Window> {
-        let depth = server.depth()?;
-        let (id, codes, screen) = (server.setup[1], server.setup[6], server.formats().1);
-        let (root, black) = (screen[0], screen[3]);
+        let [root, black, depth] = server.screen()?;
+        let (id, codes) = (server.setup[1], server.setup[6]);
         let (first, last) = (codes >> 16 & 255, codes >> 24);
         let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
         // GetKeyboardMapping
@@ -204,7 +205,8 @@ impl Window {
                 break;
             }
             *got = 0;
-            let event = words(packet);
+            let event = packet.as_chunks().0;
+            let event: [u32; PACKET] = from_fn(|at| u32::from_le_bytes(event[at]));
             let (key, time) = (event[0] >> 8 & 255, event[1]);
             match event[0] & 127 {
                 // KeyPress
