@@ -5,15 +5,15 @@
 //! that nobody needs here.
 
 use super::server::{Server, UNFIT};
+use nix::unistd::execve;
 use std::env;
-use std::ffi::OsStr;
+use std::ffi::{CString, OsStr, OsString};
 use std::fs;
 use std::io;
 use std::os::fd::AsFd;
+use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::FileTypeExt;
-use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// More descriptors than Xlib's connection, its libraries and files, and our own use at a time.
 const DESCRIPTORS: usize = 16;
@@ -56,14 +56,18 @@ fn server() -> Result<(), String> {
 
 /// Starts the program again without an input method where the environment names one: to change it here would be unsafe code.
 fn input_method() -> Result<(), String> {
-    if env::var_os(METHOD).is_none_or(|named| named == OsStr::new(NONE)) {
+    if env::var_os(METHOD).is_none_or(|named| named == NONE) {
         return Ok(());
     }
+    // What came as such a string has no zero in it.
+    let text = |word: OsString| CString::new(word.into_vec()).unwrap_or_default();
     let program = env::current_exe().map_err(|error| error.to_string())?;
-    let mut words = env::args_os();
-    let mut command = Command::new(program);
-    if let Some(name) = words.next() {
-        command.arg0(name);
+    let words: Vec<_> = env::args_os().map(text).collect();
+    let rest = env::vars_os().filter(|(name, _)| name != METHOD);
+    let variables = rest.chain([(METHOD.into(), NONE.into())]).map(|(name, value)| [name, value].join(OsStr::new("=")));
+    match execve(&text(program.into()), &words, &variables.map(text).collect::<Vec<_>>()) {
+        Ok(never) => match never {},
+        // As a number: nix has a text for each, which is 21 kB.
+        Err(error) => Err(format!("cannot do without the input method (os error {})", error as i32)),
     }
-    Err(format!("cannot do without the input method: {}", command.args(words).env(METHOD, NONE).exec()))
 }
