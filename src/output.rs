@@ -46,10 +46,12 @@ mod system {
         CStr::from_bytes_until_nul(path).unwrap_or_default()
     }
 
-    /// A file's first megabyte, which is all; nothing where it cannot be read. Its path ends with a zero.
+    /// A file's first megabyte, which is all; nothing where it cannot be read, and what a pipe or a device has just now. Its
+    /// path ends with a zero.
     pub fn contents(path: &[u8]) -> Vec<u8> {
         let mut bytes = vec![0; 1 << 20];
-        let file = fs::open(named(path), OFlags::RDONLY, Mode::empty());
+        let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+        let file = fs::open(named(path), flags, Mode::empty());
         let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
         bytes.truncate(length);
         bytes

@@ -1,13 +1,19 @@
 //! Plays in a terminal that shows colour: two pixels a character, as upper half blocks.
 
+mod signals;
+
 use crate::args::Args;
 use crate::canvas;
 use crate::clock::Clock;
 use paprsek::tile::{Frame, Renderer};
-use rustix::termios::{LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcgetwinsize, tcsetattr};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::termios::{
+    InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcgetwinsize, tcsetattr,
+};
 use std::env;
 use std::fs::File;
 use std::io::{self, IsTerminal, Read, Write};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -17,6 +23,9 @@ const PERIOD: Duration = Duration::from_millis(40);
 const LIMIT: usize = 1000;
 /// Seconds that an arrow key moves.
 const SEEK: f64 = 5.0;
+
+/// How long a signal waits for the terminal.
+const SECOND: Duration = Duration::from_secs(1);
 
 /// Alternate screen, no cursor.
 const ENTER: &[u8] = b"\x1b[?1049h\x1b[?25l\x1b[2J";
@@ -93,7 +102,11 @@ fn colour(text: &mut Vec<u8>, layer: u8, pixel: u32) {
     let _ = write!(text, "\x1b[{layer};2;{red};{green};{blue}m");
 }
 
+/// Held by whoever writes to the screen: nothing of a frame may follow what puts it back.
+static SCREEN: Mutex<()> = Mutex::new(());
+
 fn write(text: &[u8]) -> io::Result<()> {
+    let _screen = SCREEN.lock();
     let mut out = io::stdout().lock();
     out.write_all(text)?;
     out.flush()
@@ -112,7 +125,10 @@ enum Press {
 
 /// The terminal with its keys delivered one by one, Ctrl-C among them: so it ends between frames, with the screen
 /// put back, and not in the middle of an escape sequence.
-struct Keyboard {
+struct Keyboard(Arc<Terminal>);
+
+/// A terminal, and its modes before.
+struct Terminal {
     terminal: File,
     before: Termios,
 }
@@ -124,17 +140,23 @@ impl Keyboard {
         let before = tcgetattr(&terminal).ok()?;
         let mut modes = before.clone();
         modes.local_modes -= LocalModes::ICANON | LocalModes::ECHO | LocalModes::ISIG;
+        // Ctrl-S is a key like any other: it would stop the frame, and with that the look at the keys.
+        modes.input_modes -= InputModes::IXON;
         // A read returns what is there, if only nothing.
         modes.special_codes[SpecialCodeIndex::VMIN] = 0;
         modes.special_codes[SpecialCodeIndex::VTIME] = 0;
-        tcsetattr(&terminal, OptionalActions::Now, &modes).ok()?;
-        let keyboard = Keyboard { terminal, before };
+        let terminal = Arc::new(Terminal { terminal, before });
+        let signalled = Arc::clone(&terminal);
+        // Where there is no thread for that, a signal leaves the screen as it is.
+        let _ = signals::before_the_end(move || signalled.put_back_soon());
+        tcsetattr(&terminal.terminal, OptionalActions::Now, &modes).ok()?;
+        let keyboard = Keyboard(terminal);
         write(ENTER).ok().map(|()| keyboard)
     }
 
     fn press(&mut self) -> Press {
         let mut bytes = [0; 16];
-        match self.terminal.read(&mut bytes) {
+        match (&self.0.terminal).read(&mut bytes) {
             Ok(count) => meaning(bytes.get(..count).unwrap_or_default()),
             // The terminal is gone.
             Err(_) => Press::Leave,
@@ -145,7 +167,32 @@ impl Keyboard {
 impl Drop for Keyboard {
     fn drop(&mut self) {
         let _ = write(LEAVE);
+        self.0.put_modes_back();
+    }
+}
+
+impl Terminal {
+    fn put_modes_back(&self) {
         let _ = tcsetattr(&self.terminal, OptionalActions::Now, &self.before);
+    }
+
+    /// The whole of it after a signal. As long as the guard is kept nobody else writes. A terminal that takes nothing for
+    /// a second, or is in the middle of a frame as long, gets its modes alone.
+    fn put_back_soon(&self) -> Option<MutexGuard<'static, ()>> {
+        let began = Instant::now();
+        let screen = loop {
+            match SCREEN.try_lock() {
+                Ok(screen) => break Some(screen),
+                Err(_) if began.elapsed() < SECOND => thread::sleep(Duration::from_millis(1)),
+                Err(_) => break None,
+            }
+        };
+        let (out, second) = (io::stdout(), Timespec { tv_sec: 1, tv_nsec: 0 });
+        if screen.is_some() && poll(&mut [PollFd::new(&out, PollFlags::OUT)], Some(&second)) == Ok(1) {
+            let _ = out.lock().write_all(LEAVE).and_then(|()| out.lock().flush());
+        }
+        self.put_modes_back();
+        screen
     }
 }
 

@@ -4,12 +4,12 @@
 mod program;
 
 use paprsek::scenes::intro::PARTS;
-use program::{fails, paprsek, succeeds};
+use program::{ending, fails, paprsek, succeeds};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -26,11 +26,16 @@ struct Display(Child, String);
 impl Display {
     /// `None` where the tests of windows are to be skipped.
     fn open() -> Option<Display> {
+        Display::of("640x480x24")
+    }
+
+    /// The same with a screen of that size and depth.
+    fn of(screen: &str) -> Option<Display> {
         if std::env::var_os("PAPRSEK_SKIP_WINDOW").is_some() {
             return None;
         }
         let mut xvfb = Command::new("Xvfb");
-        xvfb.args(["-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"]);
+        xvfb.args(["-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"]);
         let mut child = xvfb.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect(PACKAGES);
         let mut number = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut number).unwrap();
@@ -146,19 +151,6 @@ impl Drop for Display {
     fn drop(&mut self) {
         self.kill();
     }
-}
-
-/// Waits for the end, but not for ever.
-fn ending(mut child: Child, patience: Duration) -> Output {
-    let began = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if began.elapsed() > patience {
-            let _ = child.kill();
-            panic!("still playing after {patience:?}");
-        }
-        sleep(Duration::from_millis(5));
-    }
-    child.wait_with_output().unwrap()
 }
 
 #[test]
@@ -419,4 +411,50 @@ fn a_window_keeps_the_aspect_when_resized() {
     assert!(!lit(30) && lit(150) && !lit(270));
     display.xdotool(&["key", "Escape"]);
     succeeds(ending(child, AT_ONCE));
+}
+
+/// Has it minifb, a terminal and the benchmark?
+const PLAIN: bool = cfg!(feature = "minifb");
+
+/// Ends by itself, on that display or without one.
+fn short(display: &Display) -> Command {
+    let mut command = paprsek();
+    command.args(PLAIN.then_some("lumen")).args(["--size", "16x9", "--from", "1", "--to", "1.2"]);
+    command.env("DISPLAY", &display.1).stdin(Stdio::null());
+    command
+}
+
+#[test]
+fn an_input_method_is_not_asked_for() {
+    let Some(display) = Display::open() else { return };
+    for method in ["@im=ibus", "@im=fcitx", "@im=uim", "none of these", "", "@im=none"] {
+        assert!(succeeds(short(&display).env("XMODIFIERS", method).output().unwrap()).is_empty(), "{method}");
+    }
+}
+
+#[test]
+fn a_screen_of_other_depths_is_no_window() {
+    for depth in ["8", "16"] {
+        let Some(display) = Display::of(&format!("640x480x{depth}")) else { return };
+        let said = fails(&short(&display).output().unwrap(), if PLAIN { 0 } else { 1 });
+        assert!(said.contains("no X server with 32 bits a pixel"), "{said}");
+    }
+}
+
+#[test]
+fn too_few_descriptors_are_no_signal() {
+    let Some(display) = Display::open() else { return };
+    let command = short(&display);
+    // The packed file takes a second each time.
+    for limit in (4..=40).step_by(if PLAIN { 1 } else { 9 }) {
+        // Standard input, output and error, and whatever else the test has left open, are among them.
+        let mut shell = Command::new("sh");
+        shell.args(["-c", "ulimit -n $0 && exec \"$@\"", &limit.to_string()]).arg(command.get_program());
+        shell.args(command.get_args()).env_remove("XMODIFIERS").env("DISPLAY", &display.1).stdin(Stdio::null());
+        let output = shell.output().unwrap();
+        // A window, or what comes without one; below some limit not even a shared library can be loaded.
+        assert!(output.status.code().is_some(), "{limit}: {:?}", output.status);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(said.lines().count() <= 1, "{limit}: {said}");
+    }
 }

@@ -1,10 +1,14 @@
 //! minifb's window: the only file that names minifb.
 
 #[cfg(all(unix, not(feature = "wayland")))]
+use super::beforehand;
+#[cfg(unix)]
+use super::patience;
+#[cfg(all(unix, not(feature = "wayland")))]
 use super::server::Server;
 use super::{BACK, FILL, FIRST_PART, FORWARD, LEAVE, PAUSE, STILL, TITLE};
 #[cfg(unix)]
-use crate::last_word::during;
+use crate::last_word;
 use minifb::{InputCallback, Key, ScaleMode, WindowOptions};
 use paprsek::tile::Frame;
 use std::cell::RefCell;
@@ -22,11 +26,15 @@ pub struct Window {
 impl Window {
     /// Opens a window of `size`, in pixels; the error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
+        #[cfg(all(unix, not(feature = "wayland")))]
+        beforehand::look()?;
+        #[cfg(unix)]
+        patience::begin().map_err(|error| error.to_string())?;
         let options =
             WindowOptions { resize: true, scale_mode: ScaleMode::AspectRatioStretch, ..WindowOptions::default() };
         let mut window =
             during(|| minifb::Window::new(TITLE, size.0, size.1, options)).map_err(|error| error.to_string())?;
-        window.set_cursor_visibility(false);
+        during(|| window.set_cursor_visibility(false));
         // The renderer keeps the pace; minifb would sleep a second time.
         window.set_target_fps(0);
         let keys = Keys::default();
@@ -49,7 +57,7 @@ impl Window {
     #[cfg(all(unix, not(feature = "wayland")))]
     pub fn fill(&mut self) {
         let (server, size) = &mut self.screen;
-        *server = server.take().or_else(Server::find);
+        *server = server.take().or_else(|| Server::find(&mut ""));
         if let Some(server) = server {
             server.fill(self.window.get_window_handle() as usize as u32, *size);
         }
@@ -70,6 +78,12 @@ impl Window {
         let mut keys = self.keys.0.borrow_mut();
         (!keys.0.is_empty()).then(|| keys.0.remove(0))
     }
+}
+
+/// A call that may wait for the display, or lose it.
+#[cfg(unix)]
+fn during<T>(call: impl FnOnce() -> T) -> T {
+    patience::during(|| last_word::during(call))
 }
 
 /// Elsewhere a lost display does not end the process.

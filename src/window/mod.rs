@@ -1,7 +1,11 @@
 //! The window of the system: minifb's, or in the 64 kB build, which has no minifb, one that speaks X11 itself.
 
+#[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
+mod beforehand;
 #[cfg(feature = "minifb")]
 mod library;
+#[cfg(all(feature = "minifb", unix))]
+mod patience;
 #[cfg(all(unix, not(feature = "wayland")))]
 mod server;
 #[cfg(not(feature = "minifb"))]

@@ -2,7 +2,9 @@
 // Each test file uses its part of this.
 #![allow(dead_code)]
 
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// The executable, without a display: cargo's, or the one that the environment's `PAPRSEK` names, such as the packed intro.
 pub fn paprsek() -> Command {
@@ -36,4 +38,18 @@ pub fn fails(output: &Output, code: i32) -> String {
 pub fn succeeds(output: Output) -> Vec<u8> {
     assert_eq!((output.status.code(), &*String::from_utf8_lossy(&output.stderr)), (Some(0), ""));
     output.stdout
+}
+
+/// Waits for the end, but not for ever.
+#[track_caller]
+pub fn ending(mut child: Child, patience: Duration) -> Output {
+    let began = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if began.elapsed() > patience {
+            let _ = child.kill();
+            panic!("still playing after {patience:?}");
+        }
+        sleep(Duration::from_millis(5));
+    }
+    child.wait_with_output().unwrap()
 }
