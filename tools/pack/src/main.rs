@@ -17,9 +17,15 @@ use std::{env, fs, io};
 fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
     let said = match &arguments[..] {
-        [] => intro(),
-        [word] if word == "marginal" => marginal(),
-        [word] if word == "shuffle" => shuffle(),
+        [] => Place::find().and_then(|place| intro(&place)),
+        // Without one of its dearer features after another.
+        [word] if word == "marginal" => {
+            Place::find().and_then(|p| marginal::table(&p.root, &p.toolchain, &p.unpacker, &p.target.join("build")))
+        }
+        // From shuffled sources, too.
+        [word] if word == "shuffle" => {
+            Place::find().and_then(|p| shuffle::show(&p.root, &p.toolchain, &p.unpacker, &p.target.join("shuffle")))
+        }
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
         _ => Err("usage: pack, pack FILE -o OUT, pack marginal, or pack shuffle".into()),
     };
@@ -35,17 +41,14 @@ fn main() -> ExitCode {
 }
 
 /// Builds and packs the intro; gives the table of its modules.
-fn intro() -> Result<String, String> {
-    let (root, target) = places();
-    let target = target.join("intro");
-    let toolchain = Toolchain::find()?;
-    let program = read(&build::build(&root, &toolchain, &target.join("build"), None)?)?;
-    let unpacker = stub::unpacker(&toolchain, &target)?;
-    let packed = packer::pack(&program, &unpacker)?;
+fn intro(place: &Place) -> Result<String, String> {
+    let Place { root, target, toolchain, unpacker } = place;
+    let program = read(&build::build(root, toolchain, unpacker, &target.join("build"), None)?)?;
+    let packed = packer::pack(&program, unpacker)?;
     write(&target.join("paprsek.elf"), &elf::trim(&program)?.bytes)?;
     write(&target.join("paprsek"), &packed.bytes)?;
 
-    let costs = packer::measure(&program, &unpacker)?;
+    let costs = packer::measure(&program, unpacker)?;
     let mut rows = Profile::read(&program)?.rows(View::Owner, &|address| Some(costs.bits(address)));
     let coded: f64 = rows.iter().map(|row| row.packed).sum();
     let rest = packed.bytes.len() as f64 - coded;
@@ -56,30 +59,25 @@ fn intro() -> Result<String, String> {
     Ok(format!("{table}\n{}", sizes(&packed)))
 }
 
-/// The workspace, and where what is built goes.
-fn places() -> (PathBuf, PathBuf) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let target = root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target")));
-    (root, target)
+/// What the intro is built from, where, and with what.
+struct Place {
+    /// The workspace.
+    root: PathBuf,
+    /// Where what is built goes.
+    target: PathBuf,
+    toolchain: Toolchain,
+    unpacker: Vec<u8>,
 }
 
-/// Builds and packs the intro without one feature after another; gives a table of what each saves.
-fn marginal() -> Result<String, String> {
-    let (root, target) = places();
-    let target = target.join("intro");
-    let toolchain = Toolchain::find()?;
-    fs::create_dir_all(&target).map_err(|error| format!("{}: {error}", target.display()))?;
-    let unpacker = stub::unpacker(&toolchain, &target)?;
-    marginal::table(&root, &toolchain, &unpacker, &target.join("build"))
-}
-
-/// Builds and packs the intro of shuffled sources; gives a table of the sizes.
-fn shuffle() -> Result<String, String> {
-    let (root, target) = places();
-    let toolchain = Toolchain::find()?;
-    fs::create_dir_all(&target).map_err(|error| format!("{}: {error}", target.display()))?;
-    let unpacker = stub::unpacker(&toolchain, &target)?;
-    shuffle::show(&root, &toolchain, &unpacker, &target.join("shuffle"))
+impl Place {
+    fn find() -> Result<Self, String> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let target =
+            root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target"))).join("intro");
+        let toolchain = Toolchain::find()?;
+        let unpacker = stub::unpacker(&toolchain, &target)?;
+        Ok(Self { root, target, toolchain, unpacker })
+    }
 }
 
 /// Packs any executable.

@@ -36,7 +36,7 @@ const FEATURES: &[(&str, &str)] = &[
 /// the sources no longer ask for it.
 pub fn table(root: &Path, toolchain: &Toolchain, unpacker: &[u8], target: &Path) -> Result<String, String> {
     let sizes = |without| -> Result<[usize; 2], String> {
-        let program = build::build(root, toolchain, target, without)?;
+        let program = build::build(root, toolchain, unpacker, target, without)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
         let packed = packer::pack(&program, unpacker)?;
         Ok([packed.trimmed, packed.bytes.len()])

@@ -41,7 +41,7 @@ pub fn show(root: &Path, toolchain: &Toolchain, unpacker: &[u8], place: &Path) -
         let mut shuffled = sources.clone();
         shuffle(&mut shuffled).map_err(|why| format!("{what}: {why}"))?;
         write(place, &shuffled)?;
-        let program = build::build(place, toolchain, &place.join("target/intro/build"), None)?;
+        let program = build::build(place, toolchain, unpacker, &place.join("target/intro/build"), None)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
         let size = packer::pack(&program, unpacker)?.bytes.len();
         eprintln!("{what}: {size} bytes");

@@ -1,31 +1,37 @@
 //! The predictor: the probability of the next bit, given all before.
 
-use crate::features::{Features, hash};
-use crate::mix::{Logistic, Vector, dot, train};
-use crate::slot;
+#![allow(unsafe_code)]
 
-/// Contexts of a byte, as many as a vector holds. The unpacker's time goes with it.
-pub const CONTEXTS: usize = 16;
-/// Inputs of a mixer: three vectors of the contexts, one of the match and a constant.
-const VECTORS: usize = 4;
-/// Their weights at first.
-const WEIGHTS: [i16; VECTORS] = [1000, 300, 1300, 1500];
-/// Mixers whose results the last ones mix.
-const MIXERS: usize = 6;
-/// Sets of weights of each, one of which is chosen for each bit.
-const ROWS: usize = 2048;
-/// Mixers of those results. Their own results are averaged.
-const LAST: usize = 3;
-/// Slots for four bits of a byte in one context: the first holds a check, the others are a tree of bits.
-type Line = [u32; 16];
-const LINE_BITS: u32 = 20;
-const LINES: u32 = 1 << LINE_BITS;
+use crate::features::{self, Features, hash};
+use crate::mix::{Layer, VECTORS, squash, stretch};
+use crate::slot;
+use crate::vector::{Words, gather, put_floats, put_words, scatter, words};
+use core::arch::x86_64::*;
+
+/// Contexts of a byte, in groups of eight. The unpacker's time goes with it.
+pub const CONTEXTS: usize = 8 * GROUPS;
+const GROUPS: usize = 2;
+/// Groups of slots: those of the contexts, those of their histories, and a last one that needs no hash.
+const SLOTS: usize = 2 * GROUPS + 1;
+/// Weights at first: of the slots, and of the contexts' probabilities by how often they were seen.
+const WEIGHTS: [f32; VECTORS] = [0.061, 0.061, 0.079, 0.079, 0.05, 0.018, 0.018];
+/// Mixers of all of that, and mixers of their results, which are averaged.
+const MIXERS: [usize; 2] = [6, 3];
+/// How fast both learn.
+const RATES: [f32; 2] = [6.4e-10, 2.4e-10];
+/// They learn nothing from errors up to this, in 65536ths, which are half of all: a tenth of the time.
+const LEAST_ERROR: u32 = 512;
 /// Longest text, in bytes.
 pub const MOST: usize = 1 << 22;
 /// Bytes that a match must have in common at first.
 const MATCH_MIN: u32 = 5;
-/// What a mixer's error is scaled by, in 16ths: the first mixers' and the last one's.
-const RATES: [i32; 2] = [6, 3];
+/// Lines of sixteen cells, slots for four bits of a byte in one context: the first cell holds a check, the others are a tree
+/// of bits.
+const LINE_BITS: u32 = 20;
+/// The cells behind them: what followed histories, by the place of the byte ([`Model::kind`]), then the last group.
+const HISTORIES: u32 = 16 << LINE_BITS;
+const OTHERS: u32 = HISTORIES + 64 * 256 * CONTEXTS as u32;
+const CELLS: usize = OTHERS as usize + (1 << 16);
 
 /// Which features make each context, in code and in data.
 pub type Sets = [[u32; CONTEXTS]; 2];
@@ -49,28 +55,25 @@ pub struct Model {
     match_length: u32,
     /// The byte predicted by the match, with 256 added, or 0.
     predicted: u32,
-    match_slot: u32,
-    chosen: [u32; MIXERS],
-    chosen_last: [u32; LAST],
     place: u32,
-    results: [i32; LAST],
-    mixed: [Vector; 1],
-    inputs: [Vector; VECTORS],
+    /// The probability of the current bit.
+    p: u32,
+    /// The slots of the current bit, and where they are.
+    slots: [Words; SLOTS],
+    at: [Words; SLOTS],
     /// Hashes of the contexts: their top bits are the line, all of them the check.
     hashes: [u32; CONTEXTS],
-    /// The lines in use.
-    lines: [u32; CONTEXTS],
+    /// Where the lines in use start.
+    lines: [Words; GROUPS],
+    /// Where the histories of each context are.
+    bases: [Words; GROUPS],
     sets: Sets,
     features: Features,
-    logistic: Logistic,
-    weights: [[[Vector; VECTORS]; ROWS]; MIXERS],
-    last: [[[Vector; 1]; ROWS]; LAST],
-    /// What followed histories, by the place of the byte ([`Self::kind`]).
-    histories: [[[u32; 256]; CONTEXTS]; 64],
-    matches: [u32; 64],
+    first: Layer,
+    last: Layer,
     heads: [u32; 1 << 16],
     text: [u8; MOST],
-    table: [Line; LINES as usize],
+    cells: [u32; CELLS],
 }
 
 impl Model {
@@ -85,39 +88,39 @@ impl Model {
         match_at: 0,
         match_length: 0,
         predicted: 0,
-        match_slot: 0,
-        chosen: [0; MIXERS],
-        chosen_last: [0; LAST],
         place: 0,
-        results: [0; LAST],
-        mixed: [[0; 16]; 1],
-        inputs: [[0; 16]; VECTORS],
+        p: 0,
+        slots: [[0; 8]; SLOTS],
+        at: [[0; 8]; SLOTS],
         hashes: [0; CONTEXTS],
-        lines: [0; CONTEXTS],
+        lines: [[0; 8]; GROUPS],
+        bases: [[0; 8]; GROUPS],
         sets: [[0; CONTEXTS]; 2],
         features: Features::ZERO,
-        logistic: Logistic::ZERO,
-        weights: [[[[0; 16]; VECTORS]; ROWS]; MIXERS],
-        last: [[[[0; 16]; 1]; ROWS]; LAST],
-        histories: [[[0; 256]; CONTEXTS]; 64],
-        matches: [0; 64],
+        first: Layer::ZERO,
+        last: Layer::ZERO,
         heads: [0; 1 << 16],
         text: [0; MOST],
-        table: [[0; 16]; LINES as usize],
+        cells: [0; CELLS],
     };
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions, the first of them at the
-    /// address `code[2]`. Once, after zeros, where the processor has AVX2.
+    /// address `code[2]`. Once, after zeros, where the processor has AVX2 and FMA.
     /// The text begins with `primer`, instructions that both sides have: they teach, and need not be coded.
     pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 3]) {
         self.sets = *sets;
         self.code = [0, !0, 0];
         self.partial = 1;
-        self.logistic.fill();
-        for (i, weights) in self.weights.as_flattened_mut().as_flattened_mut().iter_mut().enumerate() {
+        // Most of the last group's are not used: they are one slot.
+        self.at[2 * GROUPS].fill(OTHERS);
+        for (i, base) in self.bases.as_flattened_mut().iter_mut().enumerate() {
+            *base = HISTORIES + 256 * i as u32;
+        }
+        let (first, last) = (&mut self.first, &mut self.last);
+        for (i, weights) in first.weights.as_flattened_mut().as_flattened_mut().iter_mut().enumerate() {
             weights.fill(WEIGHTS[i % VECTORS]);
         }
-        self.last.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill((16384 / MIXERS) as i16);
+        last.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(1.0 / MIXERS[0] as f32);
         self.contexts();
         for &byte in primer {
             for i in (0..8).rev() {
@@ -182,58 +185,87 @@ impl Model {
     /// Finds the lines of the next four bits.
     #[inline(never)]
     fn look_up(&mut self) {
+        let (lines, (cells, _)) = (self.lines.as_flattened_mut(), self.cells.as_chunks_mut::<16>());
         // Two loops, so that the processor waits for all lines at once. The first keeps the checks it finds.
-        for i in 0..CONTEXTS {
-            self.hashes[i] = hash(self.hashes[i], self.partial);
-            self.lines[i] = self.table[(self.hashes[i] >> (32 - LINE_BITS)) as usize][0];
+        for (hash, line) in self.hashes.iter_mut().zip(&mut *lines) {
+            *hash = features::hash(*hash, self.partial);
+            *line = cells[(*hash >> (32 - LINE_BITS)) as usize][0];
         }
-        for i in 0..CONTEXTS {
-            let check = self.hashes[i];
+        for (&check, line) in self.hashes.iter().zip(lines) {
             let mut at = check >> (32 - LINE_BITS);
-            if self.lines[i] != check {
+            if *line != check {
                 // The line beside it may be this context's, or know less.
-                let other = &self.table[(at ^ 1) as usize];
-                if other[0] == check || slot::count(other[1]) < slot::count(self.table[at as usize][1]) {
+                let other = &cells[at as usize ^ 1];
+                if other[0] == check || slot::count(other[1]) < slot::count(cells[at as usize][1]) {
                     at ^= 1;
                 }
-                let line = &mut self.table[at as usize];
+                let line = &mut cells[at as usize];
                 if line[0] != check {
                     line.fill(0);
                     line[0] = check;
                 }
             }
-            self.lines[i] = at;
+            *line = at * 16;
         }
     }
 
-    /// Probability, in 65536ths, that the next bit is a one. What can be squashed keeps away from 0 and 1.
-    #[inline(never)]
+    /// Probability, in 65536ths, that the next bit is a one: neither 0 nor 65536.
     pub fn predict(&mut self) -> u32 {
+        // SAFETY: whoever starts a model has seen that the processor has AVX2 and FMA.
+        unsafe { self.predict_avx2() }
+    }
+
+    /// Learns the bit.
+    pub fn update(&mut self, bit: u32) {
+        // SAFETY: as above.
+        unsafe { self.update_avx2(bit) };
+        self.step(bit);
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    #[inline(never)]
+    fn predict_avx2(&mut self) -> u32 {
         if self.bit & 3 == 0 {
             self.look_up();
             self.node = 1;
         }
-        let [direct, certain, indirect, more] = &mut self.inputs;
-        let histories = &self.histories[self.place as usize & 63];
-        let mut known = 0;
-        for i in 0..CONTEXTS {
-            let slot = self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
-            let (p, n) = (slot::probability(slot), slot::count(slot));
-            known += (n != 0) as u32;
-            direct[i] = self.logistic.stretch(p);
-            certain[i] = (((p - 0x8000) * n.min(12)) >> 9) as i16;
-            indirect[i] = self.logistic.stretch(slot::probability(histories[i][slot::history(slot)]));
-        }
-        self.match_slot = 0;
+        let [matched, long, order0, ..] = &mut self.at[2 * GROUPS];
+        (*matched, *long) = (OTHERS, OTHERS);
         if self.predicted << self.bit >> 8 == self.partial {
-            self.match_slot = self.match_length.min(31) * 2 + (self.predicted << self.bit >> 7 & 1);
+            *matched += self.match_length.min(31) * 2 + (self.predicted << self.bit >> 7 & 1);
+            if self.match_length > 9 {
+                *long = *matched + 64;
+            }
         }
-        // Slot 0 never learns, so it is even odds.
-        more[0] = self.logistic.stretch(slot::probability(self.matches[self.match_slot as usize & 63]));
-        more[1] = 1024;
-        more[2] = if self.match_length > 9 { more[0] } else { 0 };
+        *order0 = (OTHERS + 128) + (self.partial | self.place << 8);
+
+        let mut known = 0;
+        for i in 0..SLOTS {
+            if i < GROUPS {
+                let at = _mm256_or_si256(words(&self.lines[i]), _mm256_set1_epi32(self.node as i32));
+                put_words(at, &mut self.at[i]);
+            }
+            // SAFETY: all are within: `look_up` has taken the lines' numbers from LINE_BITS bits, `node` is below 16, the
+            // place below 64, a history is of eight bits, and the last group is just above.
+            let slots = unsafe { gather(&self.cells, &self.at[i]) };
+            let p = slot::centred(slots);
+            put_words(slots, &mut self.slots[i]);
+            put_floats(stretch(p), &mut self.first.inputs[i]);
+            if i < GROUPS {
+                let n = slot::counts(slots);
+                let unseen = _mm256_castsi256_ps(_mm256_cmpeq_epi32(n, _mm256_setzero_si256()));
+                known += 8 - _mm256_movemask_ps(unseen).count_ones();
+                let linear = _mm256_mullo_epi32(p, _mm256_min_epi32(n, _mm256_set1_epi32(20)));
+                put_floats(_mm256_cvtepi32_ps(_mm256_slli_epi32::<5>(linear)), &mut self.first.inputs[SLOTS + i]);
+                let place = _mm256_set1_epi32((self.place * (256 * CONTEXTS) as u32) as i32);
+                let at = _mm256_add_epi32(_mm256_add_epi32(slot::histories(slots), words(&self.bases[i])), place);
+                put_words(at, &mut self.at[GROUPS + i]);
+            }
+        }
+
         let (f, class) = (&self.features.f, self.class << 8);
-        self.chosen = [
+        let (first, last) = (&mut self.first, &mut self.last);
+        first.rows = [
             self.partial | self.predicted & 256,
             self.place | self.bit << 6,
             f[0] | class,
@@ -247,37 +279,35 @@ impl Model {
             } else {
                 f[12] & 1023 | 1024
             },
+            0,
+            0,
         ];
-        self.chosen_last = [self.chosen[1], self.chosen[MIXERS - 1], f[0] | class];
-        for ((mixed, &row), weights) in self.mixed[0].iter_mut().zip(&self.chosen).zip(&self.weights) {
-            *mixed = dot(&self.inputs, &weights[row as usize & (ROWS - 1)]) as i16;
-        }
-        for ((result, &row), last) in self.results.iter_mut().zip(&self.chosen_last).zip(&self.last) {
-            *result = dot(&self.mixed, &last[row as usize & (ROWS - 1)]);
-        }
-        self.logistic.squash(self.results.iter().sum::<i32>() / LAST as i32) as u32
+        last.rows = first.rows;
+        last.rows[0] = first.rows[5];
+        first.mix(MIXERS[0], VECTORS);
+        last.inputs[0] = first.sums;
+        last.mix(MIXERS[1], 1);
+        let [a, b, c, ..] = last.sums;
+        let p = squash(_mm256_set1_ps((a + b + c) * (1.0 / MIXERS[1] as f32)));
+        // Truncated, 1 to 65535, as what is squashed is clamped.
+        self.p = _mm_cvttss_si32(_mm256_castps256_ps128(_mm256_mul_ps(p, _mm256_set1_ps(65536.0)))) as u32;
+        self.p
     }
 
-    /// Learns the bit.
-    #[inline(never)]
-    pub fn update(&mut self, bit: u32) {
-        let target = (bit << 16) as i32;
-        for ((&mixed, &row), weights) in self.mixed[0].iter().zip(&self.chosen).zip(&mut self.weights) {
-            let error = ((target - self.logistic.squash(mixed as i32)) * RATES[0]) >> 4;
-            train(&self.inputs, &mut weights[row as usize & (ROWS - 1)], error);
+    #[target_feature(enable = "avx2,fma")]
+    fn update_avx2(&mut self, bit: u32) {
+        if (bit << 16).abs_diff(self.p) > LEAST_ERROR {
+            self.first.learn(MIXERS[0], VECTORS, bit, RATES[0]);
+            self.last.learn(MIXERS[1], 1, bit, RATES[1]);
         }
-        for ((&result, &row), last) in self.results.iter().zip(&self.chosen_last).zip(&mut self.last) {
-            let error = ((target - self.logistic.squash(result)) * RATES[1]) >> 4;
-            train(&self.mixed, &mut last[row as usize & (ROWS - 1)], error);
+        for (slots, at) in self.slots.iter().zip(&self.at) {
+            // SAFETY: they were read from there.
+            unsafe { scatter(slot::learned(words(slots), bit), &mut self.cells, at) };
         }
-        for i in 0..CONTEXTS {
-            let slot = &mut self.table[(self.lines[i] & (LINES - 1)) as usize][self.node as usize & 15];
-            slot::update(&mut self.histories[self.place as usize & 63][i][slot::history(*slot)], bit);
-            slot::update(slot, bit);
-        }
-        if self.match_slot != 0 {
-            slot::update(&mut self.matches[self.match_slot as usize & 63], bit);
-        }
+    }
+
+    /// Goes on to the next bit, and after eight to the next byte.
+    fn step(&mut self, bit: u32) {
         self.partial = self.partial << 1 | bit;
         self.node = self.node << 1 | bit;
         self.bit += 1;
