@@ -7,8 +7,10 @@ use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
-/// memfd_create and execveat.
+/// mmap, memfd_create and execveat.
+const MMAP: &str = "9";
 const MEMFD_CREATE: &str = "319";
 const EXECVEAT: &str = "322";
 const CANNOT: Option<i32> = Some(126);
@@ -108,6 +110,42 @@ fn damage_is_reported() {
         let output = Command::new(executable("damaged", &bytes)).output().expect("it starts");
         assert_eq!(text(&output.stderr), "paprsek: this file is damaged\n", "byte {at}");
         assert_eq!(output.status.code(), CANNOT);
+    }
+}
+
+/// Bits all over the second stage, as it is coded.
+#[test]
+fn damage_of_the_unpacker_is_reported() {
+    let whole = small();
+    let packed = packer::pack(&fs::read(work().join("subject")).expect("small() made it"), unpacker());
+    let packed = packed.expect("an ordinary program");
+    let [one, _] = packer::stages(unpacker()).expect("it is linked well");
+    let coded = packed.headers + one.len()..packed.headers + packed.stub;
+    for i in 0..202 {
+        let mut bytes = whole.to_vec();
+        // The last bits coded may be any.
+        let at = coded.start + (coded.len() - 3) * i / 201;
+        bytes[at] ^= 1 << (i % 8);
+        let path = executable("damaged_unpacker", &bytes);
+        let began = Instant::now();
+        let output = Command::new(path).output().expect("it starts");
+        assert_eq!(text(&output.stderr), "paprsek: damaged, or no memory\n", "byte {at}");
+        assert_eq!(output.status.code(), CANNOT);
+        assert!(began.elapsed() < Duration::from_secs(5), "byte {at} took {:?}", began.elapsed());
+    }
+}
+
+#[test]
+fn where_there_is_no_memory_it_says_so() {
+    let path = executable("memory.packed", small());
+    let mut little = Command::new("sh");
+    little.arg("-c").arg("ulimit -v 50000; exec \"$0\"").arg(&path);
+    let mut refused = Command::new(compile("refuse.c", "refuse_mmap", &["-static"]));
+    refused.arg(MMAP).arg(&path);
+    for mut command in [little, refused] {
+        let output = command.output().expect("it runs");
+        assert_eq!(output.status.code(), CANNOT);
+        assert_eq!(text(&output.stderr), "paprsek: damaged, or no memory\n");
     }
 }
 

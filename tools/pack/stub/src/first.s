@@ -1,5 +1,5 @@
-// The first stage, alone in the file as it is: makes memory, decodes the second stage into it, makes that executable
-// and goes there, with the stack as the kernel left it. What is coded is described in the packer (src/first.rs).
+// The first stage, alone in the file as it is: makes memory, decodes the second stage into it, sees that it is whole and
+// goes there, with the stack as the kernel left it. What is coded is described in the packer (src/first.rs).
 //
 //   rdi  byte being decoded: its bits so far below a leading one
 //   rbx  features of the contexts to come, eight bits each: one for each of the bytes before
@@ -8,10 +8,10 @@
 .pushsection .first, "ax"
 .globl _start
 _start:
-    // mmap: readable and writable; private, fixed, anonymous.
+    // mmap: readable, writable and executable; private, fixed, anonymous.
     mov     edi, offset memory
     mov     esi, offset memory_length
-    push    3
+    push    7
     pop     rdx
     push    0x32
     pop     r10
@@ -19,6 +19,8 @@ _start:
     push    9
     pop     rax
     syscall
+    test    eax, eax
+    js      8f
     // Eight zeros precede the second stage.
     add     edi, 8
     push    rdi
@@ -93,13 +95,24 @@ next_context:
     inc     edi
     cmp     edi, offset second_end
     jne     next_byte
-    // mprotect: readable and executable.
-    mov     edi, offset memory
-    mov     esi, offset second_length
-    push    5
+    // What is decoded from other bits than were coded ends with anything but this.
+    cmp     dword ptr [rdi - 4], {end}
+    jne     8f
+    ret
+8:  push    2
+    pop     rdi
+    mov     esi, offset refusal
+    push    31
     pop     rdx
-    push    10
+    push    1
     pop     rax
     syscall
-    ret
+    // As a shell ends where it has found what it cannot run.
+    push    126
+    pop     rdi
+    push    60
+    pop     rax
+    syscall
+refusal:
+    .ascii  "paprsek: damaged, or no memory\n"
 .popsection

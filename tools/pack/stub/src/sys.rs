@@ -14,6 +14,7 @@ global_asm!(
     multiplier = const first::MULTIPLIER,
     table_bits = const first::TABLE_BITS,
     prior = const first::PRIOR,
+    end = const first::END,
 );
 
 // The second stage. The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
@@ -103,6 +104,10 @@ pub fn has_avx2() -> bool {
     // FMA, MOVBE, OSXSAVE, AVX, F16C: no processor has the first two but those that have the rest of x86-64-v3 too.
     const WANTED: u32 = 1 << 12 | 1 << 22 | 1 << 27 | 1 << 28 | 1 << 29;
     if WANTED & !__cpuid_count(1, 0).ecx != 0 {
+        return false;
+    }
+    // A hypervisor may hide AVX2 alone.
+    if __cpuid_count(7, 0).ebx & 1 << 5 == 0 {
         return false;
     }
     let state: u32;
