@@ -210,10 +210,13 @@ pub fn octaves_block<S: Simd>(
     let mean = if absolute { MEAN } else { 0.0 };
     let mut least = 0.0;
     if let Some(fade) = &fade {
-        least = f32::INFINITY;
-        for &length in fade.footprint {
-            least = least.min(length);
+        let mut lengths: S::f32s = load(simd, fade.footprint, 0);
+        let mut i = 1;
+        while i < BLOCK / S::f32s::LEN {
+            lengths = lengths.min(load::<S, S::f32s>(simd, fade.footprint, i));
+            i += 1;
         }
+        least = lengths.reduce_min();
     }
     let (mut amplitude, mut zoom) = (0.5, 1.0);
     *out = [0.0; BLOCK];

@@ -190,14 +190,10 @@ impl Screen {
             ink.z,
             crystal,
         ];
-        let mut lanes = [[0.0; 16]; 16];
-        for (row, of) in lanes.iter_mut().zip(numbers) {
-            of.store_slice(&mut row[..F::<S>::LEN]);
-        }
         for lane in Bits(seen) {
             let mut of = [0.0; 16];
-            for (number, row) in of.iter_mut().zip(&lanes) {
-                *number = row[lane];
+            for (number, lanes) in of.iter_mut().zip(&numbers) {
+                *number = lanes.as_slice()[lane];
             }
             sprites.push(Sprite::of(of));
         }
