@@ -48,8 +48,11 @@ pub fn still(scene: &Scene, time: f64, frame: &Frame) -> Result<(), Vec<u8>> {
 fn ppm(frame: &Frame) -> impl Iterator<Item = Vec<u8>> {
     let mut bytes = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
     frame.pixels.chunks(PIECE).map(move |pixels| {
-        for pixel in pixels {
-            bytes.extend_from_slice(&pixel.to_be_bytes()[1..]);
+        let head = bytes.len();
+        bytes.resize(head + 3 * pixels.len(), 0);
+        for (triple, pixel) in bytes[head..].as_chunks_mut().0.iter_mut().zip(pixels) {
+            let [_, red, green, blue] = pixel.to_be_bytes();
+            *triple = [red, green, blue];
         }
         take(&mut bytes)
     })
