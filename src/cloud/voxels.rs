@@ -51,12 +51,12 @@ impl Voxels {
         // One layer more than there are, since every lookup reads two.
         for row in 0..n * (n + 1) {
             let (j, l) = (row % n, (row / n).min(n - 1));
-            let starts = [j, (j + 1).min(n - 1)].map(|j| (j + n * l) * n);
+            let (this, next) = ((j + n * l) * n, ((j + 1).min(n - 1) + n * l) * n);
             for i in 0..n {
-                let columns = [i, (i + 1).min(n - 1)];
+                let k = (i + 1).min(n - 1);
+                // Not by `map`: the optimizer, asked for size, calls a function for each.
                 let cell = |bytes: &[u8]| {
-                    let [[a, b], [c, d]] = starts.map(|start| columns.map(|i| bytes[start + i]));
-                    u32::from_le_bytes([a, b, c, d])
+                    u32::from_le_bytes([bytes[this + i], bytes[this + k], bytes[next + i], bytes[next + k]])
                 };
                 self.cells.push([cell(&self.density), cell(&self.light)]);
             }

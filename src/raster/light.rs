@@ -222,17 +222,14 @@ impl Light {
             None if !BENCH => one,
             None => {
                 let end = F::<S>::splat(simd, size - 0.01);
-                let mut numbers = [[0.0; 16]; 4];
-                let lanes = F::<S>::LEN;
-                for (row, of) in numbers.iter_mut().zip([view, x.max(zero).min(end), y.max(zero).min(end), near]) {
-                    of.store_slice(&mut row[..lanes]);
-                }
+                let (x, y) = (x.max(zero).min(end), y.max(zero).min(end));
                 let mut seen = [0.0; 16];
                 for lane in Bits(inside.to_bitmask()) {
-                    let [view, x, y, near] = [0, 1, 2, 3].map(|row: usize| numbers[row][lane]);
-                    seen[lane] = if hides(&rasters[sight.first + view as usize], x, y, near) { 0.0 } else { 1.0 };
+                    let of = |numbers: &F<S>| numbers.as_slice()[lane];
+                    let raster = &rasters[sight.first + of(&view) as usize];
+                    seen[lane] = if hides(raster, of(&x), of(&y), of(&near)) { 0.0 } else { 1.0 };
                 }
-                F::<S>::from_slice(simd, &seen[..lanes])
+                F::<S>::from_slice(simd, &seen[..F::<S>::LEN])
             }
         };
         inside.select(seen, one)

@@ -134,7 +134,8 @@ impl Setup {
             outside |= u32::from(beyond) << k;
         }
         let inverse = 1.0 / h.w;
-        let [x, y] = [h.x, h.y].map(|x| (x * inverse * SUB as f32).round() as i32);
+        let sub = |x: f32| (x * inverse * SUB as f32).round() as i32;
+        let (x, y) = (sub(h.x), sub(h.y));
         Corner { h, normal, distances, outside, x, y }
     }
 
@@ -145,7 +146,7 @@ impl Setup {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
                 let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
-                let [d0, d1] = [this, next].map(|i| corners[i].distances[plane]);
+                let (d0, d1) = (corners[this].distances[plane], corners[next].distances[plane]);
                 if d0 >= 0.0 {
                     rest.push(this);
                 }
