@@ -5,7 +5,7 @@ use pack_model::coder::Decoder;
 use pack_model::model::{Model, Sets};
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
-/// A model that knows nothing yet, on the heap: 90 MB that must not pass through the stack.
+/// A model that knows nothing yet, on the heap: 80 MB that must not pass through the stack.
 #[allow(unsafe_code)]
 fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     let layout = Layout::new::<Model>();
