@@ -23,9 +23,8 @@ fn main() -> ExitCode {
             Place::find().and_then(|p| marginal::table(&p.root, &p.toolchain, &p.unpacker, &p.target.join("build")))
         }
         // From shuffled sources, too.
-        [word] if word == "shuffle" => {
-            Place::find().and_then(|p| shuffle::show(&p.root, &p.toolchain, &p.unpacker, &p.target.join("shuffle")))
-        }
+        [word] if word == "shuffle" => Place::find()
+            .and_then(|p| shuffle::show(&p.root, &p.toolchain, &p.unpacker, &p.target.with_file_name("shuffle"))),
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
         _ => Err("usage: pack, pack FILE -o OUT, pack marginal, or pack shuffle".into()),
     };

@@ -10,5 +10,5 @@ pub const MULTIPLIER: u32 = 0x9e37_79b1;
 pub const TABLE_BITS: u32 = 22;
 /// What zeros and ones are taken to have been seen before there is any count.
 pub const PRIOR: u32 = 4;
-/// What the second stage ends with; the linker script has it too. No model would guess it.
+/// What the second stage ends with. No model would guess it.
 pub const END: u32 = 0x5d8a_e3b4;

@@ -15,8 +15,7 @@
 //! - histories that start at what their bits suggest, instead of even odds: no difference;
 //! - one mixer instead of three: 3.3 % more; a fourth one, by the length of the match: 0.05 % less;
 //! - without the linear input of each context: 0.4 % more;
-//! - a table of 2^18 or 2^22 lines instead of 2^20: 3 % more, 1.2 % less (but 256 MB). It has 2^19 now, for time:
-//!   0.45 % more.
+//! - a table of 2^18 or 2^22 lines instead of 2^20: 3 % more, 1.2 % less (but 256 MB).
 //!
 //! Tried on one of 153 kB, which takes 48,834 bytes:
 //!

@@ -26,6 +26,9 @@ global_asm!(
     entry = sym entry,
 );
 
+// Its last word.
+global_asm!(".pushsection .second_end,\"a\"", ".long {end}", ".popsection", end = const first::END);
+
 extern "C" fn entry(stack: *const usize) -> ! {
     // SAFETY: the code above passes the stack pointer that the kernel set up, which nothing changes.
     crate::main(unsafe { &*stack.cast() })
