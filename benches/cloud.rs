@@ -10,7 +10,7 @@ use paprsek::cloud::march::{Cloud, Look, march};
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::sunlight;
 use paprsek::cloud::voxels::Voxels;
-use paprsek::lanes::{F, Lane, V3};
+use paprsek::simd::lanes::{F, Lane, V3};
 use std::hint::black_box;
 use std::sync::Arc;
 

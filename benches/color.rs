@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
 use fearless_simd::{Level, dispatch};
-use paprsek::color::{Transfer, encode};
+use paprsek::frame::encode::{Transfer, encode};
 use std::time::Instant;
 
 #[path = "../tests/common/mod.rs"]

@@ -5,9 +5,10 @@
 #![allow(missing_docs)] // criterion_group! makes an undocumented function.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::settings::Quality;
 use std::hint::black_box;
 
 #[path = "../examples/common/maps.rs"]

@@ -7,8 +7,8 @@
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
-use paprsek::block::BLOCK;
 use paprsek::noise::{fbm, noise, noise_block, octaves_block};
+use paprsek::simd::block::BLOCK;
 use std::time::Instant;
 
 #[path = "../tests/common/mod.rs"]

@@ -7,13 +7,14 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
-use paprsek::camera::{Camera, Eye};
-use paprsek::particles::Particles;
-use paprsek::quality::Quality;
-use paprsek::scenes::particles::{FLAKES, fires, snowfall};
-use paprsek::scenes::{self, Shot};
-use paprsek::tile::{Frame, Layer, Renderer, Tile};
+use paprsek::frame::FrameSpec;
+use paprsek::frame::{Frame, Layer, Renderer, Tile};
+use paprsek::particles::ParticleLayer;
+use paprsek::scenes;
+use paprsek::scenes::bench::particles::{FLAKES, fires, snowfall};
+use paprsek::settings::Quality;
 use paprsek::view::View;
+use paprsek::view::{Camera, Eye};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -30,14 +31,15 @@ const SIZE: (usize, usize) = (1280, 720);
 const KINDS: [(&str, usize); 2] = [("flakes", FLAKES.count as usize), ("flames", 10_000)];
 
 /// The particles of a bench scene.
-fn particles(renderer: &Renderer, kind: usize, time: f64) -> Particles {
+fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
     let (width, height) = SIZE;
     if kind == 0 {
-        let shot = Shot { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, crew: renderer.crew() };
+        let shot =
+            FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: renderer.workers() };
         return snowfall(&shot, &FLAKES).without_solids();
     }
     let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
-    Particles::fire(fires(time), 1.6, &View::new(camera, width, height), width, height).without_solids()
+    ParticleLayer::fire(fires(time), 1.6, &View::new(camera, width, height), width, height).without_solids()
 }
 
 /// Milliseconds: the median.
@@ -54,7 +56,7 @@ fn median(mut frame: impl FnMut(f64)) -> f64 {
 }
 
 /// Draws prepared particles into all tiles of the picture.
-fn draw(particles: &Particles, level: Level, tiles: &mut [Tile]) {
+fn draw(particles: &ParticleLayer, level: Level, tiles: &mut [Tile]) {
     for tile in tiles {
         tile.clear();
         particles.draw(level, tile);
@@ -79,7 +81,7 @@ fn motion(criterion: &mut Criterion) {
             let renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
             let prepare = |time: f64| {
                 let mut particles = particles(&renderer, kind, time);
-                particles.prepare(renderer.crew());
+                particles.prepare(renderer.workers());
                 particles.drawn()
             };
             let drawn = prepare(START);
@@ -113,7 +115,7 @@ fn sprites(criterion: &mut Criterion) {
         for (level_name, level) in common::levels() {
             let renderer = Renderer::new(1).expect("threads can be started").at_level(level);
             let mut particles = particles(&renderer, kind, START);
-            particles.prepare(renderer.crew());
+            particles.prepare(renderer.workers());
             draw(&particles, level, &mut tiles);
             assert_eq!(*expected.get_or_insert_with(|| sum(&tiles)), sum(&tiles), "{name} at {level_name}");
             let ms = median(|_| draw(&particles, level, &mut tiles));

@@ -8,15 +8,16 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::light::{Haze, Light, Source};
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{self, Bias, Plan};
-use paprsek::raster::{Body, Drawn, World, fit};
-use paprsek::scenes::{self, shadow_set};
-use paprsek::tile::{Crew, Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::raster::shadow::{self, Bias, ShadowViews};
+use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::scenes;
+use paprsek::scenes::bench::shadow_set;
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
 use std::hint::black_box;
 use std::sync::Arc;
@@ -36,11 +37,11 @@ const START: f64 = 2.0;
 const SIZE: (usize, usize) = (1280, 720);
 
 /// Only what a frame does before its tiles.
-struct DepthOnly(Drawn);
+struct DepthOnly(RasterLayer);
 
 impl Layer for DepthOnly {
-    fn prepare(&mut self, crew: &Crew) {
-        self.0.prepare(crew);
+    fn prepare(&mut self, workers: &Workers) {
+        self.0.prepare(workers);
     }
 
     fn draw(&self, _level: Level, _tile: &mut Tile) -> Stats {
@@ -78,7 +79,7 @@ impl Case {
                 (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
             }
         };
-        let shadow = Some(Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: false });
+        let shadow = Some(ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false });
         Light { source, color: Vec3::ONE, shadow }
     }
 }
@@ -98,7 +99,8 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
         film: false,
         background: None,
     };
-    let drawn = Drawn::new(world, View::new(camera, Tile::SIZE, Tile::SIZE), Tile::SIZE, Tile::SIZE, Quality::FAST);
+    let drawn =
+        RasterLayer::new(world, View::new(camera, Tile::SIZE, Tile::SIZE), Tile::SIZE, Tile::SIZE, Quality::FAST);
     Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }
 }
 

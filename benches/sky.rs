@@ -5,13 +5,13 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{Mat3, Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Picture, Renderer};
+use paprsek::settings::Quality;
 use paprsek::sky::air::Air;
-use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
-use paprsek::tile::{Frame, Picture, Renderer};
+use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::view::Camera;
 use std::hint::black_box;
 
 #[path = "../tests/common/mod.rs"]
@@ -39,7 +39,7 @@ fn picture(altitude: f32, cell: f32) -> Picture {
     let steps = DomeQuality::new(&Quality::DEFAULT).steps;
     let dome = Dome::new(sky, DomeQuality { steps, cell, grid: 1 });
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-    let layer = Backdrop::new(dome, camera, SIZE.0, SIZE.1, Look::default());
+    let layer = SkyLayer::new(dome, camera, SIZE.0, SIZE.1, Look::default());
     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
 }
 

@@ -11,12 +11,12 @@
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
-use paprsek::block::{BLOCK, load, store};
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::sunlight;
 use paprsek::cloud::voxels::Voxels;
-use paprsek::lanes::{F, V3};
-use paprsek::math::exp2;
+use paprsek::simd::block::{BLOCK, load, store};
+use paprsek::simd::lanes::{F, V3};
+use paprsek::simd::math::exp2;
 use std::f32::consts::LOG2_E;
 use std::time::Instant;
 

@@ -5,10 +5,10 @@
 //! where nothing is; each map's grey goes from its farthest texel to its nearest.
 
 use image::{GrayImage, Luma, imageops};
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::raster::shadow::{self, DepthMap, NOTHING};
 use paprsek::scenes;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
 use std::error::Error;
 
 const SIZE: (usize, usize) = (1280, 720);

@@ -5,15 +5,15 @@
 use fearless_simd::Level;
 use glam::{Mat3, Vec3, vec3};
 use image::{Rgb, RgbImage, imageops};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
+use paprsek::settings::Quality;
 use paprsek::sky::air::Air;
-use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::sky::place::Place;
 use paprsek::sky::time;
-use paprsek::tile::{Frame, Layer, Picture, Renderer, Tile};
+use paprsek::view::Camera;
 
 const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
 
@@ -33,7 +33,7 @@ fn sky(altitude: f32, haze: f32) -> Sky {
 fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize), look: Look) -> RgbImage {
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
-    let layer = Backdrop::new(dome, camera, size.0, size.1, look);
+    let layer = SkyLayer::new(dome, camera, size.0, size.1, look);
     Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
         let p = frame.pixels[y as usize * size.0 + x as usize];
@@ -55,7 +55,7 @@ fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32)
     for _ in 0..repeat {
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let start = std::time::Instant::now();
-        let layer = Backdrop::new(Dome::new(sky(altitude, 1.3), quality), camera, size.0, size.1, Look::default());
+        let layer = SkyLayer::new(Dome::new(sky(altitude, 1.3), quality), camera, size.0, size.1, Look::default());
         for row in 0..size.1.div_ceil(Tile::SIZE) {
             for column in 0..size.0.div_ceil(Tile::SIZE) {
                 layer.draw(Level::new(), &mut Tile::at(column, row, size.0, size.1));

@@ -12,9 +12,10 @@ mod likeness;
 mod maps;
 
 use difference::Difference;
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::settings::Quality;
 use std::time::Instant;
 
 /// Size of the frames that are timed, and of those that are compared with 64 samples a pixel, which take long.

@@ -6,15 +6,15 @@
 
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use lexopt::{Arg, Parser};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::raster::light::{Haze, Light, Source};
 use paprsek::raster::mesh::{Mesh, Paint};
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, Plan};
-use paprsek::raster::{Body, Drawn, World, fit};
-use paprsek::tile::{Frame, Picture, Renderer};
+use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
 use plotters::prelude::*;
 use std::error::Error;
@@ -99,7 +99,7 @@ impl Stage {
     fn light(&self, kind: Kind, index: usize, count: usize) -> Light {
         let time = self.count as f32 * 0.01;
         let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
-        let plan = |views| Plan { views, bias, back_faces: false, traced: false, from: 0, smooth: false };
+        let plan = |views| ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
             let towards = vec3(cos, 0.8, sin).normalize();
@@ -151,7 +151,7 @@ impl Stage {
                 background: Some(fog),
             };
             let began = Instant::now();
-            let drawn = Drawn::new(world, View::new(camera, SIZE.0, SIZE.1), SIZE.0, SIZE.1, case.quality);
+            let drawn = RasterLayer::new(world, View::new(camera, SIZE.0, SIZE.1), SIZE.0, SIZE.1, case.quality);
             self.renderer.draw(Picture { layers: vec![Box::new(drawn)], transfer: Transfer::Srgb }, &mut self.frame);
             ms += began.elapsed().as_secs_f64() * 1e3;
         }

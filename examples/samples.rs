@@ -3,10 +3,11 @@
 //!
 //! `cargo run --release --example samples -- [SCENE [SECONDS [QUALITY [FILE.png]]]]`
 
-use paprsek::camera::Eye;
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Shot};
-use paprsek::tile::{Frame, Renderer, Tile};
+use paprsek::frame::FrameSpec;
+use paprsek::frame::{Frame, Renderer, Tile};
+use paprsek::scenes;
+use paprsek::settings::Quality;
+use paprsek::view::Eye;
 use std::error::Error;
 
 #[path = "common/picture.rs"]
@@ -24,7 +25,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let shot = Shot { time, width: *width, height: *height, quality, eye: Eye::MIDDLE, crew: renderer.crew() };
+    let shot =
+        FrameSpec { time, width: *width, height: *height, quality, eye: Eye::MIDDLE, workers: renderer.workers() };
     let picture = scene.picture(&shot);
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {

@@ -7,9 +7,11 @@
 use image::codecs::png::{CompressionType, FilterType as RowFilter, PngEncoder};
 use image::imageops::{self, FilterType};
 use image::{Rgb, RgbImage};
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene, intro};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::scenes::show::intro;
+use paprsek::settings::Quality;
 use std::error::Error;
 use std::fs::File;
 use std::path::Path;
@@ -27,14 +29,14 @@ type Sheet<'a> = (&'a str, Scene, &'a [f64], (u32, u32), u32);
 
 const DAY: &[f64] = &[2.5, 6.25, 20.0, 36.25, 40.0, 47.5, 122.5, 126.25, 140.0, 156.25, 160.0, 167.5];
 const SHEETS: [Sheet; 8] = [
-    ("lumen.png", scenes::lumen::LUMEN, &[14.0], (1280, 720), 1),
-    ("dawn.png", scenes::lumen::LUMEN, &[9.2], (960, 540), 1),
-    ("dance.png", scenes::lumen::LUMEN, &[43.9], (960, 540), 1),
-    ("sunset.png", scenes::lumen::LUMEN, &[51.5], (960, 540), 1),
-    ("day.png", scenes::day::DAY, DAY, (336, 189), 3),
-    ("clouds.png", scenes::clouds::CLOUDS, &[1.8, 6.6, 37.0, 45.0], (640, 360), 2),
-    ("snowfall.png", scenes::snowfall::SNOWFALL, &[5.0, 12.0, 16.0, 26.0], (640, 360), 2),
-    ("torches.png", scenes::torches::TORCHES, &[3.0, 10.0, 15.0, 22.0], (640, 360), 2),
+    ("lumen.png", scenes::show::lumen::LUMEN, &[14.0], (1280, 720), 1),
+    ("dawn.png", scenes::show::lumen::LUMEN, &[9.2], (960, 540), 1),
+    ("dance.png", scenes::show::lumen::LUMEN, &[43.9], (960, 540), 1),
+    ("sunset.png", scenes::show::lumen::LUMEN, &[51.5], (960, 540), 1),
+    ("day.png", scenes::show::day::DAY, DAY, (336, 189), 3),
+    ("clouds.png", scenes::show::clouds::CLOUDS, &[1.8, 6.6, 37.0, 45.0], (640, 360), 2),
+    ("snowfall.png", scenes::show::snowfall::SNOWFALL, &[5.0, 12.0, 16.0, 26.0], (640, 360), 2),
+    ("torches.png", scenes::show::torches::TORCHES, &[3.0, 10.0, 15.0, 22.0], (640, 360), 2),
 ];
 
 /// Seconds from still to still of the contact sheet, and from a still to a cut, where the show is dark.

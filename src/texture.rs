@@ -1,10 +1,10 @@
 //! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
 
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, V3};
-use crate::math;
+use crate::cuts::BENCH;
 use crate::noise::{self, Fade};
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{F, V3};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};

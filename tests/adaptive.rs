@@ -5,13 +5,14 @@ mod picture;
 
 use fearless_simd::Level;
 use glam::{Mat3, Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, spheres};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::scenes::bench::spheres;
+use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
-use paprsek::tile::{Frame, Renderer};
 use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
+use paprsek::view::Camera;
 use picture::{Codes, traced};
 
 /// Targets for the adaptive picture against every pixel traced.

@@ -2,9 +2,10 @@
 //! triangle, and depth maps of which only the texels that are looked up are made.
 
 use glam::{DVec2, DVec3, dvec2, dvec3};
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, shadow_set};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::scenes::bench::shadow_set;
+use paprsek::settings::Quality;
 
 const SIZE: [usize; 2] = [160, 90];
 /// Sparse pixels, with steps that have no factor in common with the picture's.

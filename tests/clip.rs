@@ -8,11 +8,11 @@ mod oracle;
 use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{Affine3A, DVec3, Vec3, vec3};
 use oracle::random::Random;
-use paprsek::camera::Camera;
-use paprsek::quality::Quality;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::NEAR;
 use paprsek::raster::{Body, World};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -57,9 +57,9 @@ fn ground_is_where_the_rays_meet_it() {
                 assert_eq!(first.differs(&planes), None, "{name}, case {case}");
                 continue;
             }
-            for pixel in 0..planes.closeness.len() {
+            for pixel in 0..planes.inv_depth.len() {
                 let hits = rays(&camera, SIZE, pixel).map(|d| meets_ground(eye.as_dvec3(), d, 0.0, half as f64));
-                let found = planes.closeness[pixel] as f64;
+                let found = planes.inv_depth[pixel] as f64;
                 let sure = hits.iter().all(Option::is_some);
                 if !sure && hits.iter().any(Option::is_some) {
                     grazing += 1;
@@ -93,12 +93,12 @@ fn a_plane_of_a_million_metres_has_a_horizon() {
         let world = dark(vec![body(ground(half, 0.0, 1))]);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
         let mut off = 0;
-        for pixel in 0..planes.closeness.len() {
+        for pixel in 0..planes.inv_depth.len() {
             let [d, around @ ..] = rays(&camera, SIZE, pixel);
             let meets = |d: DVec3| meets_ground(camera.eye.as_dvec3(), d, 0.0, half as f64);
             if around.iter().all(|d| meets(*d).is_some() == meets(around[0]).is_some()) {
                 let truth = meets(d).map_or(0.0, |t| 1.0 / t);
-                let found = planes.closeness[pixel] as f64;
+                let found = planes.inv_depth[pixel] as f64;
                 // A millionth of the way to a corner, of the eye's height; and 1/100 pixel of the ground's slope.
                 let slope = 1.0 / 100.0 * 0.01;
                 off += ((found > 0.0) != (truth > 0.0) || (found - truth).abs() > 2e-3 * truth + slope * SNAP) as u32;
@@ -123,14 +123,14 @@ fn long_roads_lead_straight_past_the_eye() {
         let eye = vec3(0.1, 1.7, 0.0);
         let camera = Camera::look_at(eye, eye + vec3(0.05, -0.2, -1.0), FOV, 0.1);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
-        for pixel in 0..planes.closeness.len() {
+        for pixel in 0..planes.inv_depth.len() {
             let hit = |d: DVec3| {
                 let p = eye.as_dvec3() + d * (-1.7 / d.y);
                 d.y < 0.0 && p.dot(across).abs() < 1.0 && (-5.0..length).contains(&p.dot(along))
             };
             let hits = rays(&camera, SIZE, pixel).map(hit);
             if hits.iter().all(|h| *h == hits[0]) {
-                assert_eq!(planes.closeness[pixel] > 0.0, hits[0], "case {case}, {length} m: pixel {pixel}");
+                assert_eq!(planes.inv_depth[pixel] > 0.0, hits[0], "case {case}, {length} m: pixel {pixel}");
                 (on, off) = (on + hits[0] as u32, off + !hits[0] as u32);
             }
         }
@@ -149,9 +149,9 @@ fn nothing_behind_the_eye_or_before_the_near_plane_is_seen() {
         let r = 3.0 * z.abs().max(1.0);
         let faces = [[vec3(-r, -r, -z), vec3(r, -r, -z), vec3(0.0, r, -z)]];
         let planes = draw(&dark(vec![body(triangles(&faces))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
-        let middle = planes.closeness[SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2];
+        let middle = planes.inv_depth[SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2];
         if z < NEAR {
-            assert!(planes.closeness.iter().all(|c| *c == 0.0), "{z}");
+            assert!(planes.inv_depth.iter().all(|c| *c == 0.0), "{z}");
         } else {
             assert!((middle * z - 1.0).abs() < 1e-6, "{z}: {middle}");
         }
@@ -180,7 +180,7 @@ fn clipped_neighbours_leave_no_gap() {
         let camera = Camera::look_at(eye, random.direction(), 1.4, random.range(-3.0, 3.0) as f32);
         // What the near plane cuts out of the box is open; nothing else is.
         let planes = draw(&dark(vec![body(mesh)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
-        for pixel in 0..planes.closeness.len() {
+        for pixel in 0..planes.inv_depth.len() {
             let way = |d: DVec3| {
                 let t = |p: f32, d: f64| p as f64 / d;
                 let axes = [(low.x, high.x, d.x), (low.y, high.y, d.y), (low.z, high.z, d.z)];
@@ -189,7 +189,7 @@ fn clipped_neighbours_leave_no_gap() {
             let ways = rays(&camera, SIZE, pixel).map(way);
             if ways.iter().all(|t| *t >= NEAR as f64 * 1.001) {
                 let (least, most) = ways.iter().fold((f64::MAX, 0f64), |(l, h), t| (l.min(*t), h.max(*t)));
-                let found = 1.0 / planes.closeness[pixel] as f64;
+                let found = 1.0 / planes.inv_depth[pixel] as f64;
                 let right = found > least * 0.9999 && found < most * 1.0001;
                 assert!(right, "case {case}, pixel {pixel}: {found}, {least} to {most}");
             }
@@ -272,7 +272,7 @@ fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
     let bodies = vec![body(mesh), body(wall)];
     let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
     let low = SIZE[0] * (SIZE[1] - 1) + SIZE[0] / 2;
-    assert!(few.closeness[low] > 0.0 && planes.closeness[low] == few.closeness[low]);
+    assert!(few.inv_depth[low] > 0.0 && planes.inv_depth[low] == few.inv_depth[low]);
 }
 
 #[test]
@@ -317,7 +317,7 @@ proptest! {
             let planes = draw(&world, camera, [40, 30], Quality::DEFAULT, level);
             prop_assert!(planes.color.iter().all(|c| c.is_finite()), "{}", name);
             // Beside corners 1e20 metres away even the near plane is only roughly known.
-            prop_assert!(planes.closeness.iter().all(|c| (0.0..=2.001 / NEAR).contains(c)), "{}", name);
+            prop_assert!(planes.inv_depth.iter().all(|c| (0.0..=2.001 / NEAR).contains(c)), "{}", name);
             prop_assert!(planes.coverage.iter().all(|c| (0.0..=1.000001).contains(c)), "{}", name);
             prop_assert_eq!(planes.differs(first.get_or_insert_with(|| planes.clone())), None, "{}", name);
         }
@@ -409,7 +409,7 @@ fn closed_boxes_show_their_front_and_nothing_from_inside() {
                 let normal = place.matrix3.col(axis) * from[axis].signum() as f32;
                 let truth = Vec3::from(normal).max(Vec3::ZERO);
                 assert!(planes.color[pixel].abs_diff_eq(truth, 1e-5), "case {case}, pixel {pixel}");
-                assert!((planes.closeness[pixel] as f64 * way - 1.0).abs() < 1e-3, "case {case}, pixel {pixel}");
+                assert!((planes.inv_depth[pixel] as f64 * way - 1.0).abs() < 1e-3, "case {case}, pixel {pixel}");
                 seen += 1;
             }
         }

@@ -1,10 +1,8 @@
 //! The scene `clouds`: the same frame everywhere, into clouds and out of them, and no light that jumps but at cuts.
 
-#![cfg(feature = "day")]
-
-use paprsek::quality::Quality;
-use paprsek::scenes::clouds::{CLOUDS, SHOTS};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes::show::clouds::{CLOUDS, SHOTS};
+use paprsek::settings::Quality;
 
 mod common;
 

@@ -3,8 +3,8 @@
 mod common;
 
 use fearless_simd::{Simd, dispatch, prelude::*};
-use paprsek::color::{Transfer, encode, gamma22_encode, quantize, srgb_decode, srgb_encode};
-use paprsek::math;
+use paprsek::frame::encode::{Transfer, encode, gamma22_encode, quantize, srgb_decode, srgb_encode};
+use paprsek::simd::math;
 
 /// How near a step of the code, in codes, the wide encoder may take the other side of it.
 const STEP_MARGIN: f64 = 1e-4;

@@ -3,12 +3,12 @@
 
 mod program;
 
-use paprsek::quality::Quality;
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 use paprsek::scenes;
-use paprsek::scenes::intro::INTRO;
+use paprsek::scenes::show::intro::INTRO;
+use paprsek::settings::Quality;
 use program::{after, fails, paprsek, succeeds};
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::Read;
@@ -20,7 +20,7 @@ use std::thread::{available_parallelism, sleep};
 use std::time::Duration;
 
 /// Are there scenes to name, and a benchmark?
-const MEASURES: bool = cfg!(feature = "bench-scenes");
+const MEASURES: bool = cfg!(feature = "full");
 
 fn run(words: &[&str]) -> Output {
     paprsek().args(words).output().unwrap()
@@ -156,7 +156,7 @@ fn arguments_need_not_be_unicode() {
     fails(&paprsek().arg("--size").arg(word).output().unwrap(), 2);
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn an_unknown_name_is_answered_with_the_known_ones() {
     let said = fails(&run(&["nosuchscene"]), 2);
@@ -179,7 +179,7 @@ fn help_and_version_are_answered() {
     }
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn scenes_are_listed() {
     let list = String::from_utf8(succeeds(run(&["--list"]))).unwrap();
@@ -278,14 +278,14 @@ fn threads_do_not_change_a_byte() {
     }
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn without_a_scene_the_show_plays() {
     let words = ["--at", "2", "--size", "64x36"];
     assert_eq!(capture(&words), capture(&[&["intro"], &words[..]].concat()));
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn two_eyes_see_what_their_distance_lets_them() {
     let words = ["lumen", "--at", "15", "--size", "64x36", "--stereo"];
@@ -393,7 +393,7 @@ fn a_stream_waits_for_a_slow_reader() {
 
 /// The standard library of the plain build opens `/dev/null` in place of a stream that is closed, before `main`; in the packed
 /// file it is left out.
-#[cfg(all(unix, not(feature = "bench-scenes")))]
+#[cfg(all(unix, not(feature = "full")))]
 #[test]
 fn a_closed_stdout_is_said() {
     if std::env::var_os("PAPRSEK").is_some() {
@@ -467,7 +467,7 @@ fn a_closed_pipe_is_said() {
     }
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn a_benchmark_prints_one_object_a_line() {
     let words = ["lumen", "--bench", "--json", "--threads", "2", "--size", "64x36", "--quality", "fast"];
@@ -489,7 +489,7 @@ fn a_benchmark_prints_one_object_a_line() {
     assert_eq!((&stereo["width"], &stereo["height"]), (&row["width"], &row["height"]));
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn without_a_scene_every_scene_is_timed() {
     let lines = String::from_utf8(succeeds(run(&["--bench", "--json", "--at", "2", "--size", "8x8"]))).unwrap();
@@ -498,7 +498,7 @@ fn without_a_scene_every_scene_is_timed() {
     assert_eq!(names, scenes::all().iter().map(|scene| scene.name).collect::<Vec<_>>());
 }
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 #[test]
 fn without_a_display_or_a_terminal_the_benchmark_runs() {
     let output = run(&["lumen", "--size", "16x9"]);

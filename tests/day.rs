@@ -1,10 +1,8 @@
 //! The scene `day`: its calendar, its light through the hours, and that nothing jumps.
 
-#![cfg(feature = "day")]
-
-use paprsek::quality::Quality;
-use paprsek::scenes::day::{DAY, LENGTH, clock};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes::show::day::{DAY, LENGTH, clock};
+use paprsek::settings::Quality;
 
 mod common;
 

@@ -5,9 +5,9 @@ mod oracle;
 
 use fearless_simd::{Simd, dispatch, prelude::*};
 use oracle::random::Random;
-use paprsek::lanes::F;
+use paprsek::frame::Tile;
 use paprsek::raster::shadow::DepthMap;
-use paprsek::tile::Tile;
+use paprsek::simd::lanes::F;
 
 /// Two views of random depths.
 fn map(random: &mut Random, size: usize) -> (DepthMap, [Vec<f32>; 2]) {

@@ -1,12 +1,12 @@
 //! The level of detail of fires: which particles are left of one, and that nothing pops as that changes.
 
 use glam::{Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::particles::Particles;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
-use paprsek::scenes::particles::fires;
-use paprsek::tile::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::scenes::bench::particles::fires;
+use paprsek::view::Camera;
 use paprsek::view::View;
 
 const SIZE: (usize, usize) = (320, 180);
@@ -84,7 +84,7 @@ impl Layer for Black {
 }
 
 fn draw(renderer: &mut Renderer, fire: Fire, view: &View) -> Vec<u32> {
-    let particles = Particles::fire(vec![fire], 1.6, view, SIZE.0, SIZE.1);
+    let particles = ParticleLayer::fire(vec![fire], 1.6, view, SIZE.0, SIZE.1);
     let mut frame = Frame::new(SIZE.0, SIZE.1);
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(Black), Box::new(particles)];
     renderer.draw(Picture { layers, transfer: Transfer::Linear }, &mut frame);

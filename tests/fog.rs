@@ -6,9 +6,9 @@ mod oracle;
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, vec3};
 use oracle::random::Random;
-use paprsek::camera::Camera;
-use paprsek::particles::fog::Fog;
-use paprsek::tile::{Layer, Tile};
+use paprsek::effects::Fog;
+use paprsek::frame::{Layer, Tile};
+use paprsek::view::Camera;
 use paprsek::view::View;
 
 const SIZE: [usize; 2] = [150, 100];
@@ -29,7 +29,7 @@ fn tile() -> Tile {
     for at in 0..Tile::AREA {
         let covered = [0.0, 0.25, 0.75, 1.0][at % 4];
         tile.coverage[at] = covered;
-        tile.closeness[at] = if covered > 0.0 { random.log(1.0 / 3e4, 3.0) as f32 } else { 0.0 };
+        tile.inv_depth[at] = if covered > 0.0 { random.log(1.0 / 3e4, 3.0) as f32 } else { 0.0 };
         for plane in [&mut tile.red, &mut tile.green, &mut tile.blue] {
             plane[at] = random.range(0.0, 1.5) as f32;
         }
@@ -44,7 +44,7 @@ fn drawn(fog: &Fog, level: Level) -> Tile {
 }
 
 fn bits(tile: &Tile) -> Vec<u32> {
-    let planes = [&tile.red, &tile.green, &tile.blue, &tile.coverage, &tile.closeness];
+    let planes = [&tile.red, &tile.green, &tile.blue, &tile.coverage, &tile.inv_depth];
     planes.iter().flat_map(|plane| plane.iter().map(|x| x.to_bits())).collect()
 }
 
@@ -69,7 +69,7 @@ fn light_fades_into_fog_by_distance() {
                     + camera.up.as_dvec3() * ((h - 2.0 * y) / h);
                 let through = |metres: f64| (-(density as f64) * metres.min(end as f64)).exp();
                 let covered = before.coverage[at] as f64;
-                let solid = through(ray.length() / before.closeness[at] as f64);
+                let solid = through(ray.length() / before.inv_depth[at] as f64);
                 let clear = covered * solid + (1.0 - covered) * through(f64::INFINITY);
                 let light = fog.light.as_dvec3();
                 let of = |tile: &Tile| Vec3::new(tile.red[at], tile.green[at], tile.blue[at]).as_dvec3();
@@ -78,7 +78,7 @@ fn light_fades_into_fog_by_distance() {
                 assert!(gap <= EXACT, "{density} a metre, ({x}, {y}): off by {gap}");
             }
         }
-        assert!(found.coverage == before.coverage && found.closeness == before.closeness);
+        assert!(found.coverage == before.coverage && found.inv_depth == before.inv_depth);
     }
 }
 

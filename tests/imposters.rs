@@ -1,10 +1,10 @@
 //! Pictures that stand for clouds: frames do not depend on which are kept, and are near to those of rays.
-#![cfg(feature = "bench-scenes")]
+#![cfg(feature = "full")]
 
 use fearless_simd::Level;
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
 
 const SIZE: (usize, usize) = (320, 180);
 

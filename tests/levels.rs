@@ -4,9 +4,10 @@
 
 mod common;
 
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::settings::Quality;
 
 const BENCH: [&str; 11] = [
     "spheres",

@@ -1,13 +1,11 @@
 //! Meshes from formulas: closed where they should be, turned outwards, without cracks; and the bench set against its
 //! other writing.
 
-#![cfg(feature = "day")]
-
 use glam::{DVec3, Mat3, Vec3, vec3};
-use paprsek::hash::{pcg, rnd};
 use paprsek::raster::form::{Body, SQUARE};
 use paprsek::raster::mesh::Mesh;
 use paprsek::scenes::models::{chapel, land, mustang, tree};
+use paprsek::simd::hash::{pcg, rnd};
 use std::collections::HashMap;
 
 /// A place by its bits; both zeros are one.
@@ -298,10 +296,10 @@ fn the_chapel_is_open_only_at_its_pillars() {
 /// Strips around a pillar of the chapel.
 const PILLAR_SIDES: usize = 8;
 
-#[cfg(feature = "bench-scenes")]
+#[cfg(feature = "full")]
 mod bench_set {
     use super::*;
-    use paprsek::scenes::shadow_set;
+    use paprsek::scenes::bench::shadow_set;
 
     /// Two writings of the set, this one with noise in f32: they agree to 2e-6.
     const TOLERANCE: f32 = 1e-5;

@@ -4,8 +4,8 @@ mod common;
 
 use fearless_simd::dispatch;
 use glam::Vec3;
-use paprsek::block::BLOCK;
 use paprsek::noise::{fbm, noise, noise_block, octaves_block, turbulence};
+use paprsek::simd::block::BLOCK;
 use proptest::prelude::*;
 
 /// f32 against exact arithmetic, all roundings of one noise together.

@@ -1,11 +1,11 @@
 //! The first part as a film: long enough, the same every time, smooth between its cuts, never dark or blown out,
 //! and never inside of things.
 
-use paprsek::quality::Quality;
-use paprsek::scenes::intro::PARTS;
-use paprsek::scenes::lumen::{CUTS, LUMEN, stage};
-use paprsek::tile::{Frame, Renderer};
-use paprsek::trace::scalar;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes::show::intro::PARTS;
+use paprsek::scenes::show::lumen::{CUTS, LUMEN, stage};
+use paprsek::settings::Quality;
+use paprsek::trace::reference;
 
 const WIDTH: usize = 160;
 const HEIGHT: usize = 90;
@@ -94,7 +94,7 @@ fn the_camera_goes_through_nothing() {
         for (index, body) in world.objects.iter().enumerate() {
             for axis in axes {
                 // Convex: inside where the line is, on both sides of the eye.
-                let span = scalar::span(&body.shape, camera.eye, axis);
+                let span = reference::span(&body.shape, camera.eye, axis);
                 let near = span.is_some_and(|(t0, t1)| t0 < ROOM && t1 > -ROOM);
                 assert!(!near, "object {index} at {time}: {span:?}");
             }

@@ -1,5 +1,5 @@
 //! Particles against a drawing of the same text in f64, with time that is never rounded.
-#![cfg(feature = "bench-scenes")]
+#![cfg(feature = "full")]
 
 mod common;
 #[path = "particles/history.rs"]

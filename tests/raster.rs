@@ -8,12 +8,12 @@ mod oracle;
 use fearless_simd::{Level, Simd, dispatch};
 use glam::{Affine3A, Vec3, Vec4, vec3};
 use oracle::{ULP, random::Random};
+use paprsek::frame::Tile;
 use paprsek::raster::bins::{Bins, NOTHING, parts};
 use paprsek::raster::fill::{CENTER, Sample, Visible, fill};
 use paprsek::raster::mesh::{Face, Mesh, Paint};
 use paprsek::raster::project::Projection;
-use paprsek::raster::triangle::{Piece, SUB, Setup};
-use paprsek::tile::Tile;
+use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
 
 /// Steps of 1/256 pixel, and nearness.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,7 +30,7 @@ const SIZES: [[u32; 2]; 5] = [[100, 70], [64, 64], [65, 63], [1, 1], [131, 5]];
 /// Corners may be that far from the picture's middle before they are clipped, steps.
 const GUARD: i32 = 16384 * SUB;
 
-fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
+fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> SetupMesh {
     let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }], ..Mesh::default() };
     for corners in triangles {
         let first = mesh.points.len() as u16;
@@ -39,7 +39,7 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
         mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
     }
     let projection = Projection { rows: Vec4::AXES, size, texel: 1.0 };
-    Setup { projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
+    TriangleSetup { projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
 }
 
 /// What each pixel of a picture shows: nearness and number of the triangle.
@@ -47,29 +47,29 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> Piece {
 struct Shown(Vec<(f32, Option<usize>)>);
 
 /// Draws pieces as a frame does: by the tiles' lists.
-fn draw(level: Level, pieces: &[Piece], size: [u32; 2], sample: Sample) -> Shown {
+fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: Sample) -> Shown {
     #[inline(always)]
-    fn tile<S: Simd>(simd: S, pieces: &[Piece], ids: &[u32], at: [usize; 2], sample: Sample, out: &mut Visible) {
+    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], sample: Sample, out: &mut Visible) {
         fill(simd, pieces, ids, at[0] as i32, at[1] as i32, sample, out);
     }
     let [width, height] = size.map(|n| n as usize);
     let bins = Bins::new(pieces, size);
     let mut shown = vec![(0.0, None); width * height];
-    let mut out = Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
+    let mut out = Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
     for y in (0..height).step_by(Tile::SIZE) {
         for x in (0..width).step_by(Tile::SIZE) {
             let ids = bins.of(x / Tile::SIZE, y / Tile::SIZE);
             if ids.is_empty() {
                 continue;
             }
-            out.nearness.fill(0.0);
+            out.inv_depth.fill(0.0);
             out.id.fill(NOTHING);
             dispatch!(level, simd => tile(simd, pieces, ids, [x, y], sample, &mut out));
             for row in 0..Tile::SIZE.min(height - y) {
                 for column in 0..Tile::SIZE.min(width - x) {
                     let at = row * Tile::SIZE + column;
                     let id = (out.id[at] != NOTHING).then(|| parts(out.id[at]).1);
-                    shown[(y + row) * width + x + column] = (out.nearness[at], id);
+                    shown[(y + row) * width + x + column] = (out.inv_depth[at], id);
                 }
             }
         }
@@ -340,7 +340,7 @@ fn nearness_is_the_plane_and_stays_between_the_corners() {
             assert_eq!(&shown, first.get_or_insert_with(|| shown.clone()), "{name}: {t:?}");
         }
     }
-    println!("nearness: {worst:.2} roundings; {slivers} pixels of slivers");
+    println!("inv_depth: {worst:.2} roundings; {slivers} pixels of slivers");
     assert!(slivers > 100, "{slivers}");
 }
 

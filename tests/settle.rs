@@ -5,16 +5,16 @@ mod drawn;
 
 use drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
 use glam::{DVec3, Vec3, vec3};
-use paprsek::camera::Camera;
 use paprsek::noise::noise;
-use paprsek::quality::Quality;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::mesh::Mesh;
 use paprsek::raster::project::Projection;
-use paprsek::raster::settle::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, Settled, WHITE};
-use paprsek::raster::shadow::{Bias, Plan};
+use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, SnowCover, WHITE};
 use paprsek::raster::{Body, World};
+use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
+use paprsek::view::Camera;
 
 const SIZE: [usize; 2] = [160, 100];
 const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
@@ -22,8 +22,8 @@ const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
 const GROUND: Vec3 = vec3(0.16, 0.14, 0.05);
 
 /// A plan of one view straight down, `width` metres wide.
-fn plan(width: f32, texels: u32) -> Plan {
-    Plan {
+fn plan(width: f32, texels: u32) -> ShadowViews {
+    ShadowViews {
         views: vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)],
         bias: Bias { constant: 0.05, slope: 2.0, normal: 0.0 },
         back_faces: false,
@@ -33,9 +33,9 @@ fn plan(width: f32, texels: u32) -> Plan {
     }
 }
 
-fn snow(amount: f32, shadow: Option<Plan>) -> Option<Settled> {
+fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
     let from = Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow };
-    Some(Settled { amount, from, gives: Vec3::ZERO })
+    Some(SnowCover { amount, from, gives: Vec3::ZERO })
 }
 
 /// Light from all around, so that a picture has the albedo of what it shows.
@@ -128,7 +128,7 @@ fn open_slopes_are_covered_by_their_formula() {
             let world = even(vec![body(paint(mesh, albedo, gloss))]);
             let camera = Camera::look_at(vec3(0.0, 6.0, 14.0), Vec3::ZERO, 0.5, 0.0);
             for amount in AMOUNTS {
-                let settled = snow(amount, None).map(|snow| Settled { gives: light, ..snow });
+                let settled = snow(amount, None).map(|snow| SnowCover { gives: light, ..snow });
                 let planes = picture(&World { snow: settled, ..world.clone() }, camera);
                 for (pixel, found) in planes.color.iter().enumerate().filter(|(pixel, _)| planes.coverage[*pixel] > 0.0)
                 {
@@ -200,7 +200,7 @@ fn what_stands_above_keeps_snow_off() {
         for pixel in 0..planes.color.len() {
             let Spot { ray, depth, point: p, grain } = spot(&camera, pixel, DVec3::Y);
             // The ground, not the slab or its rim.
-            let ground = (planes.closeness[pixel] as f64 * depth - 1.0).abs() < 1e-3;
+            let ground = (planes.inv_depth[pixel] as f64 * depth - 1.0).abs() < 1e-3;
             if ray.y >= 0.0 || !ground || p.abs().max_element() > 11.5 {
                 continue;
             }

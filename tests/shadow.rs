@@ -9,13 +9,13 @@ mod drawn;
 
 use drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
 use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::quality::Quality;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::mesh::Mesh;
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, Plan};
+use paprsek::raster::shadow::{Bias, ShadowViews};
 use paprsek::raster::{Body, World};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use std::sync::Arc;
 
 const SIZE: [usize; 2] = [220, 130];
@@ -76,10 +76,10 @@ impl Sunny {
         (if self.elevation < 10.0 { BOX.0.with_y(0.0) } else { BOX.0 }, BOX.1)
     }
 
-    fn plan(&self) -> Plan {
+    fn plan(&self) -> ShadowViews {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
-        Plan { views: vec![view], bias, back_faces, traced, from: 0, smooth }
+        ShadowViews { views: vec![view], bias, back_faces, traced, from: 0, smooth }
     }
 
     fn draw(&self, camera: Camera) -> Planes {
@@ -96,7 +96,7 @@ impl Sunny {
         let point = |pixel: usize| {
             let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
             let t = -camera.eye.as_dvec3().y / d.y;
-            let seen = (planes.closeness[pixel] as f64 * t - 1.0).abs() < 1e-3;
+            let seen = (planes.inv_depth[pixel] as f64 * t - 1.0).abs() < 1e-3;
             // Where the box stands, its sides are as far away as the ground.
             let (low, high) = self.block();
             let p = camera.eye.as_dvec3() + d * t;
@@ -209,7 +209,7 @@ fn a_plan_without_views_is_no_shadow() {
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, common::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let plan = Plan { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
+        let plan = ShadowViews { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
         assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
     }
 }
@@ -227,7 +227,7 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
         let hidden = |from| {
             let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
             let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
-            let found = picture(Some(Plan { views, bias, back_faces: false, traced, from, smooth: true }));
+            let found = picture(Some(ShadowViews { views, bias, back_faces: false, traced, from, smooth: true }));
             let pairs = found.color.iter().zip(&truth.color);
             pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
         };
@@ -282,11 +282,11 @@ fn the_finest_map_that_reaches_is_looked_up() {
     let view = fine.plan().views[0];
     let (mut inside, mut outside) = (0, 0);
     for pixel in 0..both.color.len() {
-        if both.closeness[pixel] == 0.0 {
+        if both.inv_depth[pixel] == 0.0 {
             continue;
         }
         let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
-        let p = camera.eye.as_dvec3() + d / both.closeness[pixel] as f64;
+        let p = camera.eye.as_dvec3() + d / both.inv_depth[pixel] as f64;
         let at = view.matrix().project_point3(p.as_vec3());
         // On the margin's edge either may be looked up.
         let (low, high) = (at.x.min(at.y), at.x.max(at.y));
@@ -327,7 +327,7 @@ fn kept_maps_change_no_frame() {
         let lamp = Light {
             source: Source::Lamp { position, falloff: Vec2::new(0.0, 0.1), reach: 20.0 },
             color: Vec3::X,
-            shadow: Some(Plan { views, ..scene.plan() }),
+            shadow: Some(ShadowViews { views, ..scene.plan() }),
         };
         let source = Source::Sun(scene.towards().as_vec3());
         let mut lights = vec![Light { source, color: Vec3::ONE, shadow: Some(scene.plan()) }, lamp];

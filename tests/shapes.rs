@@ -10,10 +10,10 @@ mod oracle;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use oracle::{ULP, random::Random, span::Crossing, span::span as exact_span};
-use paprsek::lanes::{F, M, U, V3};
+use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::texture::Texture;
 use paprsek::trace::packet::{self, NOWHERE, nearest};
-use paprsek::trace::scalar::{self, Ray};
+use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{Ball, FAR, Shape};
 use paprsek::trace::world::{Material, Object, Sky, World};
 use proptest::prelude::*;
@@ -65,7 +65,7 @@ fn wide_at(level: Level, case: &Case, roughly: bool) -> Option<(f32, f32)> {
 /// The span of every implementation, by name.
 fn spans(case: &Case) -> Vec<(&'static str, Option<(f32, f32)>)> {
     let Case { shape, o, d } = case;
-    let mut all = vec![("scalar", scalar::span(shape, *o, *d))];
+    let mut all = vec![("scalar", reference::span(shape, *o, *d))];
     all.extend(common::levels().into_iter().map(|(name, level)| (name, wide_at(level, case, false))));
     all
 }
@@ -511,7 +511,7 @@ fn normals_are_unit_outward_and_right() {
         let aim = center + random.direction() * scale * 0.9 * random.unit() as f32;
         let o = center + random.direction() * scale * random.log(2.0, 1e4) as f32;
         let d = toward(o, aim);
-        let Some((t0, t1)) = scalar::span(&shape, o, d) else { continue };
+        let Some((t0, t1)) = reference::span(&shape, o, d) else { continue };
         for (t, enters) in [(t0, true), (t1, false)] {
             // The far side of a globe is of no use; a plane has none.
             if matches!(shape, Shape::Globe { .. } | Shape::Plane { .. }) && t.abs() > 1e5 * scale {
@@ -562,7 +562,7 @@ fn arrivals(seed: u64, mut each: impl FnMut(Shape, Vec3, Vec3)) {
         let (center, _) = place(&shape);
         let o = center + random.direction() * scale * random.log(3.0, 30.0) as f32;
         let d = toward(o, center + random.direction() * scale * random.range(0.0, 1.2) as f32);
-        if scalar::span(&shape, o, d).is_some_and(|(t0, _)| t0 > 0.0 && t0 < 100.0 * scale) {
+        if reference::span(&shape, o, d).is_some_and(|(t0, _)| t0 > 0.0 && t0 < 100.0 * scale) {
             each(shape, o, d);
         }
     }
@@ -574,7 +574,7 @@ fn reflected_rays_never_meet_their_own_body() {
     let mirror = Material { reflectance: Vec3::ONE, ..Material::matt(Texture::plain(Vec3::ZERO)) };
     let mut count = 0;
     arrivals(10, |shape, o, d| {
-        let light = scalar::radiance(&alone(shape, mirror, 2), Ray::new(o, d), 1);
+        let light = reference::radiance(&alone(shape, mirror, 2), Ray::new(o, d), 1);
         assert_eq!(light, Vec3::ONE, "{shape:?} from {o} along {d}");
         count += 1;
     });
@@ -593,7 +593,7 @@ fn refracted_rays_meet_the_far_side_of_their_own_body() {
             return;
         }
         // Where the way through is shorter than the rounding of its start there is no far side to be met.
-        let (t0, t1) = scalar::span(&shape, o, d).unwrap();
+        let (t0, t1) = reference::span(&shape, o, d).unwrap();
         let (center, size) = place(&shape);
         let lengths = o.as_dvec3().distance(center.as_dvec3()) + size + o.length() as f64;
         let slack = ROUGH * ULP * lengths;
@@ -601,7 +601,7 @@ fn refracted_rays_meet_the_far_side_of_their_own_body() {
             grazing += 1;
             return;
         }
-        let light = scalar::radiance(&alone(shape, clear, 3), Ray::new(o, d), 1);
+        let light = reference::radiance(&alone(shape, clear, 3), Ray::new(o, d), 1);
         assert!((light - Vec3::splat(0.25)).abs().max_element() < 1e-6, "{light}: {shape:?} from {o} along {d}");
         count += 1;
     });
@@ -660,7 +660,7 @@ proptest! {
             }
             shape.normal_at(o);
             let glass = Material::glass(1.5, Vec3::ONE);
-            scalar::radiance(&alone(shape, glass, 6), Ray::new(o, d), 1);
+            reference::radiance(&alone(shape, glass, 6), Ray::new(o, d), 1);
         }
     }
 

@@ -1,10 +1,11 @@
 //! The show: its parts are what plays, each at its own time, and dark is only where one ends.
 
-use paprsek::camera::Stereo;
-use paprsek::quality::Quality;
-use paprsek::scenes::intro::{FADE, INTRO, PARTS, READ, WRITING, light};
-use paprsek::scenes::{self, Scene};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::scenes::show::intro::{FADE, INTRO, PARTS, READ, WRITING, light};
+use paprsek::settings::Quality;
+use paprsek::view::Stereo;
 
 const SIZE: (usize, usize) = (96, 54);
 

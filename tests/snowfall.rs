@@ -1,11 +1,9 @@
 //! The scene `snowfall`: its weather, that it whitens, the same frame everywhere, and no light that jumps.
 
-#![cfg(feature = "day")]
-
 use glam::DVec3;
-use paprsek::quality::Quality;
-use paprsek::scenes::snowfall::{LENGTH, SNOWFALL, weather};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes::show::snowfall::{LENGTH, SNOWFALL, weather};
+use paprsek::settings::Quality;
 
 mod common;
 

@@ -4,14 +4,15 @@ mod common;
 mod picture;
 
 use glam::{Vec3, vec3};
-use paprsek::camera::{Camera, Eye, Stereo};
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::settings::Quality;
 use paprsek::texture::Texture;
-use paprsek::tile::{Frame, Renderer};
 use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Material, Object, Sky, World};
 use paprsek::view::View;
+use paprsek::view::{Camera, Eye, Stereo};
 use picture::traced;
 
 /// Pixels that a projection may be off: f32 has steps of 6e-5 at 1000 pixels, and a point 1e5 metres away is itself

@@ -8,13 +8,13 @@ mod drawn;
 
 use drawn::{Count, block, body, dark, draw, enters, ray};
 use glam::{DVec3, Vec2, Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::quality::Quality;
 use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::mesh::Mesh;
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, Plan};
+use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 
 const SIZE: [usize; 2] = [220, 130];
 /// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
@@ -49,7 +49,7 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
-    let plan = Plan { views, bias, back_faces: false, traced: false, from: 0, smooth };
+    let plan = ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth };
     let source = Source::Lamp { position: torch, falloff: Vec2::ZERO, reach: f32::INFINITY };
     let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
     let mut bodies = vec![body(room(half))];
@@ -71,7 +71,7 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
                     (way, axis) = (t, k);
                 }
             }
-            if (planes.closeness[pixel] as f64 * way - 1.0).abs() > 1e-4 {
+            if (planes.inv_depth[pixel] as f64 * way - 1.0).abs() > 1e-4 {
                 // Another surface, on an edge.
                 continue;
             }

@@ -1,13 +1,11 @@
 //! The scene `torches`: the same frame everywhere, light that wavers but does not jump, and the moon where it should be.
 
-#![cfg(feature = "day")]
-
-use paprsek::quality::Quality;
-use paprsek::scenes::torches::{FIRES, LENGTH, NIGHT, SHOTS, TORCHES};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes::show::torches::{FIRES, LENGTH, NIGHT, SHOTS, TORCHES};
+use paprsek::settings::Quality;
 use paprsek::sky::dome::Sky;
 use paprsek::sky::place::{Place, angles};
 use paprsek::sky::time::{Date, days};
-use paprsek::tile::{Frame, Renderer};
 
 mod common;
 

@@ -6,13 +6,13 @@ mod picture;
 
 use glam::{DVec3, Mat3, Vec3, vec3};
 use oracle::random::Random;
-use paprsek::camera::Camera;
-use paprsek::quality::Quality;
-use paprsek::scenes::spheres;
+use paprsek::scenes::bench::spheres;
+use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
-use paprsek::trace::scalar::{self, Ray};
+use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
+use paprsek::view::Camera;
 use picture::{plain, traced};
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -52,7 +52,7 @@ fn floor() -> Shape {
 }
 
 fn look(world: &World, o: Vec3, d: Vec3) -> f64 {
-    scalar::radiance(world, Ray::new(o, d), 1).x as f64
+    reference::radiance(world, Ray::new(o, d), 1).x as f64
 }
 
 /// Unpolarised reflectance from the angles, as Fresnel wrote it: sines and tangents of sums, no cosines of ours.
@@ -329,8 +329,8 @@ fn every_level_counts_once() {
     // And black above, also for a ray that would meet nothing.
     let world = furnace(vec![], 3);
     let ray = Ray::new(Vec3::ZERO, Vec3::Y);
-    assert_eq!(scalar::radiance(&world, ray, 3), Vec3::ONE);
-    assert_eq!(scalar::radiance(&world, ray, 4), Vec3::ZERO);
+    assert_eq!(reference::radiance(&world, ray, 3), Vec3::ONE);
+    assert_eq!(reference::radiance(&world, ray, 4), Vec3::ZERO);
 }
 
 /// Where along the floor from `from` to `to` the shadow ends: looked at from just above.

@@ -3,7 +3,7 @@
 
 mod program;
 
-use paprsek::scenes::intro::PARTS;
+use paprsek::scenes::show::intro::PARTS;
 use program::{ending, fails, paprsek, succeeds};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};

@@ -1,6 +1,6 @@
 //! How much two pictures differ.
 
-use paprsek::tile::Frame;
+use paprsek::frame::Frame;
 
 /// A pixel counts as off when a channel is, by more than this many codes: what a viewer may see in one pixel alone.
 pub const OFF: u8 = 8;

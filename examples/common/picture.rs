@@ -1,7 +1,7 @@
 //! Frames as the crate of pictures likes them.
 
 use image::RgbImage;
-use paprsek::tile::Frame;
+use paprsek::frame::Frame;
 
 /// The same pixels.
 pub fn rgb(frame: &Frame) -> RgbImage {

@@ -4,16 +4,16 @@ use crate::plot::{self, Axis, Curve};
 use crate::{SIZE, THREADS};
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
-use paprsek::camera::Camera;
 use paprsek::cloud::march::{Cloud, Look};
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::voxels::Voxels;
-use paprsek::cloud::{CloudQuality, Clouds, sunlight};
-use paprsek::color::Transfer;
-use paprsek::hash::rnd;
-use paprsek::quality::Quality;
-use paprsek::scenes::cumulus_set as set;
-use paprsek::tile::{Crew, Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::cloud::{CloudLayer, CloudQuality, sunlight};
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::scenes::bench::cumulus_set as set;
+use paprsek::settings::Quality;
+use paprsek::simd::hash::rnd;
+use paprsek::view::Camera;
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -26,11 +26,11 @@ const EDGE: usize = 64;
 const EXTINCTION: f32 = 30.0;
 
 /// Clouds over nothing.
-struct Alone(Clouds);
+struct Alone(CloudLayer);
 
 impl Layer for Alone {
-    fn prepare(&mut self, crew: &Crew) {
-        self.0.prepare(crew);
+    fn prepare(&mut self, workers: &Workers) {
+        self.0.prepare(workers);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
@@ -88,7 +88,7 @@ fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], coun
         sun: vec3(0.86, 0.78, 0.68),
         phase: [0.85, 0.5],
     };
-    let clouds = Clouds::new(clouds, look, |_| Vec3::ONE, 1400.0, view, way.quality);
+    let clouds = CloudLayer::new(clouds, look, |_| Vec3::ONE, 1400.0, view, way.quality);
     renderer.draw(Picture { layers: vec![Box::new(Alone(clouds))], transfer: Transfer::Linear }, frame);
     began.elapsed().as_secs_f64() * 1e3
 }

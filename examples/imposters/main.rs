@@ -10,9 +10,10 @@ mod count;
 mod plot;
 
 use lexopt::{Arg, Parser, ValueExt};
-use paprsek::quality::Quality;
-use paprsek::scenes::{self, Scene};
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::Scene;
+use paprsek::frame::{Frame, Renderer};
+use paprsek::scenes;
+use paprsek::settings::Quality;
 use plot::{Axis, Curve};
 use std::error::Error;
 use std::fmt::Write;
@@ -155,7 +156,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     std::fs::create_dir_all(&out)?;
     let mut text = String::from(
-        "# Clouds as pictures\n\nWritten by `cargo run --release --example imposters`; not edited by hand.\n\n",
+        "# CloudLayer as pictures\n\nWritten by `cargo run --release --example imposters`; not edited by hand.\n\n",
     );
     let level = Renderer::new(THREADS)?.simd();
     writeln!(

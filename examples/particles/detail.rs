@@ -5,11 +5,11 @@ use crate::metrics::Error as Off;
 use crate::plot::{self, Axis, Curve};
 use crate::{SIZE, START, Stage, camera, median};
 use glam::{Vec3, vec3};
-use paprsek::particles::Particles;
+use paprsek::frame::{Frame, Layer, Renderer, Tile};
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
-use paprsek::quality::Quality;
-use paprsek::scenes::particles::{FIRE_SKY, over};
-use paprsek::tile::{Frame, Layer, Renderer, Tile};
+use paprsek::scenes::bench::particles::{FIRE_SKY, over};
+use paprsek::settings::Quality;
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -36,8 +36,8 @@ fn burning(time: f64, away: f32, detail: f32) -> Fire {
     torch(time).detailed(&view(away), detail)
 }
 
-fn particles(fires: Vec<Fire>, away: f32) -> Particles {
-    Particles::fire(fires, 1.6, &view(away), SIZE.0, SIZE.1)
+fn particles(fires: Vec<Fire>, away: f32) -> ParticleLayer {
+    ParticleLayer::fire(fires, 1.6, &view(away), SIZE.0, SIZE.1)
 }
 
 /// Median milliseconds that a fire takes alone, on one thread, to be moved, listed and drawn, for each detail; and how
@@ -48,7 +48,7 @@ fn times(renderer: &Renderer, rounds: usize, away: f32, details: &[f32]) -> Vec<
     let mut time = |instant: f64, detail: f32| {
         let began = Instant::now();
         let mut particles = particles(vec![burning(instant, away, detail)], away).without_solids();
-        particles.prepare(renderer.crew());
+        particles.prepare(renderer.workers());
         for tile in &mut tiles {
             particles.draw(renderer.level(), tile);
         }

@@ -2,12 +2,12 @@
 
 use crate::{SIZE, Stage, camera};
 use glam::{Vec3, vec3};
-use paprsek::particles::Particles;
+use paprsek::frame::FrameSpec;
+use paprsek::frame::Layer;
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
-use paprsek::quality::Quality;
-use paprsek::scenes::Shot;
-use paprsek::scenes::particles::{FIRE_SKY, fires, over};
-use paprsek::tile::Layer;
+use paprsek::scenes::bench::particles::{FIRE_SKY, fires, over};
+use paprsek::settings::Quality;
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -39,14 +39,14 @@ pub fn torch(time: f64) -> Fire {
 }
 
 /// The fires of a case before an eye that looks at them; particles for each pixel of height.
-fn particles(case: &Case, shot: &Shot, detail: f32) -> Particles {
+fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
     let middle = Vec3::Y * MIDDLE;
     let view = View::new(camera(middle, middle + Vec3::NEG_Z), SIZE.0, SIZE.1);
     let fire = |(number, (before, right)): (usize, &(f32, f32))| {
         let place = vec3(*right, 0.0, -before);
         Fire { place, first: 2000 * number as u32, ..torch(shot.time) }.detailed(&view, detail)
     };
-    Particles::fire(case.places.iter().enumerate().map(fire).collect(), 1.6, &view, SIZE.0, SIZE.1)
+    ParticleLayer::fire(case.places.iter().enumerate().map(fire).collect(), 1.6, &view, SIZE.0, SIZE.1)
 }
 
 /// Appends the table.
@@ -67,7 +67,7 @@ pub fn report(text: &mut String, stage: &mut Stage) -> Result<(), Box<dyn Error>
         write!(text, "| {} | {:.0} | {:.1}", case.name, case.theirs, 1e3 / case.theirs - 1e3 / CASES[0].theirs)?;
         for k in 0..2 {
             let mut particles = particles(case, &stage.shot(crate::START), details[k]);
-            particles.prepare(stage.renderer.crew());
+            particles.prepare(stage.renderer.workers());
             write!(text, " | {} | {:.1} | {:.2}", particles.drawn(), fps_of[k], 1e3 / fps_of[k] - 1e3 / fps[k])?;
         }
         writeln!(text, " |")?;

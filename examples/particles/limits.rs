@@ -1,8 +1,8 @@
 //! What this machine's memory and arithmetic allow.
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use paprsek::lanes::F;
-use paprsek::tile::Renderer;
+use paprsek::frame::Renderer;
+use paprsek::simd::lanes::F;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -76,12 +76,12 @@ pub fn memory(renderer: &Renderer, rounds: usize) -> [f64; 2] {
     let mut numbers = vec![1.0f32; PIECE * PIECES];
     let particles = (numbers.len() / NUMBERS) as f64;
     let read = best(rounds, || {
-        renderer.crew().each(numbers.chunks_exact(PIECE), |piece| {
+        renderer.workers().each(numbers.chunks_exact(PIECE), |piece| {
             black_box(dispatch!(level, simd => sum(simd, piece)));
         });
     });
     let both = best(rounds, || {
-        renderer.crew().each(numbers.chunks_exact_mut(PIECE), |piece| {
+        renderer.workers().each(numbers.chunks_exact_mut(PIECE), |piece| {
             dispatch!(level, simd => step(simd, piece, black_box(1e-3)));
         });
     });
@@ -91,7 +91,7 @@ pub fn memory(renderer: &Renderer, rounds: usize) -> [f64; 2] {
 /// Vectors a second that a renderer's threads add or multiply at a level.
 pub fn arithmetic(renderer: &Renderer, level: Level, rounds: usize) -> f64 {
     let seconds = best(rounds, || {
-        renderer.crew().each(0..JOBS, |_| {
+        renderer.workers().each(0..JOBS, |_| {
             black_box(dispatch!(level, simd => chains(simd, black_box(0.999_999_9))));
         });
     });

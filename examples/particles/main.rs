@@ -18,10 +18,10 @@ mod snow;
 mod common;
 
 use lexopt::{Arg, Parser};
-use paprsek::camera::{Camera, Eye};
-use paprsek::quality::Quality;
-use paprsek::scenes::Shot;
-use paprsek::tile::{Frame, Picture, Renderer};
+use paprsek::frame::FrameSpec;
+use paprsek::frame::{Frame, Picture, Renderer};
+use paprsek::settings::Quality;
+use paprsek::view::{Camera, Eye};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -42,13 +42,13 @@ struct Stage {
 
 impl Stage {
     /// An instant of a scene at `fast`.
-    fn shot(&self, time: f64) -> Shot<'_> {
+    fn shot(&self, time: f64) -> FrameSpec<'_> {
         let (width, height) = SIZE;
-        Shot { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, crew: self.renderer.crew() }
+        FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: self.renderer.workers() }
     }
 
     /// Median frames a second of each case from time to finished picture; all take turns at each instant.
-    fn fps<C>(&mut self, cases: &[C], picture: impl Fn(&C, &Shot) -> Picture) -> Vec<f64> {
+    fn fps<C>(&mut self, cases: &[C], picture: impl Fn(&C, &FrameSpec) -> Picture) -> Vec<f64> {
         let mut times = vec![Vec::new(); cases.len()];
         for round in 0..=self.rounds {
             for (case, times) in cases.iter().zip(&mut times) {
@@ -87,8 +87,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     std::fs::create_dir_all(&out)?;
     let mut stage = Stage { renderer: Renderer::new(THREADS)?, frame: Frame::new(SIZE.0, SIZE.1), rounds };
-    let mut text =
-        String::from("# Particles\n\nWritten by `cargo run --release --example particles`; not edited by hand.\n\n");
+    let mut text = String::from(
+        "# ParticleLayer\n\nWritten by `cargo run --release --example particles`; not edited by hand.\n\n",
+    );
     writeln!(
         text,
         "{}x{}, {THREADS} threads and {} unless said otherwise; frames are medians of {rounds} rounds in which all of a table take turns. A frame is all from the time to the picture; nothing is kept from one to the next.",

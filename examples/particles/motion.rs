@@ -5,12 +5,12 @@ use crate::plot::{self, Axis, Curve};
 use crate::{SIZE, START, STEP, THREADS, camera, common};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Vec3, vec3};
-use paprsek::particles::Particles;
+use paprsek::frame::{Layer, Renderer};
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
 use paprsek::particles::snow::Flakes;
 use paprsek::particles::sprite::Lens;
-use paprsek::scenes::particles::{FLAKES, fires, flakes};
-use paprsek::tile::{Layer, Renderer};
+use paprsek::scenes::bench::particles::{FLAKES, fires, flakes};
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -29,18 +29,18 @@ const INSTRUCTIONS: [(&str, [u32; 2]); 3] = [("avx512", [309, 438]), ("avx2", [3
 const NOWHERE: [f32; 2] = [1e30, 2e30];
 
 /// Particles of a kind at an instant, some to be seen or none.
-fn particles(kind: usize, time: f64, seen: bool) -> Particles {
+fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     let eye = if kind == 0 { Vec3::ZERO } else { vec3(0.0, 2.0, 8.0) };
     let view = View::new(camera(eye, eye + Vec3::NEG_Z), SIZE.0, SIZE.1);
     // What is to come into sight nowhere is not, at the end of the same computation.
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
-        Particles::snow(vec![flakes(&of, time, Vec3::ZERO)], Vec3::ONE, &view, SIZE.0, SIZE.1)
+        ParticleLayer::snow(vec![flakes(&of, time, Vec3::ZERO)], Vec3::ONE, &view, SIZE.0, SIZE.1)
     } else {
         let fire = fires(time)[0];
         let fire = Fire { place: Vec3::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
-        Particles::fire(vec![fire], 1.6, &view, SIZE.0, SIZE.1)
+        ParticleLayer::fire(vec![fire], 1.6, &view, SIZE.0, SIZE.1)
     }
 }
 
@@ -49,7 +49,7 @@ fn speed(renderer: &Renderer, kind: usize, seen: bool, rounds: usize) -> f64 {
     let time = |round: usize| {
         let mut particles = particles(kind, START + round as f64 * STEP, seen);
         let began = Instant::now();
-        particles.prepare(renderer.crew());
+        particles.prepare(renderer.workers());
         let seconds = began.elapsed().as_secs_f64();
         assert_eq!(particles.drawn() > 0, seen);
         seconds
@@ -70,7 +70,7 @@ fn lanes(level: Level) -> f64 {
 pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dyn Error>> {
     let seen = |kind: usize| {
         let mut particles = particles(kind, START, true);
-        particles.prepare(Renderer::new(1)?.crew());
+        particles.prepare(Renderer::new(1)?.workers());
         Ok::<_, String>(particles.drawn() as f64 / f64::from(COUNT))
     };
     writeln!(

@@ -2,9 +2,9 @@
 
 use crate::plot::{self, Axis, Curve};
 use crate::{START, STEP, Stage};
+use paprsek::frame::Layer;
 use paprsek::particles::snow::Flakes;
-use paprsek::scenes::particles::{FLAKES, SNOW_SKY, over, snowfall};
-use paprsek::tile::Layer;
+use paprsek::scenes::bench::particles::{FLAKES, SNOW_SKY, over, snowfall};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
@@ -33,7 +33,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
         let instants = [0.0, 10.0, 20.0, 30.0, 40.0];
         let sum = instants.map(|k| {
             let mut particles = snowfall(&stage.shot(START + k * STEP), &flakes(*count));
-            particles.prepare(stage.renderer.crew());
+            particles.prepare(stage.renderer.workers());
             particles.drawn()
         });
         sum.iter().sum::<usize>() / instants.len()

@@ -5,7 +5,7 @@ use crate::metrics::Error;
 use crate::subject::Subject;
 use crate::sweep::{Point, Sweep, Truth};
 use fearless_simd::Level;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -144,7 +144,7 @@ impl<'a> Bench<'a> {
     /// Draws a point at an instant; returns its samples.
     fn render(&mut self, point: &Point, instant: usize, frame: &mut Frame) -> u64 {
         let renderer = self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level);
-        let picture = self.subject.picture(instant, point, self.effort.size, renderer.crew());
+        let picture = self.subject.picture(instant, point, self.effort.size, renderer.workers());
         renderer.draw(picture, frame).samples
     }
 }

@@ -5,7 +5,7 @@ use self::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
-use paprsek::tile::Frame;
+use paprsek::frame::Frame;
 
 #[path = "../common/difference.rs"]
 mod difference;

@@ -2,13 +2,14 @@
 
 use crate::sweep::{Group, Point};
 use glam::{Mat3, Vec3, vec3};
-use paprsek::camera::{Camera, Eye};
-use paprsek::color::Transfer;
-use paprsek::scenes::{self, Scene, Shot};
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{FrameSpec, Scene};
+use paprsek::frame::{Picture, Workers};
+use paprsek::scenes;
 use paprsek::sky::air::Air;
-use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
-use paprsek::tile::{Crew, Picture};
+use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::view::{Camera, Eye};
 
 /// Something to draw.
 pub struct Subject {
@@ -37,7 +38,7 @@ pub fn all() -> Vec<Subject> {
         Subject { name, groups, scene: Some(scene), times: SHARES.map(|share| share * scene.duration) }
     };
     // A day begins at four.
-    let seconds = |hours: [f64; 3]| hours.map(|hour| (hour - 4.0) * scenes::day::LENGTH / 24.0);
+    let seconds = |hours: [f64; 3]| hours.map(|hour| (hour - 4.0) * scenes::show::day::LENGTH / 24.0);
     let day =
         |name, hours| Subject { name, groups: &[Group::Shadows], scene: Some(scene("day")), times: seconds(hours) };
     let sky = |name, times| Subject { name, groups: &[Group::Sky], scene: None, times };
@@ -49,9 +50,9 @@ pub fn all() -> Vec<Subject> {
         shares("day", &[Group::Raster]),
         day("day, low sun", LOW),
         day("day, high sun", HIGH),
-        shares("cumulus", &[Group::Clouds]),
-        shares("sky-of-clouds", &[Group::Clouds]),
-        shares("clouds", &[Group::Clouds]),
+        shares("cumulus", &[Group::CloudLayer]),
+        shares("sky-of-clouds", &[Group::CloudLayer]),
+        shares("clouds", &[Group::CloudLayer]),
         shares("torches", &[Group::Fires]),
         sky("sky by day", [30.0, 10.0, 60.0]),
         sky("sky at sunset", [0.0, 2.0, -1.0]),
@@ -68,10 +69,16 @@ impl Subject {
     }
 
     /// Ready to be drawn.
-    pub fn picture(&self, instant: usize, point: &Point, (width, height): (usize, usize), crew: &Crew) -> Picture {
+    pub fn picture(
+        &self,
+        instant: usize,
+        point: &Point,
+        (width, height): (usize, usize),
+        workers: &Workers,
+    ) -> Picture {
         let (time, quality) = (self.times[instant], point.quality);
         if let Some(scene) = self.scene {
-            return scene.picture(&Shot { time, width, height, quality, eye: Eye::MIDDLE, crew });
+            return scene.picture(&FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, workers });
         }
         let (sin, cos) = (time as f32).to_radians().sin_cos();
         let sky = Sky {
@@ -85,7 +92,7 @@ impl Subject {
         };
         let dome = Dome::new(sky, point.dome.unwrap_or_else(|| DomeQuality::new(&quality)));
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-        let layer = Backdrop::new(dome, camera, width, height, Look::default());
+        let layer = SkyLayer::new(dome, camera, width, height, Look::default());
         Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
     }
 }

@@ -1,7 +1,7 @@
 //! Which knob goes through which values, from which quality: a new renderer's knobs are added here.
 
 use fearless_simd::Level;
-use paprsek::quality::Quality;
+use paprsek::settings::Quality;
 use paprsek::sky::dome::DomeQuality;
 
 /// What is right, where a sweep is judged.
@@ -14,7 +14,7 @@ pub enum Truth {
     /// 64 samples a pixel, and all else as the point has it: the limit of coverage alone.
     Samples,
     /// All particles, and all else as the point has it: the limit of their level of detail alone.
-    Particles,
+    ParticleLayer,
     /// The dome at every pixel, from 100 points a direction.
     Dome,
 }
@@ -26,7 +26,9 @@ impl Truth {
             Truth::Exact => (Quality::EXACT, None),
             Truth::Reference => (Quality::REFERENCE, None),
             Truth::Samples => (Quality { grid: Quality::REFERENCE.grid, ..point.quality }, None),
-            Truth::Particles => (Quality { particle_detail: Quality::EXACT.particle_detail, ..point.quality }, None),
+            Truth::ParticleLayer => {
+                (Quality { particle_detail: Quality::EXACT.particle_detail, ..point.quality }, None)
+            }
             Truth::Dome => (Quality::EXACT, Some(DomeQuality::new(&Quality::EXACT))),
         };
         Point { quality, dome, level: None, threads: None, ..point.clone() }
@@ -38,7 +40,7 @@ impl Truth {
             Truth::Exact => "exact",
             Truth::Reference => "reference",
             Truth::Samples => "64 samples a pixel",
-            Truth::Particles => "all particles",
+            Truth::ParticleLayer => "all particles",
             Truth::Dome => "every pixel from 100 points",
         }
     }
@@ -56,7 +58,7 @@ pub enum Group {
     /// The computed sky alone.
     Sky,
     /// What rays are cast through clouds in.
-    Clouds,
+    CloudLayer,
     /// What burns.
     Fires,
 }
@@ -139,11 +141,11 @@ pub fn knobs() -> Vec<Sweep> {
         sweep("cloud-opaque", fast, opaque, &opaques),
         sweep("cloud-threshold", fast, set_threshold, &threshold),
     ] {
-        sweeps.push(Sweep { group: Group::Clouds, ..clouds });
+        sweeps.push(Sweep { group: Group::CloudLayer, ..clouds });
     }
     let detail: Knob = ("particle_detail", |q| q.particle_detail, |q, value| q.particle_detail = value);
     let details = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, f32::INFINITY];
-    let fires = sweep("particle-detail", ("fast", Truth::Particles), detail, &details);
+    let fires = sweep("particle-detail", ("fast", Truth::ParticleLayer), detail, &details);
     sweeps.push(Sweep { group: Group::Fires, ..fires });
     sweeps.push(dome("dome-cell", "cell", [0.0, 0.0055, 0.011, 0.022, 0.044, 0.088].map(|cell| (cell, None))));
     sweeps.push(dome("dome-steps", "steps", [24, 16, 10, 8, 6, 4].map(|steps| (0.0, Some(steps)))));

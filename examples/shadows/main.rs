@@ -14,8 +14,8 @@ mod maps;
 
 use glam::Vec3;
 use lexopt::{Arg, Parser};
-use paprsek::raster::shadow::{Bias, Plan};
-use paprsek::tile::Renderer;
+use paprsek::frame::Renderer;
+use paprsek::raster::shadow::{Bias, ShadowViews};
 use plot::{Axis, Curve};
 use set::{Set, sun};
 use std::error::Error;
@@ -109,7 +109,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 /// What a plan shows of the sun.
-fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, plan: Plan) -> Score {
+fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, plan: ShadowViews) -> Score {
     let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan))]);
     Score::of(pixels, |pixel| shot.pixels[pixel.index][0] / pixel.cosine)
 }
@@ -127,7 +127,7 @@ fn heights(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut St
             let towards = sun(set, elevation);
             let (mut pixels, tracer) = truth::pixels(set, renderer, towards);
             let plans: Vec<_> = effort.maps.iter().map(|&size| set.plan(set.views(towards, None, size))).collect();
-            let traced = Plan { traced: true, ..set.plan(set.views(towards, None, 1024)) };
+            let traced = ShadowViews { traced: true, ..set.plan(set.views(towards, None, 1024)) };
             let mut times = vec![[vec![], vec![], vec![]]; plans.len()];
             for _ in 0..effort.rounds {
                 let slow = set.draw(renderer, &[(towards, Vec3::ONE, Some(traced.clone()))]).all;
@@ -267,7 +267,7 @@ fn biases(effort: &Effort, set: &Set, renderer: &mut Renderer, text: &mut String
         truth::mark(&mut pixels, &tracer, towards, &views);
         for ((_, row), scores) in families.iter().zip(&mut scores) {
             for ((_, bias, back_faces), score) in row.iter().zip(scores) {
-                let plan = Plan { bias: *bias, back_faces: *back_faces, ..set.plan(views.clone()) };
+                let plan = ShadowViews { bias: *bias, back_faces: *back_faces, ..set.plan(views.clone()) };
                 score.add(&mapped(set, renderer, &pixels, towards, plan));
             }
         }

@@ -2,17 +2,17 @@
 
 use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::light::{Haze, Light, Source};
 use paprsek::raster::mesh::{Mesh, Paint};
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, Plan};
-use paprsek::raster::{Body, Drawn, World, fit};
+use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::scenes::bench::shadow_set;
 use paprsek::scenes::models::{chapel, land, tree};
-use paprsek::scenes::shadow_set;
-use paprsek::tile::{Crew, Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
@@ -94,15 +94,15 @@ pub struct Shot {
 
 /// Keeps the light that a layer draws.
 struct Probe {
-    drawn: Drawn,
+    drawn: RasterLayer,
     width: usize,
     kept: Arc<Mutex<(Vec<[f32; 4]>, f64)>>,
 }
 
 impl Layer for Probe {
-    fn prepare(&mut self, crew: &Crew) {
+    fn prepare(&mut self, workers: &Workers) {
         let began = Instant::now();
-        self.drawn.prepare(crew);
+        self.drawn.prepare(workers);
         self.kept.lock().unwrap().1 = began.elapsed().as_secs_f64() * 1e3;
     }
 
@@ -112,7 +112,7 @@ impl Layer for Probe {
         for (y, x) in (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| (y, x))) {
             let at = y * Tile::SIZE + x;
             pixels[(tile.y + y) * self.width + tile.x + x] =
-                [tile.red[at], tile.green[at], tile.blue[at], tile.closeness[at]];
+                [tile.red[at], tile.green[at], tile.blue[at], tile.inv_depth[at]];
         }
         stats
     }
@@ -139,13 +139,13 @@ impl Set {
     }
 
     /// A plan with the scene's bias.
-    pub fn plan(&self, views: Vec<Projection>) -> Plan {
-        Plan { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
+    pub fn plan(&self, views: Vec<Projection>) -> ShadowViews {
+        ShadowViews { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
     }
 
     /// What is seen under suns, each of its own colour.
-    pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3, Vec3, Option<Plan>)]) -> Shot {
-        let light = |(towards, color, shadow): &(Vec3, Vec3, Option<Plan>)| Light {
+    pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3, Vec3, Option<ShadowViews>)]) -> Shot {
+        let light = |(towards, color, shadow): &(Vec3, Vec3, Option<ShadowViews>)| Light {
             source: Source::Sun(*towards),
             color: *color,
             shadow: shadow.clone(),
@@ -164,7 +164,7 @@ impl Set {
         };
         let (width, height) = self.size;
         let kept = Arc::new(Mutex::new((vec![[0.0; 4]; width * height], 0.0)));
-        let drawn = Drawn::new(world, self.view(), width, height, Quality::FAST);
+        let drawn = RasterLayer::new(world, self.view(), width, height, Quality::FAST);
         let layer = Probe { drawn, width, kept: kept.clone() };
         let picture = Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb };
         let mut frame = Frame::new(width, height);

@@ -2,11 +2,11 @@
 
 use crate::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3};
+use paprsek::frame::{Renderer, Tile};
 use paprsek::raster::bins::{Bins, parts};
 use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, Plan};
-use paprsek::raster::triangle::{Piece, SUB, Setup};
-use paprsek::tile::{Renderer, Tile};
+use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
 
 /// Texels along the edge of the rasters that sort triangles: their corners lie on its 256ths.
 const SIZE: u32 = 4096;
@@ -28,13 +28,13 @@ pub struct Pixel {
 
 /// Triangles in the sun's rasters.
 pub struct Tracer {
-    views: Vec<(DMat4, Vec<Piece>, Bins)>,
+    views: Vec<(DMat4, Vec<SetupMesh>, Bins)>,
 }
 
 impl Tracer {
     fn new(set: &Set, views: Vec<Projection>) -> Tracer {
         let view = |projection: Projection| {
-            let setup = Setup { projection, back_faces: false, shaded: false };
+            let setup = TriangleSetup { projection, back_faces: false, shaded: false };
             let pieces: Vec<_> = set.meshes.iter().map(|mesh| setup.piece(mesh, &Affine3A::IDENTITY)).collect();
             let bins = Bins::new(&pieces, projection.size);
             (projection.matrix().as_dmat4(), pieces, bins)
@@ -72,7 +72,7 @@ pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>,
     let (plus, minus) = (set.draw(renderer, &axes(1.0)), set.draw(renderer, &axes(-1.0)));
     // Of which a 32nd is left, a centimetre: some kilometres away f32 rounds to less than that, to more than a millimetre.
     let bias = Bias { constant: 0.32, slope: 1.0, normal: 1.0 };
-    let plan = Plan { bias, traced: true, ..set.plan(set.views(towards, None, SIZE)) };
+    let plan = ShadowViews { bias, traced: true, ..set.plan(set.views(towards, None, SIZE)) };
     let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan.clone()))]);
     let view = set.view();
     let mut pixels = Vec::new();

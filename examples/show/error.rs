@@ -3,8 +3,8 @@
 use crate::difference::Difference;
 use crate::parts::Part;
 use crate::{Effort, likeness, render};
-use paprsek::quality::Quality;
-use paprsek::tile::Renderer;
+use paprsek::frame::Renderer;
+use paprsek::settings::Quality;
 
 /// The table of all parts, Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {

@@ -15,9 +15,9 @@ mod pops;
 mod speed;
 
 use lexopt::{Arg, Parser};
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::INTRO;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
 use std::error::Error;
 use std::path::PathBuf;
 

@@ -1,7 +1,9 @@
 //! The show's parts, and the shots in them.
 
-use paprsek::scenes::intro::{PARTS, light};
-use paprsek::scenes::{INTRO, Scene, clouds, day, lumen, torches};
+use paprsek::frame::Scene;
+use paprsek::scenes::INTRO;
+use paprsek::scenes::show::intro::{PARTS, light};
+use paprsek::scenes::show::{clouds, day, lumen, torches};
 use std::ops::Range;
 
 /// A part of the show; seconds are those of the show where nothing else is said.

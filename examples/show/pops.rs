@@ -3,8 +3,8 @@
 use crate::difference::Difference;
 use crate::parts::{Part, is_lit};
 use crate::{Effort, render};
-use paprsek::quality::Quality;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::settings::Quality;
 
 /// Frames a second.
 const FPS: f64 = 60.0;

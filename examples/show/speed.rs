@@ -2,9 +2,9 @@
 
 use crate::Effort;
 use crate::parts::Part;
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::INTRO;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
 use std::time::Instant;
 
 /// Frames a second of the film: what plays.

@@ -2,11 +2,11 @@
 
 use super::imposter;
 use super::march::{Look, march};
-use super::{Clouds, ROOT, Seen};
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, V3};
-use crate::tile::Tile;
+use super::{CloudLayer, ROOT, Seen};
+use crate::cuts::BENCH;
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{F, Lane, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;
@@ -37,7 +37,7 @@ impl Lattice {
 
 /// Draws clouds into a tile: adds their light, and what they hide to what is covered.
 #[simd]
-pub fn draw<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile) {
+pub fn draw<S: Simd>(simd: S, clouds: &CloudLayer, near: &[&Seen], tile: &mut Tile) {
     const POINTS: usize = SIDE * SIDE;
     let mut size = clouds.quality.cell;
     let mut lattice = Lattice {
@@ -109,12 +109,12 @@ fn interpolate(lattice: &mut Lattice, at: usize, size: usize, [a, b, c, d]: [[f3
 
 /// From the lattice to the tile; where solids may be before what clouds hide, a ray is cast for each pixel.
 #[simd]
-fn finish<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile, lattice: &mut Lattice) {
+fn finish<S: Simd>(simd: S, clouds: &CloudLayer, near: &[&Seen], tile: &mut Tile, lattice: &mut Lattice) {
     let free = lattice.values.clone();
     for y in 0..tile.height {
         for x in 0..tile.width {
             let (at, point) = (x + y * Tile::SIZE, x + y * SIDE);
-            if tile.coverage[at] > 0.0 && tile.closeness[at] * free[point][4] > 1.0 {
+            if tile.coverage[at] > 0.0 && tile.inv_depth[at] * free[point][4] > 1.0 {
                 lattice.wanted.push(point);
             }
         }
@@ -135,7 +135,7 @@ fn finish<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &mut Tile, la
 
 /// Casts the rays of the points that are wanted, as far as the solids there or on and on.
 #[simd]
-fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice: &mut Lattice, solids: bool) {
+fn cast<S: Simd>(simd: S, clouds: &CloudLayer, near: &[&Seen], tile: &Tile, lattice: &mut Lattice, solids: bool) {
     let grid = if BENCH { clouds.quality.grid as u32 } else { 1 };
     let step = 1.0 / grid as f32;
     for points in lattice.wanted.chunks(BLOCK) {
@@ -148,7 +148,7 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice:
                 x[i] = (tile.x + column) as u32 as f32 + ((part % grid) as f32 + 0.5) * step;
                 y[i] = (tile.y + row) as u32 as f32 + ((part / grid) as f32 + 0.5) * step;
                 if solids {
-                    depth[i] = 1.0 / tile.closeness[column + row * Tile::SIZE];
+                    depth[i] = 1.0 / tile.inv_depth[column + row * Tile::SIZE];
                 }
             }
             see(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
@@ -166,7 +166,7 @@ fn cast<S: Simd>(simd: S, clouds: &Clouds, near: &[&Seen], tile: &Tile, lattice:
 #[simd]
 fn see<S: Simd>(
     simd: S,
-    clouds: &Clouds,
+    clouds: &CloudLayer,
     near: &[&Seen],
     [x, y, depth]: [&[f32; BLOCK]; 3],
     count: usize,

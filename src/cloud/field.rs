@@ -2,7 +2,7 @@
 
 use super::march::Cloud;
 use super::voxels::Voxels;
-use crate::hash::rnd;
+use crate::simd::hash::rnd;
 use glam::{Vec2, Vec3, vec3};
 use std::sync::Arc;
 

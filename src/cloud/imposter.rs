@@ -6,10 +6,10 @@
 
 use super::march::{Cloud, Look, Passage, march};
 use super::voxels::{Voxels, square};
-use super::{CloudQuality, Clouds, Seen};
-use crate::camera::Camera;
-use crate::lanes::{F, U, V3};
-use crate::tile::{Crew, Layer, Tile};
+use super::{CloudLayer, CloudQuality, Seen};
+use crate::frame::{Layer, Tile, Workers};
+use crate::simd::lanes::{F, U, V3};
+use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -89,12 +89,12 @@ impl Imposter {
     }
 
     /// The picture, which is a layer like any other: what is lit from above is green, and what is lit by the sun blue.
-    fn layer(&self) -> Clouds {
+    fn layer(&self) -> CloudLayer {
         let Plan { voxels, quality, extinction, edge, .. } = &self.plan;
         let cloud = Cloud { voxels: voxels.clone(), centre: Vec3::ZERO, size: 1.0, extinction: *extinction };
         let look = Look { ambient: [Vec3::ZERO, Vec3::Y], towards: Vec3::Y, sun: Vec3::Z, phase: [1.0, 0.0] };
         let view = View::new(self.camera, *edge, *edge);
-        Clouds::new(vec![cloud], look, |_| Vec3::ZERO, f32::INFINITY, view, *quality)
+        CloudLayer::new(vec![cloud], look, |_| Vec3::ZERO, f32::INFINITY, view, *quality)
     }
 
     /// Makes what lookups read.
@@ -217,7 +217,7 @@ fn eyes(q: Vec3, reach: f32, bound: f32) -> Vec<(Vec3, f32)> {
 }
 
 /// Gives clouds their pictures: those of frames before, or new ones.
-pub fn prepare(clouds: &mut Clouds, crew: &Crew) {
+pub fn prepare(clouds: &mut CloudLayer, workers: &Workers) {
     /// The number of this frame; of the last that needed it, and a picture.
     type Keep = (u32, Vec<(u32, Arc<Imposter>)>);
     static KEEP: Mutex<Keep> = Mutex::new((0, Vec::new()));
@@ -257,13 +257,13 @@ pub fn prepare(clouds: &mut Clouds, crew: &Crew) {
             wanted.push((number, plan, weight * (1.0 - seen.direct)));
         }
     }
-    let level = crew.level();
+    let level = workers.level();
     let mut texels: Vec<_> = new.iter_mut().map(|new| std::mem::take(&mut new.texels)).collect();
     let layers: Vec<_> = new.iter().map(|new| (new.layer(), new.plan.edge)).collect();
     let tiles = texels.iter_mut().zip(&layers).flat_map(|(texels, layer)| {
         texels.chunks_mut(Tile::AREA).enumerate().map(move |(number, texels)| (layer, number, texels))
     });
-    crew.each(tiles, |((layer, edge), number, texels)| {
+    workers.each(tiles, |((layer, edge), number, texels)| {
         let columns = edge.div_ceil(Tile::SIZE);
         let mut tile = Tile::at(number % columns, number / columns, *edge, *edge);
         layer.draw(level, &mut tile);
@@ -276,7 +276,7 @@ pub fn prepare(clouds: &mut Clouds, crew: &Crew) {
     for (new, texels) in new.iter_mut().zip(texels) {
         new.texels = texels;
     }
-    crew.each(new.iter_mut(), Imposter::pack);
+    workers.each(new.iter_mut(), Imposter::pack);
     kept.retain(|(used, _)| *now - used <= KEPT);
     kept.extend(new.into_iter().map(|new| (*now, Arc::new(new))));
     for (number, plan, weight) in wanted {

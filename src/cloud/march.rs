@@ -1,8 +1,8 @@
 //! Rays through the voxels of one cloud, a vector of rays at a time.
 
 use super::voxels::Voxels;
-use crate::lanes::{F, Lane, V3};
-use crate::math;
+use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;

@@ -11,10 +11,10 @@ pub mod shape;
 pub mod sunlight;
 pub mod voxels;
 
-use crate::BENCH;
-use crate::camera::Camera;
-use crate::quality::Quality;
-use crate::tile::{Crew, Layer, Stats, Tile};
+use crate::cuts::BENCH;
+use crate::frame::{Layer, Stats, Tile, Workers};
+use crate::settings::Quality;
+use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::{Level, dispatch};
 use glam::Vec3;
@@ -61,7 +61,7 @@ impl CloudQuality {
 }
 
 /// Clouds before a camera, as a layer of a picture.
-pub struct Clouds {
+pub struct CloudLayer {
     /// Nearest first.
     clouds: Vec<Seen>,
     look: Look,
@@ -85,7 +85,7 @@ struct Seen {
     direct: f32,
 }
 
-impl Clouds {
+impl CloudLayer {
     /// The layer for clouds in any order. The air between has the light `haze` of a direction, and leaves 1/e of a
     /// cloud's own at `range` metres.
     pub fn new(
@@ -95,7 +95,7 @@ impl Clouds {
         range: f32,
         view: View,
         quality: CloudQuality,
-    ) -> Clouds {
+    ) -> CloudLayer {
         let Camera { eye, forward, .. } = *view.camera();
         let mut seen: Vec<Seen> = Vec::new();
         for cloud in clouds {
@@ -112,7 +112,7 @@ impl Clouds {
             let unlit = Seen { cloud, distance, steps, fades, veil, sunlit: 1.0, imposters: Vec::new(), direct: 1.0 };
             seen.insert(at, unlit);
         }
-        Clouds { clouds: seen, look, view, quality }
+        CloudLayer { clouds: seen, look, view, quality }
     }
 
     /// Takes from the clouds the sun's light that others keep from them, down to a quarter: air and clouds send some on.
@@ -150,10 +150,10 @@ impl Clouds {
 /// From a cube's middle to its corner, halves of its edge.
 const ROOT: f32 = 1.732_051;
 
-impl Layer for Clouds {
-    fn prepare(&mut self, crew: &Crew) {
+impl Layer for CloudLayer {
+    fn prepare(&mut self, workers: &Workers) {
         if BENCH && self.quality.imposter > 0.0 {
-            imposter::prepare(self, crew);
+            imposter::prepare(self, workers);
         }
     }
 

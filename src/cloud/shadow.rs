@@ -1,8 +1,9 @@
 //! What clouds leave of the sun's light for each other and for the ground.
 
 use super::march::Cloud;
-use crate::lanes::{self, F, V3};
-use crate::math::exp2;
+use crate::simd::lanes::{F, V3};
+use crate::simd::level;
+use crate::simd::math::exp2;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::Vec3;
@@ -16,7 +17,7 @@ const RADIUS: f32 = 0.62;
 /// as far as it is before a point by half its cube's edge, so no cloud shades itself, and none begins to with a jump.
 #[inline(never)]
 pub fn shares(clouds: &[Cloud], towards: Vec3, points: &[Vec3]) -> Vec<f32> {
-    dispatch!(lanes::best(), simd => shares_in(simd, clouds, towards, points))
+    dispatch!(level::best(), simd => shares_in(simd, clouds, towards, points))
 }
 
 #[simd]

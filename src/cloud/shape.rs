@@ -1,10 +1,10 @@
 //! Clouds from a formula: puffs on a flat base, warped and eroded by noise.
 
 use super::voxels::Voxels;
-use crate::block::{BLOCK, load, store};
-use crate::hash::rnd;
-use crate::lanes::F;
 use crate::noise::octaves_block;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::hash::rnd;
+use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};

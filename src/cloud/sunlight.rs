@@ -1,9 +1,9 @@
 //! What the sun lights of a cloud, for all voxels in one sweep.
 
 use super::voxels::Voxels;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::F;
-use crate::math::exp2;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::F;
+use crate::simd::math::exp2;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;

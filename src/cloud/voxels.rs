@@ -1,6 +1,6 @@
 //! Density and light of a cloud in a cube of voxels.
 
-use crate::lanes::{F, U, V3};
+use crate::simd::lanes::{F, U, V3};
 use fearless_simd::prelude::*;
 use glam::Vec3;
 

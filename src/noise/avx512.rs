@@ -4,7 +4,7 @@
 //! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
 
 use super::wide::{fade, lerp};
-use crate::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, load, store};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 

@@ -11,8 +11,8 @@ mod wide;
 
 pub use wide::{Fade, noise_block, octaves_block};
 
-use crate::block::BLOCK;
-use crate::lanes::best;
+use crate::simd::block::BLOCK;
+use crate::simd::level::best;
 use fearless_simd::dispatch;
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 //! Noise for 64 points at once, the same bits as the scalar truth at every SIMD level.
 
 use super::PERMUTATION;
-use crate::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, load, store};
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
 #[cfg(target_arch = "x86_64")]

@@ -1,11 +1,11 @@
 //! Flames, sparks and smoke: each particle lives, ends and begins again in its own time, so that as many are there at any
 //! instant and none needs to be emitted. After the emitter of a fire for a game engine (thesis D).
 
-use super::Grains;
+use super::Batch;
 use super::sprite::Lens;
-use crate::hash::{STEP, wide};
-use crate::lanes::{F, Lane, U, V3, float};
-use crate::math;
+use crate::simd::hash::{STEP, wide};
+use crate::simd::lanes::{F, Lane, U, V3, float};
+use crate::simd::math;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use glam::Vec3;
@@ -86,7 +86,7 @@ impl Fire {
 
     /// Particles number `i`.
     #[inline(always)]
-    pub fn grains<S: Simd>(&self, simd: S, i: U<S>) -> Grains<S> {
+    pub fn batch<S: Simd>(&self, simd: S, i: U<S>) -> Batch<S> {
         let Flame { life, ring, narrows, leans, cone, speed, slows, lift, radius, light, alpha } = self.flame;
         // Each fire's waves are its own.
         let turns = self.time * 1.1 + self.place.x as f64;
@@ -129,7 +129,7 @@ impl Fire {
         let left = one - x;
         let order = (-float(simd, i) + self.count).max(zero).min(one);
         let glow = x * left * left * (30.0 * self.weight) * order;
-        Grains {
+        Batch {
             at: at * Lane(F::<S>::splat(simd, self.scale)) + V3::splat(simd, self.place),
             radius: (x * (radius[1] - radius[0]) + radius[0]) * self.scale,
             light: (V3::splat(simd, light[0]) + V3::splat(simd, light[1] - light[0]) * Lane(x)) * Lane(glow),

@@ -1,6 +1,6 @@
 //! How the light of a fire wavers.
 
-use crate::hash::rnd;
+use crate::simd::hash::rnd;
 use crate::timeline::ease;
 
 /// Random numbers a second of each of four waves. No ratio of two is simple, so that they never beat in step.

@@ -6,14 +6,13 @@
 
 pub mod fire;
 pub mod flicker;
-pub mod fog;
 pub mod snow;
 pub mod sprite;
 pub mod strokes;
 
-use crate::BENCH;
-use crate::lanes::{F, STEPS, U, V3};
-use crate::tile::{Crew, Layer, Stats, Tile};
+use crate::cuts::BENCH;
+use crate::frame::{Layer, Stats, Tile, Workers};
+use crate::simd::lanes::{F, STEPS, U, V3};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
@@ -24,7 +23,7 @@ use sprite::{Crystal, LIGHT, PASSES, Screen, Sprite, blend, draw, sort};
 use strokes::Strokes;
 
 /// Particles of a vector.
-pub struct Grains<S: Simd> {
+pub struct Batch<S: Simd> {
     /// From the emitter's origin, metres: the eye for flakes, the world's for fires.
     pub at: V3<S>,
     /// Metres.
@@ -50,10 +49,10 @@ pub enum Emitter {
 }
 
 /// Particles that a job makes at a time.
-const LOT: u32 = 8192;
+const CHUNK: u32 = 8192;
 
 /// What a job has made.
-struct Lot {
+struct Chunk {
     emitter: usize,
     first: u32,
     sprites: Vec<Sprite>,
@@ -67,10 +66,10 @@ struct Lot {
 const END: u32 = u32::MAX;
 
 /// Particles before a camera, as a layer of a picture: the last one.
-pub struct Particles {
+pub struct ParticleLayer {
     emitters: Vec<Emitter>,
     screen: Screen,
-    lots: Vec<Lot>,
+    chunks: Vec<Chunk>,
     /// What takes the place of the light that sprites take.
     color: Vec3,
     /// Of the light that they add `1 - exp(-exposure light)` is seen, as on film, and it bleaches what is behind.
@@ -83,17 +82,17 @@ pub struct Particles {
     solids: bool,
 }
 
-impl Particles {
+impl ParticleLayer {
     /// Flakes of one colour alone.
-    #[cfg(feature = "bench-scenes")]
-    pub fn snow(flakes: Vec<Snow>, color: Vec3, view: &View, width: usize, height: usize) -> Particles {
-        Particles::new(flakes.into_iter().map(Emitter::Snow).collect(), color, 0.0, view, width, height)
+    #[cfg(feature = "full")]
+    pub fn snow(flakes: Vec<Snow>, color: Vec3, view: &View, width: usize, height: usize) -> ParticleLayer {
+        ParticleLayer::new(flakes.into_iter().map(Emitter::Snow).collect(), color, 0.0, view, width, height)
     }
 
     /// Fires alone.
-    #[cfg(feature = "bench-scenes")]
-    pub fn fire(fires: Vec<Fire>, exposure: f32, view: &View, width: usize, height: usize) -> Particles {
-        Particles::new(fires.into_iter().map(Emitter::Fire).collect(), Vec3::ZERO, exposure, view, width, height)
+    #[cfg(feature = "full")]
+    pub fn fire(fires: Vec<Fire>, exposure: f32, view: &View, width: usize, height: usize) -> ParticleLayer {
+        ParticleLayer::new(fires.into_iter().map(Emitter::Fire).collect(), Vec3::ZERO, exposure, view, width, height)
     }
 
     /// Flakes of one `color` in any order; or flames, sparks and writing in any order, or, if there is smoke, all of them
@@ -105,7 +104,7 @@ impl Particles {
         view: &View,
         width: usize,
         height: usize,
-    ) -> Particles {
+    ) -> ParticleLayer {
         let (mut planes, mut solids) = ((LIGHT, LIGHT + 3), true);
         for emitter in &emitters {
             match emitter {
@@ -116,19 +115,19 @@ impl Particles {
             }
         }
         let screen = Screen::new(view, width, height);
-        Particles { emitters, screen, lots: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids }
+        ParticleLayer { emitters, screen, chunks: Vec::new(), color, exposure, planes, crystal: Crystal::STAR, solids }
     }
 
     /// The same where no layer before it has solids: their depth is not read.
-    #[cfg(feature = "bench-scenes")]
-    pub fn without_solids(self) -> Particles {
-        Particles { solids: false, ..self }
+    #[cfg(feature = "full")]
+    pub fn without_solids(self) -> ParticleLayer {
+        ParticleLayer { solids: false, ..self }
     }
 
     /// Sprites that are drawn, once it is prepared.
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     pub fn drawn(&self) -> usize {
-        self.lots.iter().map(|lot| lot.sprites.len()).sum()
+        self.chunks.iter().map(|chunk| chunk.sprites.len()).sum()
     }
 
     /// Draws a tile's sprites.
@@ -136,11 +135,11 @@ impl Particles {
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile) {
         let number = (tile.y / Tile::SIZE) as u32 * self.screen.columns + (tile.x / Tile::SIZE) as u32;
         let mut list = Vec::new();
-        for lot in &self.lots {
-            let mut link = lot.heads[number as usize];
-            while let Some(&(sprite, next)) = lot.links.get(link as usize) {
+        for chunk in &self.chunks {
+            let mut link = chunk.heads[number as usize];
+            while let Some(&(sprite, next)) = chunk.links.get(link as usize) {
                 // Copied together: else each would be waited for as it is drawn, a third of the whole frame.
-                list.push(lot.sprites[sprite as usize]);
+                list.push(chunk.sprites[sprite as usize]);
                 link = next;
             }
         }
@@ -153,7 +152,7 @@ impl Particles {
         }
         let mut planes = vec![[0.0; Tile::AREA]; end];
         planes[PASSES].fill(1.0);
-        let solids = self.solids && tile.closeness.iter().any(|c| *c > 0.0);
+        let solids = self.solids && tile.inv_depth.iter().any(|c| *c > 0.0);
         for sprite in &list {
             draw(simd, sprite, &self.crystal, tile, solids, &mut planes[first..], first);
         }
@@ -161,20 +160,20 @@ impl Particles {
     }
 }
 
-impl Layer for Particles {
-    fn prepare(&mut self, crew: &Crew) {
+impl Layer for ParticleLayer {
+    fn prepare(&mut self, workers: &Workers) {
         for (emitter, from) in self.emitters.iter().enumerate() {
             let mut first = 0;
             while first < from.count() {
-                self.lots.push(Lot { emitter, first, sprites: Vec::new(), heads: Vec::new(), links: Vec::new() });
-                first += LOT;
+                self.chunks.push(Chunk { emitter, first, sprites: Vec::new(), heads: Vec::new(), links: Vec::new() });
+                first += CHUNK;
             }
         }
-        let (emitters, screen, level) = (&self.emitters, &self.screen, crew.level());
-        crew.each(self.lots.iter_mut(), |lot| {
-            let emitter = &emitters[lot.emitter];
-            dispatch!(level, simd => emit(simd, emitter, lot.first, screen, &mut lot.sprites));
-            lot.sort(screen);
+        let (emitters, screen, level) = (&self.emitters, &self.screen, workers.level());
+        workers.each(self.chunks.iter_mut(), |chunk| {
+            let emitter = &emitters[chunk.emitter];
+            dispatch!(level, simd => emit(simd, emitter, chunk.first, screen, &mut chunk.sprites));
+            chunk.sort(screen);
         });
     }
 
@@ -184,7 +183,7 @@ impl Layer for Particles {
     }
 }
 
-impl Lot {
+impl Chunk {
     /// Lists sprites by the tiles that they touch: from the last to the first, so that lists run from the first on.
     fn sort(&mut self, screen: &Screen) {
         self.heads.resize((screen.columns * screen.rows) as usize, END);
@@ -215,18 +214,18 @@ impl Emitter {
 /// Adds the sprites of a lot, from its first particle on, that the screen shows.
 #[simd]
 fn emit<S: Simd>(simd: S, emitter: &Emitter, first: u32, screen: &Screen, sprites: &mut Vec<Sprite>) {
-    let end = emitter.count().min(first + LOT);
+    let end = emitter.count().min(first + CHUNK);
     let lanes = F::<S>::LEN as u32;
     let mut i = first;
     while i < end {
         let numbers = U::<S>::from_slice(simd, &STEPS[..F::<S>::LEN]) + i;
-        let (grains, lens, eye) = match emitter {
-            Emitter::Snow(snow) => (snow.grains(simd, numbers), &snow.flakes.lens, Vec3::ZERO),
-            Emitter::Fire(fire) => (fire.grains(simd, numbers), &fire.lens, screen.eye),
-            Emitter::Strokes(strokes) => (strokes.grains(simd, numbers), &strokes.lens, Vec3::ZERO),
+        let (batch, lens, eye) = match emitter {
+            Emitter::Snow(snow) => (snow.batch(simd, numbers), &snow.flakes.lens, Vec3::ZERO),
+            Emitter::Fire(fire) => (fire.batch(simd, numbers), &fire.lens, screen.eye),
+            Emitter::Strokes(strokes) => (strokes.batch(simd, numbers), &strokes.lens, Vec3::ZERO),
         };
         let last = (1 << lanes.min(end - i)) - 1;
-        screen.push(simd, grains, lens, eye, last, sprites);
+        screen.push(simd, batch, lens, eye, last, sprites);
         i += lanes;
     }
 }

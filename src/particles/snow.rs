@@ -4,12 +4,12 @@
 //! So it snows everywhere, at any time, and nothing is stored: a flake is its number. After "Snow for virtual reality"
 //! (thesis C), whose fields around the camera these are.
 
-use super::Grains;
+use super::Batch;
 use super::sprite::Lens;
-use crate::BENCH;
-use crate::hash::{STEP, wide};
-use crate::lanes::{F, U, V3, float};
-use crate::math;
+use crate::cuts::BENCH;
+use crate::simd::hash::{STEP, wide};
+use crate::simd::lanes::{F, U, V3, float};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 use glam::{DVec3, Vec2, Vec3};
 use std::f32::consts::{LOG2_E, TAU};
@@ -131,7 +131,7 @@ impl Snow {
 
     /// Flakes number `i`.
     #[inline(always)]
-    pub fn grains<S: Simd>(&self, simd: S, i: U<S>) -> Grains<S> {
+    pub fn batch<S: Simd>(&self, simd: S, i: U<S>) -> Batch<S> {
         let Snow { flakes, carried, calm, .. } = self;
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let seed = flakes.seed;
@@ -162,7 +162,7 @@ impl Snow {
         if BENCH {
             streak.y *= faster * (1.0 / flakes.fall[0] as f32) + 1.0;
         }
-        Grains { at, radius, light: V3::splat(simd, Vec3::ZERO), alpha: alpha.max(zero), turn, streak }
+        Batch { at, radius, light: V3::splat(simd, Vec3::ZERO), alpha: alpha.max(zero), turn, streak }
     }
 }
 

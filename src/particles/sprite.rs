@@ -1,11 +1,11 @@
 //! Soft sprites: what particles are on the screen, and how they come into a tile.
 
-use super::Grains;
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{Bits, F, Lane};
-use crate::math;
-use crate::tile::Tile;
+use super::Batch;
+use crate::cuts::BENCH;
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{Bits, F, Lane};
+use crate::simd::math;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -120,18 +120,18 @@ impl Screen {
     pub fn push<S: Simd>(
         &self,
         simd: S,
-        grains: Grains<S>,
+        batch: Batch<S>,
         lens: &Lens,
         eye: Vec3,
         wanted: u64,
         sprites: &mut Vec<Sprite>,
     ) {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        let at = grains.at.sub1(eye);
+        let at = batch.at.sub1(eye);
         let depth = at.dot1(self.forward);
         let inverse = one / depth;
         let (x, y) = (at.dot1(self.right) * inverse, at.dot1(self.up) * inverse);
-        let size = grains.radius * inverse * self.focal;
+        let size = batch.radius * inverse * self.focal;
         let blur = (inverse - 1.0 / lens.focus).max(zero) * (lens.aperture * self.focal);
         let radius = (size + blur).max(F::<S>::splat(simd, lens.radius[0])).min(F::<S>::splat(simd, lens.radius[1]));
         let thin = one / radius;
@@ -143,8 +143,8 @@ impl Screen {
         let (mut across, mut down) = (radius, radius);
         let mut axes = [thin, zero, zero, thin];
         if BENCH && lens.streaks {
-            let away = grains.streak.dot1(self.forward);
-            let (right, below) = (grains.streak.dot1(self.right), grains.streak.dot1(self.up));
+            let away = batch.streak.dot1(self.forward);
+            let (right, below) = (batch.streak.dot1(self.right), batch.streak.dot1(self.up));
             let (dx, dy) =
                 ((right - (x - self.middle[0]) * away) * inverse, (below - (y - self.middle[1]) * away) * inverse);
             let length = (dx * dx + dy * dy).sqrt();
@@ -155,7 +155,7 @@ impl Screen {
             (across, down) = (dx.abs() + radius, dy.abs() + radius);
             axes = [cos / long, sin / long, -(sin * thin), cos * thin];
         } else if lens.crystals {
-            let [cos, sin, narrow] = grains.turn;
+            let [cos, sin, narrow] = batch.turn;
             let wide = thin / narrow;
             axes = [cos * thin, sin * thin, -(sin * wide), cos * wide];
         }
@@ -164,14 +164,14 @@ impl Screen {
             & (x - across).simd_lt(self.size[0])
             & (y + down).simd_gt(zero)
             & (y - down).simd_lt(self.size[1])
-            & grains.alpha.max(grains.light.max_element()).simd_gt(zero)
+            & batch.alpha.max(batch.light.max_element()).simd_gt(zero)
             & share.simd_gt(zero);
         let seen = seen.to_bitmask() & wanted;
         if seen == 0 {
             return;
         }
         let crystal = if lens.crystals { size - blur - blur } else { zero };
-        let ink = grains.light * Lane(share);
+        let ink = batch.light * Lane(share);
         let numbers = [
             x,
             y,
@@ -183,7 +183,7 @@ impl Screen {
             down,
             depth,
             inverse * thin * self.focal,
-            grains.alpha * share,
+            batch.alpha * share,
             zero,
             ink.x,
             ink.y,
@@ -279,8 +279,8 @@ pub fn draw<S: Simd>(
             }
             let at = row * Tile::SIZE + column;
             if solids {
-                let closeness = F::<S>::from_slice(simd, &tile.closeness[at..at + lanes]);
-                weight *= ((one / closeness - sprite.depth) * sprite.edge).max(zero).min(one);
+                let inv_depth = F::<S>::from_slice(simd, &tile.inv_depth[at..at + lanes]);
+                weight *= ((one / inv_depth - sprite.depth) * sprite.edge).max(zero).min(one);
             }
             let leaves = one - weight * sprite.alpha;
             for (plane, ink) in planes.iter_mut().zip(&sprite.ink[first..]) {
@@ -317,7 +317,7 @@ impl Crystal {
 
     /// What grows at so many degrees Celsius, after the table of thesis C: needles below -4, plates below -8, stars below
     /// -12, spatial stars, which look like two of them, below -18, columns below -25.
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     pub fn at(celsius: f32) -> Crystal {
         match celsius {
             ..-25.0 => Crystal { plate: -1.0, arm: 0.3, branch: -1.0, folds: 0 },

@@ -1,9 +1,9 @@
 //! Sparks along lines: writing made of light.
 
-use super::Grains;
+use super::Batch;
 use super::sprite::Lens;
-use crate::hash::{STEP, wide};
-use crate::lanes::{F, Lane, U, V3, float};
+use crate::simd::hash::{STEP, wide};
+use crate::simd::lanes::{F, Lane, U, V3, float};
 use fearless_simd::prelude::*;
 use glam::Vec3;
 
@@ -32,7 +32,7 @@ impl Strokes {
 
     /// Sparks number `i`.
     #[inline(always)]
-    pub fn grains<S: Simd>(&self, simd: S, i: U<S>) -> Grains<S> {
+    pub fn batch<S: Simd>(&self, simd: S, i: U<S>) -> Batch<S> {
         let [mut x, mut y, mut z] = [[0.0; 16]; 3];
         for lane in 0..F::<S>::LEN {
             let number = i[0] + lane as u32;
@@ -52,6 +52,6 @@ impl Strokes {
         let far = off.dot(off) * self.spread;
         let at = V3 { x: load(x), y: load(y), z: load(z) } + off * Lane(far);
         let light = V3::splat(simd, self.light);
-        Grains { at, radius: one * self.radius, light, alpha: zero, turn: [one, zero, one], streak: at }
+        Batch { at, radius: one * self.radius, light, alpha: zero, turn: [one, zero, one], streak: at }
     }
 }

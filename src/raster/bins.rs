@@ -1,7 +1,7 @@
 //! Which triangles each tile of a raster has to draw.
 
-use super::triangle::Piece;
-use crate::tile::Tile;
+use super::triangle::SetupMesh;
+use crate::frame::Tile;
 
 /// A triangle: from the lowest bit on its number in its piece, the piece, and its texture; or [`NOTHING`].
 pub type Id = u32;
@@ -34,7 +34,7 @@ pub struct Bins {
 
 impl Bins {
     /// Sorts triangles into the tiles of a raster of `size` pixels, by their bounds.
-    pub fn new(pieces: &[Piece], size: [u32; 2]) -> Bins {
+    pub fn new(pieces: &[SetupMesh], size: [u32; 2]) -> Bins {
         let [columns, rows] = size.map(|n| n.div_ceil(Tile::SIZE as u32));
         // Counted down from 0, summed, and counted down again: after that each start is where it belongs.
         let mut starts = vec![0u32; (columns * rows + 1) as usize];

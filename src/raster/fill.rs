@@ -4,9 +4,9 @@
 //! on a shared edge belongs to exactly one of the two triangles.
 
 use super::bins::{Id, parts};
-use super::triangle::{Piece, SUB, Triangle};
-use crate::lanes::{F, STEPS};
-use crate::tile::Tile;
+use super::triangle::{SUB, SetupMesh, Triangle};
+use crate::frame::Tile;
+use crate::simd::lanes::{F, STEPS};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
@@ -14,7 +14,7 @@ use fearless_simd_macros::simd;
 #[derive(Clone)]
 pub struct Visible {
     /// Its nearness, or that of nothing.
-    pub nearness: Box<[f32; Tile::AREA]>,
+    pub inv_depth: Box<[f32; Tile::AREA]>,
     /// Which it is.
     pub id: Box<[Id; Tile::AREA]>,
 }
@@ -29,7 +29,7 @@ const FAR: i64 = 1 << 30;
 
 /// Draws triangles over what is visible of the tile whose top left pixel is (`x`, `y`).
 #[simd]
-pub fn fill<S: Simd>(simd: S, pieces: &[Piece], ids: &[Id], x: i32, y: i32, sample: Sample, out: &mut Visible) {
+pub fn fill<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[Id], x: i32, y: i32, sample: Sample, out: &mut Visible) {
     for &id in ids {
         let (piece, number) = parts(id);
         fill_one(simd, &pieces[piece].triangles[number], id, x, y, sample, out);
@@ -73,13 +73,13 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Samp
         let mut column = x0;
         while column <= x1 {
             let place = (at * size + column) as usize;
-            let nearness = (steps + (dx + column as f32)) * zx + z;
-            let nearness = nearness.max(t.range[0]).min(t.range[1]);
+            let inv_depth = (steps + (dx + column as f32)) * zx + z;
+            let inv_depth = inv_depth.max(t.range[0]).min(t.range[1]);
             let inside = (edge[0] | edge[1] | edge[2]).simd_ge(nothing);
-            let (depths, ids) = (&mut out.nearness[place..place + lanes], &mut out.id[place..place + lanes]);
+            let (depths, ids) = (&mut out.inv_depth[place..place + lanes], &mut out.id[place..place + lanes]);
             let old = F::<S>::from_slice(simd, depths);
-            let nearer = inside & nearness.simd_gt(old);
-            nearer.select(nearness, old).store_slice(depths);
+            let nearer = inside & inv_depth.simd_gt(old);
+            nearer.select(inv_depth, old).store_slice(depths);
             let old = S::u32s::from_slice(simd, ids);
             nearer.select(S::u32s::splat(simd, id), old).store_slice(ids);
             let mut k = 0;

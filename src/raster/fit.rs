@@ -1,7 +1,7 @@
 //! What a light has to see: depth maps fitted to what the camera sees.
 
 use super::project::Projection;
-use crate::camera::Camera;
+use crate::view::Camera;
 use glam::Vec3;
 
 /// Parallel projections along -`towards` (unit), one for each of `ends`: the first covers what the camera sees up to that

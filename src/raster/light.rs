@@ -1,11 +1,11 @@
 //! Lights, and what they give to a point: all of them in one pass over the pixels that are seen, each as far as it reaches.
 
 use super::Raster;
+use super::exact_shadow::hides;
 use super::project::Projection;
-use super::shadow::{DepthMap, Plan};
-use super::traced::hides;
-use crate::BENCH;
-use crate::lanes::{Bits, F, Lane, M, V3};
+use super::shadow::{DepthMap, ShadowViews};
+use crate::cuts::BENCH;
+use crate::simd::lanes::{Bits, F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -35,7 +35,7 @@ pub struct Light {
     /// Light on a surface that faces it, linear.
     pub color: Vec3,
     /// What it sees, if it casts shadows.
-    pub shadow: Option<Plan>,
+    pub shadow: Option<ShadowViews>,
 }
 
 /// The haze before what is far.
@@ -87,7 +87,7 @@ const MARGIN: f32 = 2.0;
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
 /// What a light sees.
-pub struct Sight {
+pub struct ShadowLookup {
     /// Where that is mapped.
     pub map: Option<Arc<DepthMap>>,
     /// The first of its rasters, where it has any.
@@ -96,7 +96,7 @@ pub struct Sight {
 
 impl Light {
     /// What it is to see, if it casts shadows.
-    pub fn plan(&self) -> Option<&Plan> {
+    pub fn plan(&self) -> Option<&ShadowViews> {
         self.shadow.as_ref().filter(|plan| !plan.views.is_empty())
     }
 
@@ -133,7 +133,7 @@ impl Light {
 
     /// Its light at points with unit normals, without albedo.
     #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, sight: &Sight, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
+    pub fn at<S: Simd>(&self, simd: S, sight: &ShadowLookup, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let (towards, left) = match self.source {
             Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -166,8 +166,8 @@ impl Light {
     fn seen<S: Simd>(
         &self,
         simd: S,
-        plan: &Plan,
-        sight: &Sight,
+        plan: &ShadowViews,
+        sight: &ShadowLookup,
         rasters: &[Raster],
         point: V3<S>,
         normal: V3<S>,

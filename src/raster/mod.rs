@@ -5,39 +5,39 @@
 //! [`shade`] (each visible fragment once, whitened by what [`mod@settle`]s, under all [`light`]s that reach it).
 
 pub mod bins;
+pub mod cloud_shadow;
+pub mod exact_shadow;
 pub mod fill;
 pub mod fit;
 pub mod form;
 pub mod light;
 pub mod mesh;
 pub mod project;
-pub mod settle;
 pub mod shade;
 pub mod shadow;
-pub mod traced;
+pub mod snow_cover;
 pub mod triangle;
-pub mod veil;
 
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::F;
-use crate::quality::Quality;
+use crate::cuts::BENCH;
+use crate::frame::{Layer, Stats, Tile, Workers};
+use crate::settings::Quality;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::F;
 use crate::texture::Texture;
-use crate::tile::{Crew, Layer, Stats, Tile};
 use crate::view::View;
 use bins::{Bins, NOTHING, PLAIN};
+use cloud_shadow::CloudShadow;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use fill::{CENTER, Sample, Visible, fill};
 use glam::{Affine3A, Vec3};
-use light::{Haze, Light, Sight};
+use light::{Haze, Light, ShadowLookup};
 use mesh::Mesh;
 use project::Projection;
-use settle::Settled;
 use shade::{Context, Queue, collect, flush};
-use shadow::{DepthMap, Key, Plan};
+use shadow::{DepthMap, Key, ShadowViews};
+use snow_cover::SnowCover;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use triangle::{Piece, SUB, Setup};
-use veil::Veil;
+use triangle::{SUB, SetupMesh, TriangleSetup};
 
 /// A mesh in the world.
 #[derive(Clone)]
@@ -83,9 +83,9 @@ pub struct World {
     /// The lights.
     pub lights: Vec<Light>,
     /// What suns shine through, beside the surfaces.
-    pub veil: Option<Veil>,
+    pub veil: Option<CloudShadow>,
     /// Snow that lies there.
-    pub snow: Option<Settled>,
+    pub snow: Option<SnowCover>,
     /// Light from all around: on a wall, and what is added towards the zenith and taken off towards the ground.
     pub ambient: [Vec3; 2],
     /// The haze before what is far, and the sky at the horizon that gloss mirrors.
@@ -101,16 +101,16 @@ pub struct World {
 
 /// The bodies in one raster.
 pub struct Raster {
-    setup: Setup,
+    setup: TriangleSetup,
     /// Number of the first body that is drawn.
     from: usize,
     /// One for each body.
-    pieces: Vec<Piece>,
+    pieces: Vec<SetupMesh>,
     bins: Bins,
 }
 
 /// A world seen by a camera, as a layer of a picture: the first one.
-pub struct Drawn {
+pub struct RasterLayer {
     world: World,
     view: View,
     size: [u32; 2],
@@ -118,20 +118,20 @@ pub struct Drawn {
     /// The camera's, then those of lights that have no map from an earlier frame.
     rasters: Vec<Raster>,
     /// What each light sees; last, what snow falls on.
-    sights: Vec<Sight>,
+    sights: Vec<ShadowLookup>,
 }
 
-impl Drawn {
+impl RasterLayer {
     /// Prepares a picture of `width` x `height` pixels.
-    pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> Drawn {
+    pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> RasterLayer {
         let size = [width as u32, height as u32];
-        Drawn { world, view, size, quality, rasters: Vec::new(), sights: Vec::new() }
+        RasterLayer { world, view, size, quality, rasters: Vec::new(), sights: Vec::new() }
     }
 
     /// Draws a tile; returns the number of fragments.
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let Drawn { world, view, rasters, sights, quality, .. } = self;
+        let RasterLayer { world, view, rasters, sights, quality, .. } = self;
         let grid = quality.grid() as u32;
         let count = if grid > 1 { 1 } else { quality.coverage };
         let Scratch { planes, queues } = scratch;
@@ -139,7 +139,7 @@ impl Drawn {
         let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
         tile.clear();
         tile.coverage.fill(0.0);
-        tile.closeness.fill(0.0);
+        tile.inv_depth.fill(0.0);
         let share = 1.0 / (grid * grid * count as u32) as f32;
         let context = Context { world, sights, rasters, view, share };
         let mut fragments = 0;
@@ -199,12 +199,12 @@ fn cell(at: [u32; 2], n: u32) -> Sample {
 impl Visible {
     /// To be cleared: what is not used takes no memory.
     fn new() -> Visible {
-        Visible { nearness: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
+        Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
     }
 
     /// Nothing is visible, at that nearness.
-    fn clear(&mut self, nearness: f32) {
-        self.nearness.fill(nearness);
+    fn clear(&mut self, inv_depth: f32) {
+        self.inv_depth.fill(inv_depth);
         self.id.fill(NOTHING);
     }
 }
@@ -233,17 +233,17 @@ fn spare() -> MutexGuard<'static, Vec<Scratch>> {
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Layer for Drawn {
-    fn prepare(&mut self, crew: &Crew) {
-        let Drawn { world, rasters, sights, .. } = self;
+impl Layer for RasterLayer {
+    fn prepare(&mut self, workers: &Workers) {
+        let RasterLayer { world, rasters, sights, .. } = self;
         let bodies = &world.bodies;
         add(rasters, &Projection::of_view(&self.view, self.size), false, true, 0, bodies.len());
         let mut missing = Vec::new();
         let snow = world.snow.iter().map(|snow| &snow.from);
         for (slot, light) in world.lights.iter().chain(snow).enumerate() {
-            let mut sight = Sight { map: None, first: rasters.len() };
+            let mut sight = ShadowLookup { map: None, first: rasters.len() };
             // A lamp that reaches nothing in the picture is never asked what it sees.
-            if let Some(&Plan { ref views, back_faces, traced, from, .. }) = light.plan()
+            if let Some(&ShadowViews { ref views, back_faces, traced, from, .. }) = light.plan()
                 && light.counts(&rasters[0].setup.projection)
             {
                 let mut key = Key { slot, views: views.clone(), back_faces, casters: Vec::new() };
@@ -277,14 +277,14 @@ impl Layer for Drawn {
                 }
             }
         }
-        crew.each(jobs.iter_mut(), |(setup, piece, body)| **piece = setup.piece(&body.mesh, &body.place));
-        crew.each(rasters.iter_mut(), |raster| {
+        workers.each(jobs.iter_mut(), |(setup, piece, body)| **piece = setup.piece(&body.mesh, &body.place));
+        workers.each(rasters.iter_mut(), |raster| {
             raster.bins = Bins::new(&raster.pieces, raster.setup.projection.size);
         });
         while let Some((key, mut map)) = missing.pop() {
             let sight = &mut sights[key.slot];
             map.resize(key.views[0].size[0] as usize, key.views.len());
-            draw_map(crew, &mut map, &rasters[sight.first..]);
+            draw_map(workers, &mut map, &rasters[sight.first..]);
             sight.map = Some(shadow::keep(key, map));
         }
     }
@@ -299,15 +299,15 @@ impl Layer for Drawn {
 
 /// Adds a raster, still empty, for that many bodies, of which those before `from` are left out.
 fn add(rasters: &mut Vec<Raster>, projection: &Projection, back_faces: bool, shaded: bool, from: usize, bodies: usize) {
-    let setup = Setup { projection: *projection, back_faces, shaded };
-    let pieces = (0..bodies).map(|_| Piece::default()).collect();
+    let setup = TriangleSetup { projection: *projection, back_faces, shaded };
+    let pieces = (0..bodies).map(|_| SetupMesh::default()).collect();
     rasters.push(Raster { setup, from, pieces, bins: Bins::default() });
 }
 
 /// Draws the depths of triangles, a row of tiles at a time.
-fn draw_map(crew: &Crew, map: &mut DepthMap, rasters: &[Raster]) {
-    let (size, level) = (map.size, crew.level());
-    crew.each(map.bands().enumerate(), |(index, texels)| {
+fn draw_map(workers: &Workers, map: &mut DepthMap, rasters: &[Raster]) {
+    let (size, level) = (map.size, workers.level());
+    workers.each(map.bands().enumerate(), |(index, texels)| {
         // In 32 bits, as division of more takes several times the code.
         let (index, bands) = (index as u32, (size / Tile::SIZE) as u32);
         let (Raster { pieces, bins, .. }, band) = (&rasters[(index / bands) as usize], (index % bands) as usize);
@@ -317,7 +317,7 @@ fn draw_map(crew: &Crew, map: &mut DepthMap, rasters: &[Raster]) {
             visible.clear(shadow::NOTHING);
             let y = (band * Tile::SIZE) as i32;
             dispatch!(level, simd => fill(simd, pieces, ids, x as i32, y, CENTER, &mut visible));
-            for (from, to) in visible.nearness.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
+            for (from, to) in visible.inv_depth.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
                 to[x..][..Tile::SIZE].copy_from_slice(from);
             }
         }

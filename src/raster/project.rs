@@ -54,20 +54,20 @@ impl Projection {
     fn new(
         [right, up]: [Vec3; 2],
         origin: Vec3,
-        [nearness, w]: [Vec4; 2],
+        [inv_depth, w]: [Vec4; 2],
         pixels: f32,
         middle: (f32, f32),
         size: [u32; 2],
     ) -> Projection {
         let x = row(right, origin) * pixels + w * middle.0;
         let y = row(up, origin) * -pixels + w * middle.1;
-        Projection { rows: [x, y, nearness, w], size, texel: 1.0 / pixels }
+        Projection { rows: [x, y, inv_depth, w], size, texel: 1.0 / pixels }
     }
 
     /// The matrix that takes points to homogeneous pixels.
     pub fn matrix(&self) -> Mat4 {
-        let [x, y, nearness, w] = self.rows;
-        Mat4::from_cols(x, y, nearness, w).transpose()
+        let [x, y, inv_depth, w] = self.rows;
+        Mat4::from_cols(x, y, inv_depth, w).transpose()
     }
 
     /// The same for points of a body that is placed in the world.

@@ -2,16 +2,16 @@
 
 use super::bins::{Id, NOTHING, TEXTURE, parts};
 use super::fill::{Sample, Visible};
-use super::light::{Light, Sight, Source};
-use super::settle::settle;
+use super::light::{Light, ShadowLookup, Source};
+use super::snow_cover::settle;
 use super::triangle::{SUB, Triangle};
 use super::{Raster, World};
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{Bits, F, Lane, STEPS, U, V3, float};
-use crate::math;
+use crate::cuts::BENCH;
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{Bits, F, Lane, STEPS, U, V3, float};
+use crate::simd::math;
 use crate::texture::{self, Block3};
-use crate::tile::Tile;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -22,7 +22,7 @@ pub struct Context<'a> {
     /// Materials, lights, haze.
     pub world: &'a World,
     /// What each light sees; last, what snow falls on.
-    pub sights: &'a [Sight],
+    pub sights: &'a [ShadowLookup],
     /// The camera's raster, and those of lights.
     pub rasters: &'a [Raster],
     /// The camera.
@@ -51,7 +51,7 @@ pub struct Queue {
     /// The length of the pixel on the surface, metres.
     pub(super) footprint: [f32; BLOCK],
     pub(super) gloss: [f32; BLOCK],
-    nearness: [f32; BLOCK],
+    inv_depth: [f32; BLOCK],
     /// Share of the pixel.
     weight: [f32; BLOCK],
 }
@@ -68,7 +68,7 @@ impl Queue {
         light: [[0.0; BLOCK]; 3],
         footprint: [0.0; BLOCK],
         gloss: [0.0; BLOCK],
-        nearness: [0.0; BLOCK],
+        inv_depth: [0.0; BLOCK],
         weight: [0.0; BLOCK],
     };
 }
@@ -252,7 +252,7 @@ pub fn flush<S: Simd>(simd: S, context: &Context, texture: usize, queue: &mut Qu
                 plane[first] += light[i];
             }
         }
-        for (near, at) in tile.closeness[first..].iter_mut().zip(&queue.nearness[i..i + run]) {
+        for (near, at) in tile.inv_depth[first..].iter_mut().zip(&queue.inv_depth[i..i + run]) {
             *near = near.max(*at);
         }
         i += run;
@@ -310,7 +310,7 @@ fn find<S: Simd>(simd: S, context: &Context, corner: [usize; 2], queue: &mut Que
         store3(n, &mut queue.normal, i);
         store3(albedo, &mut queue.albedo, i);
         store3(V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y), &mut queue.light, i);
-        store(near, &mut queue.nearness, i);
+        store(near, &mut queue.inv_depth, i);
         store(gloss, &mut queue.gloss, i);
         i += 1;
     }
@@ -323,7 +323,7 @@ pub fn shine<S: Simd>(
     simd: S,
     context: &Context,
     light: &Light,
-    sight: &Sight,
+    sight: &ShadowLookup,
     points: &Block3,
     normals: &Block3,
     out: &mut Block3,

@@ -5,9 +5,9 @@
 
 use super::Body;
 use super::project::Projection;
-use crate::BENCH;
-use crate::lanes::{Bits, F, M};
-use crate::tile::Tile;
+use crate::cuts::BENCH;
+use crate::frame::Tile;
+use crate::simd::lanes::{Bits, F, M};
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -32,7 +32,7 @@ impl Bias {
 
 /// What a light is to see.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct ShadowViews {
     /// Parallel projections from the finest to the coarsest, or the six faces of a cube, or none for no shadow. Of one
     /// size, square, a multiple of 64 pixels.
     pub views: Vec<Projection>,
@@ -153,9 +153,9 @@ impl DepthMap {
 pub struct Key {
     /// The light's place in the world's list: each place keeps one map.
     pub slot: usize,
-    /// As in its [`Plan`].
+    /// As in its [`ShadowViews`].
     pub views: Vec<Projection>,
-    /// As in its [`Plan`].
+    /// As in its [`ShadowViews`].
     pub back_faces: bool,
     /// What stands there. Bodies hold their meshes, so that none can come to lie where another was.
     pub casters: Vec<Body>,

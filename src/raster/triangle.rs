@@ -34,7 +34,7 @@ pub struct Triangle {
 
 impl Triangle {
     /// Nearness at a point of the raster, pixels.
-    pub fn nearness(&self, x: f32, y: f32) -> f32 {
+    pub fn inv_depth(&self, x: f32, y: f32) -> f32 {
         let near = self.at.w + self.by[0].w * (x - self.anchor[0]) + self.by[1].w * (y - self.anchor[1]);
         near.clamp(self.range[0], self.range[1])
     }
@@ -42,7 +42,7 @@ impl Triangle {
 
 /// One body in one raster.
 #[derive(Default)]
-pub struct Piece {
+pub struct SetupMesh {
     /// Its visible triangles.
     pub triangles: Vec<Triangle>,
 }
@@ -69,7 +69,7 @@ struct Corner {
 
 /// How bodies become pieces.
 #[derive(Clone, Copy)]
-pub struct Setup {
+pub struct TriangleSetup {
     /// The raster.
     pub projection: Projection,
     /// Are the faces that look away drawn, instead of those that look here?
@@ -78,9 +78,9 @@ pub struct Setup {
     pub shaded: bool,
 }
 
-impl Setup {
+impl TriangleSetup {
     /// The triangles of a body's faces that look towards the eye, and may lie in the picture.
-    pub fn piece(&self, mesh: &Mesh, place: &Affine3A) -> Piece {
+    pub fn piece(&self, mesh: &Mesh, place: &Affine3A) -> SetupMesh {
         let matrix = self.projection.of_body(place);
         let mut corners = Vec::with_capacity(mesh.points.len());
         for (i, p) in mesh.points.iter().enumerate() {
@@ -90,7 +90,7 @@ impl Setup {
             }
             corners.push(self.corner(matrix * p.extend(1.0), normal));
         }
-        let mut piece = Piece::default();
+        let mut piece = SetupMesh::default();
         let mut polygon = Vec::new();
         for face in &mesh.faces {
             let index = face.corners.map(usize::from);
@@ -173,7 +173,7 @@ impl Setup {
     }
 
     /// Adds a triangle of that area, twice over.
-    fn push(&self, piece: &mut Piece, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
+    fn push(&self, piece: &mut SetupMesh, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
         let first = corners[0];
         let mut edges = [(0, 0, 0); 3];
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
@@ -184,8 +184,8 @@ impl Setup {
         for (k, a) in corners.into_iter().enumerate() {
             let b = corners[(k + 1) % 3];
             let inverse = 1.0 / a.h.w;
-            let nearness = a.h.z * inverse;
-            values[k] = (normals[k] * inverse).extend(nearness);
+            let inv_depth = a.h.z * inverse;
+            values[k] = (normals[k] * inverse).extend(inv_depth);
             let (ex, ey) = (a.y - b.y, b.x - a.x);
             // The top-left rule: a sample on an edge belongs to the triangle on its right or below it.
             let own = ex > 0 || (ex == 0 && ey > 0);
@@ -193,7 +193,7 @@ impl Setup {
             // A sample may lie anywhere in its pixel.
             let (x, y) = (a.x >> SUB.ilog2(), a.y >> SUB.ilog2());
             bound = [bound[0].min(x), bound[1].max(x), bound[2].min(y), bound[3].max(y)];
-            range = [range[0].min(nearness), range[1].max(nearness)];
+            range = [range[0].min(inv_depth), range[1].max(inv_depth)];
         }
         bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
         // Only the near plane's cut is allowed for: more would take the numbers of other pieces.

@@ -5,8 +5,8 @@
 //! themselves. Lengths are km. Coefficients as in Bruneton and Neyret, "Precomputed Atmospheric Scattering", 2008, and
 //! Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", 2020, at 680, 550 and 440 nm.
 
-use crate::lanes::{F, Lane, V3};
-use crate::math;
+use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};

@@ -3,10 +3,10 @@
 use super::air::exp3;
 use super::dome::Dome;
 use super::grid::put;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, V3};
+use crate::frame::Tile;
 use crate::noise;
-use crate::tile::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{F, Lane, V3};
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;

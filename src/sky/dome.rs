@@ -5,8 +5,9 @@ use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
 use super::time::{sane, turned};
-use crate::lanes::{self, F, Lane, V3};
-use crate::quality::Quality;
+use crate::settings::Quality;
+use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::level;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3, vec3};
@@ -133,7 +134,7 @@ impl Dome {
     /// One answer of the kernels for a unit direction.
     #[inline(never)]
     fn ask(&self, d: Vec3, what: What) -> Vec3 {
-        dispatch!(lanes::best(), simd => answer(simd, self, V3::splat(simd, d), what).first())
+        dispatch!(level::best(), simd => answer(simd, self, V3::splat(simd, d), what).first())
     }
 
     /// The light of the sky itself from a unit direction, over the sun's outside of the air.

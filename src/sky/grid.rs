@@ -4,11 +4,11 @@
 //! evaluate the same ones and no seam shows.
 
 use super::dome::{Dome, What, answer};
-use crate::BENCH;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, V3};
+use crate::cuts::BENCH;
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{F, Lane, V3};
 use crate::texture::Block3;
-use crate::tile::Tile;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;

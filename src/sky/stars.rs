@@ -4,8 +4,8 @@
 
 use super::dome::{Dome, power};
 use super::time::turned;
-use crate::hash::rnd;
-use crate::tile::Tile;
+use crate::frame::Tile;
+use crate::simd::hash::rnd;
 use crate::view::View;
 use glam::{Vec3, vec3};
 

@@ -18,14 +18,14 @@
 use super::deferred::Deferred;
 use super::edge::Groups;
 use super::fill::{self, Ramps};
-use super::grid::{Grid, Square, same_chain};
+use super::grid::{Grid, Square, same_path};
 use super::guard::Guard;
 use super::packet::Context;
 use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
-use crate::lanes::F;
-use crate::quality::Quality;
+use crate::frame::Tile;
+use crate::settings::Quality;
+use crate::simd::lanes::F;
 use crate::texture::Variation;
-use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
@@ -98,7 +98,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
 
 impl Scratch {
     /// Where the samples of the tile drawn last lie, pixels of the picture.
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.grid.positions()
     }
@@ -143,7 +143,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
                     continue;
                 }
                 let corners = grid.corners(square);
-                let same = same_chain(corners);
+                let same = same_path(corners);
                 if size < unit {
                     if !same {
                         cutter.cut(work, square);
@@ -227,8 +227,8 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
         } else {
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
-            let Sample { chain, count, object, .. } = *corners[0];
-            let mean = Sample { chain, count, object, numbers: foretell(simd, corners) };
+            let Sample { path_signature, count, object, .. } = *corners[0];
+            let mean = Sample { path_signature, count, object, numbers: foretell(simd, corners) };
             fill::add(simd, job, tile, deferred, square, &mean, share, &footprint);
         }
     }
@@ -258,7 +258,7 @@ fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
 /// May a square be interpolated whose corners have one chain?
 #[inline(always)]
 fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sample) -> bool {
-    if c[0].chain != centre.chain {
+    if c[0].path_signature != centre.path_signature {
         return false;
     }
     let mean = foretell(simd, c);

@@ -5,10 +5,10 @@
 
 use super::sample::{REMEMBERED, Sample};
 use super::world::World;
-use crate::block::{BLOCK, load, store};
-use crate::lanes::F;
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::F;
 use crate::texture::{self, Block3};
-use crate::tile::Tile;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 

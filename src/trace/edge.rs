@@ -1,8 +1,8 @@
 //! Pixels that an edge runs through: the surfaces in them, each with its share.
 
-use super::grid::{Grid, Square, same_chain};
+use super::grid::{Grid, Square, same_path};
 use super::sample::{NUMBERS, Sample};
-use crate::lanes::F;
+use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 
 /// The surfaces seen through one pixel, each with its share of the area; memory for as many as can be.
@@ -58,7 +58,7 @@ impl Groups {
     #[inline(always)]
     fn add<S: Simd>(&mut self, simd: S, sample: &Sample, weight: f32) {
         let mut at = 0;
-        while at < self.count && self.list[at].mean.chain != sample.chain {
+        while at < self.count && self.list[at].mean.path_signature != sample.path_signature {
             at += 1;
         }
         let group = &mut self.list[at];
@@ -66,7 +66,8 @@ impl Groups {
             self.count += 1;
             // Field by field: a whole sample would be copied twice.
             group.share = 0.0;
-            (group.mean.chain, group.mean.count, group.mean.object) = (sample.chain, sample.count, sample.object);
+            (group.mean.path_signature, group.mean.count, group.mean.object) =
+                (sample.path_signature, sample.count, sample.object);
             group.mean.numbers = [0.0; NUMBERS];
         }
         group.share += weight;
@@ -85,7 +86,7 @@ type Weights = [[f32; 5]; 5];
 /// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
 fn weigh(grid: &Grid, square: Square, weight: f32, pixel: Square, weights: &mut Weights) {
     let Square { x, y, size } = square;
-    if size > 1 && !same_chain(grid.corners(square)) {
+    if size > 1 && !same_path(grid.corners(square)) {
         for part in square.quarters() {
             weigh(grid, part, weight * 0.25, pixel, weights);
         }

@@ -4,10 +4,10 @@ use super::adaptive::Job;
 use super::deferred::Deferred;
 use super::grid::{Grid, Square};
 use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
-use crate::block::{BLOCK, load, store};
-use crate::lanes::{F, Lane, V3};
+use crate::frame::Tile;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::{F, Lane, V3};
 use crate::texture::{self, Block3};
-use crate::tile::Tile;
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
@@ -24,15 +24,15 @@ pub fn add<S: Simd>(
     share: f32,
     footprint: &[f32; REMEMBERED],
 ) {
-    let [red, green, blue, closeness, ..] = sample.numbers;
+    let [red, green, blue, inv_depth, ..] = sample.numbers;
     // Inside, and now the compiler knows.
     let pixel = (job.pixels(square.y) * Tile::SIZE + job.pixels(square.x)) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
     if tile.solids_matter {
-        tile.closeness[pixel] = tile.closeness[pixel].max(closeness);
-        tile.coverage[pixel] += if closeness > 0.0 { share } else { 0.0 };
+        tile.inv_depth[pixel] = tile.inv_depth[pixel].max(inv_depth);
+        tile.coverage[pixel] += if inv_depth > 0.0 { share } else { 0.0 };
     }
     deferred.push(simd, job.context.world, tile, pixel as u16, sample, share, footprint);
 }
@@ -163,14 +163,14 @@ impl Patch {
         simd: S,
         at: usize,
         ramp: &Ramp,
-        closeness: &[f32; BLOCK],
+        inv_depth: &[f32; BLOCK],
         points: &mut Block3,
         filter: bool,
         footprint: &mut [f32; BLOCK],
     ) {
         let mut i = 0;
         while i * F::<S>::LEN < ramp.count {
-            let k = F::<S>::splat(simd, 1.0) / load::<S, F<S>>(simd, closeness, i);
+            let k = F::<S>::splat(simd, 1.0) / load::<S, F<S>>(simd, inv_depth, i);
             let point = V3::load(simd, points, i) * Lane(k);
             point.store(points, i);
             if filter {
@@ -206,18 +206,18 @@ pub fn interpolate<S: Simd>(
     let size = job.pixels(square.size);
     let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
     let filter = job.quality.subpixel > 0;
-    let solid = if corners[0].closeness() > 0.0 { 1.0 } else { 0.0 };
+    let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];
         patch.values(simd, 0, ramp, &mut plain);
         for n in 0..corners[0].count as usize {
             let at = PLAIN + HIT * n;
             let [mut gain, mut points] = [[[0.0; BLOCK]; 3]; 2];
-            let [mut closeness, mut footprint] = [[0.0; BLOCK]; 2];
+            let [mut inv_depth, mut footprint] = [[0.0; BLOCK]; 2];
             patch.values(simd, at, ramp, &mut gain);
             patch.values(simd, at + 3, ramp, &mut points);
-            patch.values(simd, at + 6, ramp, std::slice::from_mut(&mut closeness));
-            patch.project(simd, at, ramp, &closeness, &mut points, filter, &mut footprint);
+            patch.values(simd, at + 6, ramp, std::slice::from_mut(&mut inv_depth));
+            patch.project(simd, at, ramp, &inv_depth, &mut points, filter, &mut footprint);
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
                 let mut color = [[0.0; BLOCK]; 3];
@@ -256,7 +256,7 @@ pub fn interpolate<S: Simd>(
         }
         if tile.solids_matter {
             for (offset, value) in ramp.pixel[..ramp.count].iter().zip(&plain[3]) {
-                tile.closeness[first + *offset as usize] = *value;
+                tile.inv_depth[first + *offset as usize] = *value;
                 tile.coverage[first + *offset as usize] = solid;
             }
         }

@@ -3,7 +3,7 @@
 use super::adaptive::Job;
 use super::packet;
 use super::sample::Sample;
-use crate::tile::Tile;
+use crate::frame::Tile;
 use fearless_simd::prelude::*;
 
 /// Most lattice points along a tile's edge: quarter pixels, both ends.
@@ -80,7 +80,7 @@ impl Grid {
     }
 
     /// Where the samples are, pixels of the picture.
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
@@ -114,7 +114,7 @@ impl Grid {
     /// Does a sample between the ends of a line of lattice points have another chain?
     ///
     /// Lines are cut in the middle: where the middle has not been traced, nothing between it and the ends has.
-    fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, chain: u32) -> bool {
+    fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, path_signature: u32) -> bool {
         let half = length / 2;
         if half == 0 {
             return false;
@@ -123,22 +123,24 @@ impl Grid {
         if self.lattice[middle.1 * LATTICE + middle.0].0 != self.generation {
             return false;
         }
-        self.at(middle.0, middle.1).chain != chain
-            || self.crossed((x, y), (dx, dy), half, chain)
-            || self.crossed(middle, (dx, dy), half, chain)
+        self.at(middle.0, middle.1).path_signature != path_signature
+            || self.crossed((x, y), (dx, dy), half, path_signature)
+            || self.crossed(middle, (dx, dy), half, path_signature)
     }
 
     /// Does an edge enter a square from a neighbour?
     pub fn entered(&self, Square { x, y, size }: Square) -> bool {
-        let chain = self.at(x, y).chain;
-        self.crossed((x, y), (1, 0), size, chain)
-            || self.crossed((x, y), (0, 1), size, chain)
-            || self.crossed((x, y + size), (1, 0), size, chain)
-            || self.crossed((x + size, y), (0, 1), size, chain)
+        let path_signature = self.at(x, y).path_signature;
+        self.crossed((x, y), (1, 0), size, path_signature)
+            || self.crossed((x, y), (0, 1), size, path_signature)
+            || self.crossed((x, y + size), (1, 0), size, path_signature)
+            || self.crossed((x + size, y), (0, 1), size, path_signature)
     }
 }
 
 /// Do the corners have one chain?
-pub fn same_chain(c: [&Sample; 4]) -> bool {
-    c[0].chain == c[1].chain && c[0].chain == c[2].chain && c[0].chain == c[3].chain
+pub fn same_path(c: [&Sample; 4]) -> bool {
+    c[0].path_signature == c[1].path_signature
+        && c[0].path_signature == c[2].path_signature
+        && c[0].path_signature == c[3].path_signature
 }

@@ -12,7 +12,8 @@
 use super::packet::{Ray, nearest};
 use super::shape::{FAR, Shape};
 use super::world::{Light, Object, Source, World};
-use crate::lanes::{self, F, Lane, M, U, V3};
+use crate::simd::lanes::{F, Lane, M, U, V3};
+use crate::simd::level;
 use crate::view::View;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
@@ -103,7 +104,7 @@ impl Guard {
             }
             let through = center + offset * radius;
             let direction = toward(through);
-            let landing = dispatch!(lanes::best(), simd => landing(simd, world, all, caster, through, direction));
+            let landing = dispatch!(level::best(), simd => landing(simd, world, all, caster, through, direction));
             let Some((point, normal)) = landing else { continue };
             let grown = point.distance(source) / through.distance(source).max(1e-6);
             // How much longer than wide it is there, at most 8.
@@ -204,7 +205,7 @@ fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
             (center, turn.row(long), half[long], across.length())
         }
         Shape::Plane { .. } => return None,
-        #[cfg(feature = "bench-scenes")]
+        #[cfg(feature = "full")]
         Shape::Globe { .. } => return None,
     };
     let count = (half / radius).ceil().clamp(1.0, MOST_BALLS);

@@ -3,9 +3,9 @@
 use super::packet::{Context, NOWHERE, Ray, nearest};
 use super::shape::FAR;
 use super::world::{Light, Source, World};
-use crate::BENCH;
-use crate::lanes::{F, Lane, M, U, V3};
-use crate::math;
+use crate::cuts::BENCH;
+use crate::simd::lanes::{F, Lane, M, U, V3};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 
 /// Unit direction and distance to a light's centre.

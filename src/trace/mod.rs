@@ -2,7 +2,7 @@
 //!
 //! One flow: [`world`] (what is there) -> [`guard`] (what must not be missed) -> [`adaptive`] (which rays) ->
 //! [`packet`] (what they see) -> [`fill`] (which pixels that is) -> [`deferred`] (what colour that is).
-//! [`scalar`] is the plain truth beside the packets.
+//! [`reference`] is the plain truth beside the packets.
 
 pub mod adaptive;
 pub mod deferred;
@@ -12,15 +12,15 @@ pub mod grid;
 pub mod guard;
 pub mod light;
 pub mod packet;
+pub mod reference;
 pub mod sample;
-pub mod scalar;
 pub mod shape;
 pub mod world;
 
-use crate::camera::Camera;
-use crate::quality::Quality;
+use crate::frame::{Layer, Stats, Tile};
+use crate::settings::Quality;
 use crate::texture::Variation;
-use crate::tile::{Layer, Stats, Tile};
+use crate::view::Camera;
 use crate::view::View;
 use adaptive::{Job, Scratch};
 use fearless_simd::{Level, dispatch};
@@ -30,7 +30,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use world::{SURFACE, World};
 
 /// A world seen by a camera, as a layer of a picture. It fills every pixel.
-pub struct Traced {
+pub struct TraceLayer {
     world: World,
     surfaces: Vec<[f32; SURFACE]>,
     all: Vec<u32>,
@@ -40,15 +40,15 @@ pub struct Traced {
     quality: Quality,
 }
 
-impl Traced {
+impl TraceLayer {
     /// Prepares a picture of `width` x `height` pixels.
-    pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> Traced {
+    pub fn new(world: World, camera: Camera, width: usize, height: usize, quality: Quality) -> TraceLayer {
         let view = View::new(camera, width, height);
         let all: Vec<u32> = (0..world.objects.len() as u32).collect();
         let guard = Guard::new(&world, &all, &view, width, height);
         let surfaces = world.objects.iter().map(|o| o.material.numbers()).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
-        Traced { world, surfaces, all, variation, view, guard, quality }
+        TraceLayer { world, surfaces, all, variation, view, guard, quality }
     }
 
     /// The objects that eye rays through a tile may meet: by the distance of their bounds from a cone around the tile.
@@ -86,10 +86,10 @@ fn spare() -> MutexGuard<'static, Vec<Scratch>> {
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Traced {
+impl TraceLayer {
     /// Draws a tile; returns the number of eye rays and the memory that it took.
     fn draw_in(&self, level: Level, tile: &mut Tile) -> (u64, Scratch) {
-        let Traced { world, surfaces, all, variation, view, guard, quality } = self;
+        let TraceLayer { world, surfaces, all, variation, view, guard, quality } = self;
         let Quality { min_weight, min_detail, light_samples, .. } = *quality;
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
@@ -106,14 +106,14 @@ impl Traced {
     }
 }
 
-impl Layer for Traced {
+impl Layer for TraceLayer {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         let (samples, scratch) = self.draw_in(level, tile);
         spare().push(scratch);
         Stats { samples }
     }
 
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     fn positions(&self, level: Level, tile: &mut Tile) -> Vec<(f32, f32)> {
         self.draw_in(level, tile).1.positions().collect()
     }

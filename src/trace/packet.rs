@@ -7,9 +7,9 @@ use super::light::{sky, toward, visibility};
 use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
 use super::shape::{Ball, FAR, Shape};
 use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
-use crate::block::BLOCK;
-use crate::lanes::{Bits, F, Lane, M, U, V3};
-use crate::math;
+use crate::simd::block::BLOCK;
+use crate::simd::lanes::{Bits, F, Lane, M, U, V3};
+use crate::simd::math;
 use crate::texture;
 use crate::view::View;
 use fearless_simd::prelude::*;
@@ -129,7 +129,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
     }
     let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
     let step = ray.dot(ray).sqrt();
-    let mut chain = U::<S>::splat(simd, 0);
+    let mut path_signature = U::<S>::splat(simd, 0);
     let mut light = V3::splat(simd, Vec3::ZERO);
     // Light of white surfaces so far.
     let mut seen = zero;
@@ -176,9 +176,9 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
         if hit.any_true() {
             let (t, point, surface) = resolve(simd, context, &node.ray, object, t, hit);
             let length = length + t;
-            let closeness = step / length;
+            let inv_depth = step / length;
             if level == 1 {
-                first_closeness = hit.select(closeness, zero);
+                first_closeness = hit.select(inv_depth, zero);
             }
             let facing = -direction.dot(surface.normal);
             let inside = facing.simd_lt(zero);
@@ -238,7 +238,7 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             let textured = matt & surface.numbers[TEXTURED].simd_gt(zero) & detailed;
             light = light + gain.mulv(surface.color(ALBEDO)).masked(simd, matt & !textured);
             if textured.any_true() {
-                remember(simd, world, textured.to_bitmask(), &object, &[gain, point], &closeness, out);
+                remember(simd, world, textured.to_bitmask(), &object, &[gain, point], &inv_depth, out);
             }
 
             if level < world.max_level {
@@ -270,10 +270,10 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
             }
         }
         let code = hash(simd, (object + 1) ^ (state << 12), path);
-        chain += (active & detailed).select(code, U::<S>::splat(simd, 0));
+        path_signature += (active & detailed).select(code, U::<S>::splat(simd, 0));
     }
     for (lane, sample) in out.iter_mut().enumerate() {
-        sample.chain = chain[lane];
+        sample.path_signature = path_signature[lane];
         // Textures that did not fit are in the light already.
         sample.numbers[0] += light.x[lane];
         sample.numbers[1] += light.y[lane];
@@ -399,7 +399,7 @@ fn remember<S: Simd>(
     lanes: u64,
     object: &U<S>,
     vectors: &[V3<S>; 2],
-    closeness: &F<S>,
+    inv_depth: &F<S>,
     out: &mut [Sample],
 ) {
     let [gain, point] = vectors;
@@ -411,7 +411,7 @@ fn remember<S: Simd>(
             late |= 1 << lane;
             continue;
         }
-        let k = closeness[lane];
+        let k = inv_depth[lane];
         let point = [point.x[lane] * k, point.y[lane] * k, point.z[lane] * k];
         sample.object[n] = object[lane];
         let hit = &mut sample.numbers[PLAIN + HIT * n..][..HIT];

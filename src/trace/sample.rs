@@ -13,7 +13,7 @@ pub const NUMBERS: usize = PLAIN + HIT * REMEMBERED;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Hash of the whole chain: every object hit, by which path, and the state of every light there.
-    pub chain: u32,
+    pub path_signature: u32,
     /// Textured hits that count.
     pub count: u32,
     /// The object of each textured hit.
@@ -29,13 +29,13 @@ pub struct Sample {
 
 impl Default for Sample {
     fn default() -> Sample {
-        Sample { chain: 0, count: 0, object: [0; REMEMBERED], numbers: [0.0; NUMBERS] }
+        Sample { path_signature: 0, count: 0, object: [0; REMEMBERED], numbers: [0.0; NUMBERS] }
     }
 }
 
 impl Sample {
     /// 1 / distance of the first hit along the view axis, 0 for the sky.
-    pub fn closeness(&self) -> f32 {
+    pub fn inv_depth(&self) -> f32 {
         self.numbers[3]
     }
 

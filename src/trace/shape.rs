@@ -4,7 +4,7 @@
 //! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
 //! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
 
-use crate::lanes::{F, Lane, M, V3};
+use crate::simd::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
@@ -27,7 +27,7 @@ pub enum Shape {
         offset: f32,
     },
     /// A ball so large that its centre is useless: given by a point of its surface near to the eye.
-    #[cfg(feature = "bench-scenes")]
+    #[cfg(feature = "full")]
     Globe {
         /// A point of the surface.
         touch: Vec3,
@@ -81,7 +81,7 @@ impl Shape {
             Shape::Block { center, half, .. } => (center, half.length()),
             Shape::Cylinder { center, half, radius, .. } => (center, half.hypot(radius)),
             Shape::Plane { .. } => (Vec3::ZERO, f32::INFINITY),
-            #[cfg(feature = "bench-scenes")]
+            #[cfg(feature = "full")]
             Shape::Globe { .. } => (Vec3::ZERO, f32::INFINITY),
         }
     }
@@ -116,7 +116,7 @@ impl Shape {
                 let far = F::<S>::splat(simd, FAR);
                 (enters.select(t, -far), leaves.select(t, far), enters | leaves | height.simd_le(zero))
             }
-            #[cfg(feature = "bench-scenes")]
+            #[cfg(feature = "full")]
             Shape::Globe { touch, normal, radius } => {
                 // With q = o - touch and the centre at touch - R n: |o - c|^2 - R^2 = |q|^2 + 2 R q.n, and R^2 - |m|^2
                 // = R^2 (n.d)^2 - 2 R m.n - |m|^2, m the part of q across d: no term larger than the answer.
@@ -162,7 +162,7 @@ impl Shape {
         match *self {
             Shape::Sphere { center, .. } => unit(simd, p.sub1(center)),
             Shape::Plane { normal, .. } => V3::splat(simd, normal),
-            #[cfg(feature = "bench-scenes")]
+            #[cfg(feature = "full")]
             Shape::Globe { touch, normal, radius } => {
                 let k = F::<S>::splat(simd, 1.0 / radius);
                 unit(simd, p.sub1(touch) * Lane(k) + V3::splat(simd, normal))

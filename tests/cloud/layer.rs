@@ -4,12 +4,12 @@ use super::common::levels;
 use super::oracle::{DAY, FURNACE, ball, cloud, filled, span, truth};
 use fearless_simd::Level;
 use glam::{Vec3, vec3};
-use paprsek::camera::Camera;
 use paprsek::cloud::march::{Cloud, Look};
-use paprsek::cloud::{CloudQuality, Clouds};
-use paprsek::quality::Quality;
+use paprsek::cloud::{CloudLayer, CloudQuality};
+use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::scenes;
-use paprsek::tile::{Frame, Layer, Renderer, Tile};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
 
 /// A sum of a hundred roundings, and places that are good to 1e-5.
@@ -26,19 +26,19 @@ fn exact() -> CloudQuality {
 
 /// Solids by coverage and depth along the view axis, with the clouds over them. They are not all of one colour.
 fn tile(clouds: Vec<Cloud>, look: Look, quality: CloudQuality, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
-    let layer = Clouds::new(clouds, look, |_| Vec3::ONE, f32::INFINITY, view(), quality);
+    let layer = CloudLayer::new(clouds, look, |_| Vec3::ONE, f32::INFINITY, view(), quality);
     let mut tile = Tile::at(0, 0, 64, 64);
     for at in 0..Tile::AREA {
         let (covers, depth) = solid(at);
         (tile.red[at], tile.green[at], tile.blue[at]) = (0.5 * covers, 0.25 * covers, 3.0 * covers);
-        (tile.coverage[at], tile.closeness[at]) = (covers, if covers > 0.0 { 1.0 / depth } else { 0.0 });
+        (tile.coverage[at], tile.inv_depth[at]) = (covers, if covers > 0.0 { 1.0 / depth } else { 0.0 });
     }
     layer.draw(Level::new(), &mut tile);
     tile
 }
 
 fn bits(tile: &Tile) -> Vec<u32> {
-    let planes = [&tile.red, &tile.green, &tile.blue, &tile.coverage, &tile.closeness];
+    let planes = [&tile.red, &tile.green, &tile.blue, &tile.coverage, &tile.inv_depth];
     planes.iter().flat_map(|plane| plane.iter().map(|x| x.to_bits())).collect()
 }
 
@@ -172,11 +172,11 @@ fn every_level_draws_the_same_bits() {
         let mut first = None;
         for (name, level) in levels() {
             let layer =
-                Clouds::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudQuality { steps: 100, ..quality });
+                CloudLayer::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudQuality { steps: 100, ..quality });
             let mut tile = Tile::at(0, 0, 64, 50);
             for at in 0..Tile::AREA {
                 tile.coverage[at] = (at % 3) as f32 * 0.5;
-                tile.closeness[at] = 0.3;
+                tile.inv_depth[at] = 0.3;
             }
             layer.draw(level, &mut tile);
             assert!(*first.get_or_insert_with(|| bits(&tile)) == bits(&tile), "{name}");

@@ -6,7 +6,7 @@ use fearless_simd::{Level, dispatch};
 use glam::vec3;
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::sunlight;
-use paprsek::scenes::cumulus_set::{shape, sun};
+use paprsek::scenes::bench::cumulus_set::{shape, sun};
 
 const KINDS: [Kind; 4] = [Kind::CUMULUS, Kind::CONGESTUS, Kind::ALTOCUMULUS, Kind::STRATUS];
 /// Every so many voxels are looked at: no divisor of 64.

@@ -4,9 +4,9 @@ use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{DVec3, Vec3, dvec3, vec3};
 use paprsek::cloud::march::{Cloud, Look, march};
 use paprsek::cloud::voxels::Voxels;
-use paprsek::hash::rnd;
-use paprsek::lanes::{F, V3};
 use paprsek::noise::{fbm, noise};
+use paprsek::simd::hash::rnd;
+use paprsek::simd::lanes::{F, V3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

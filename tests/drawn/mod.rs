@@ -3,13 +3,13 @@
 
 use fearless_simd::Level;
 use glam::{Affine3A, DVec3, Mat3, Vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
 use paprsek::raster::light::Haze;
 use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::{Body, Drawn, World};
-use paprsek::tile::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::raster::{Body, RasterLayer, World};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
 use std::sync::{Arc, Mutex};
 
@@ -20,7 +20,7 @@ pub struct Planes {
     pub height: usize,
     pub color: Vec<Vec3>,
     /// 1 / distance along the axis; 0 for nothing.
-    pub closeness: Vec<f32>,
+    pub inv_depth: Vec<f32>,
     pub coverage: Vec<f32>,
 }
 
@@ -29,7 +29,7 @@ impl Planes {
     pub fn differs(&self, other: &Planes) -> Option<usize> {
         let bits = |p: &Planes, i: usize| {
             let Vec3 { x, y, z } = p.color[i];
-            [x, y, z, p.closeness[i], p.coverage[i]].map(f32::to_bits)
+            [x, y, z, p.inv_depth[i], p.coverage[i]].map(f32::to_bits)
         };
         (0..self.color.len().max(other.color.len())).find(|&i| bits(self, i) != bits(other, i))
     }
@@ -45,7 +45,7 @@ impl Layer for Probe {
             for column in 0..tile.width {
                 let (from, to) = (row * Tile::SIZE + column, (tile.y + row) * planes.width + tile.x + column);
                 planes.color[to] = Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
-                planes.closeness[to] = tile.closeness[from];
+                planes.inv_depth[to] = tile.inv_depth[from];
                 planes.coverage[to] = tile.coverage[from];
             }
         }
@@ -58,9 +58,9 @@ pub fn draw(world: &World, camera: Camera, size: [usize; 2], quality: Quality, l
     let [width, height] = size;
     let n = width * height;
     let planes =
-        Planes { width, height, color: vec![Vec3::NAN; n], closeness: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
+        Planes { width, height, color: vec![Vec3::NAN; n], inv_depth: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
     let planes = Arc::new(Mutex::new(planes));
-    let drawn = Drawn::new(world.clone(), View::new(camera, width, height), width, height, quality);
+    let drawn = RasterLayer::new(world.clone(), View::new(camera, width, height), width, height, quality);
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn), Box::new(Probe(planes.clone()))];
     let mut renderer = Renderer::new(1).unwrap().at_level(level);
     renderer.draw(Picture { layers, transfer: Transfer::Gamma22 }, &mut Frame::new(width, height));

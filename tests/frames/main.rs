@@ -6,10 +6,10 @@
 #[path = "../common/mod.rs"]
 mod common;
 
-use paprsek::camera::Stereo;
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
+use paprsek::view::Stereo;
 use std::fmt::Write;
 
 /// Shares of a scene's length at which it is rendered.

@@ -2,8 +2,8 @@
 
 use super::oracle::{SPARKS, fire};
 use super::truth::render;
-use paprsek::quality::Quality;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::frame::{Frame, Renderer};
+use paprsek::settings::Quality;
 
 const SIZE: (usize, usize) = (96, 54);
 

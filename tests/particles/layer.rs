@@ -3,13 +3,13 @@
 use super::oracle::{Camera, Spot, random, smoothstep};
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
-use paprsek::camera;
-use paprsek::color::Transfer;
-use paprsek::particles::Particles;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
 use paprsek::particles::snow::Snow;
-use paprsek::scenes::particles::fires;
-use paprsek::tile::{Frame, Layer, Picture, Renderer, Stats, Tile};
+use paprsek::scenes::bench::particles::fires;
+use paprsek::view;
 use paprsek::view::View;
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex};
@@ -35,7 +35,7 @@ impl Layer for Below {
                 let at = row * Tile::SIZE + column;
                 let (light, depth) = self.0(tile.x + column, tile.y + row);
                 [tile.red[at], tile.green[at], tile.blue[at]] = light.to_array();
-                (tile.closeness[at], tile.coverage[at]) = depth.map_or((0.0, 0.0), |depth| (1.0 / depth, 1.0));
+                (tile.inv_depth[at], tile.coverage[at]) = depth.map_or((0.0, 0.0), |depth| (1.0 / depth, 1.0));
             }
         }
         Stats::default()
@@ -61,15 +61,15 @@ impl Layer for Probe {
 
 /// The view of the bench scenes from an eye towards a direction.
 pub fn view(eye: Vec3, forward: Vec3, size: Size) -> View {
-    View::new(camera::Camera::look_at(eye, eye + forward, 50f32.to_radians(), 0.0), size.0, size.1)
+    View::new(view::Camera::look_at(eye, eye + forward, 50f32.to_radians(), 0.0), size.0, size.1)
 }
 
 /// The light of a picture with particles over what is behind.
-pub fn draw(renderer: &mut Renderer, particles: Particles, size: Size, behind: Behind) -> Vec<Vec3> {
+pub fn draw(renderer: &mut Renderer, particles: ParticleLayer, size: Size, behind: Behind) -> Vec<Vec3> {
     over(renderer, Box::new(Below(behind)), particles, size)
 }
 
-fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: Particles, size: Size) -> Vec<Vec3> {
+fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer, size: Size) -> Vec<Vec3> {
     let light = Arc::new(Mutex::new(vec![Vec3::NAN; size.0 * size.1]));
     let probe = Probe(light.clone(), size.0);
     let layers: Vec<Box<dyn Layer>> = vec![below, Box::new(particles), Box::new(probe)];
@@ -80,7 +80,7 @@ fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: Particles, si
 
 /// The same for fires seen along `forward` from `eye`, on two threads.
 pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<Vec3> {
-    let particles = Particles::fire(fires.to_vec(), exposure, &view(eye, forward, size), size.0, size.1);
+    let particles = ParticleLayer::fire(fires.to_vec(), exposure, &view(eye, forward, size), size.0, size.1);
     draw(&mut Renderer::new(2).unwrap(), particles, size, behind)
 }
 
@@ -97,7 +97,7 @@ pub fn snow(field: Snow, eye: Vec3, forward: Vec3, size: Size) -> Vec<Vec3> {
             Stats::default()
         }
     }
-    let layer = Particles::snow(vec![field], vec3(0.95, 0.97, 1.0), &view(eye, forward, size), size.0, size.1);
+    let layer = ParticleLayer::snow(vec![field], vec3(0.95, 0.97, 1.0), &view(eye, forward, size), size.0, size.1);
     over(&mut Renderer::new(2).unwrap(), Box::new(Gradient(size.1 as f32)), layer, size)
 }
 

@@ -5,7 +5,7 @@ use super::oracle::random;
 use glam::{DVec3, Vec3, vec3};
 use paprsek::particles::fire::Fire;
 use paprsek::particles::snow::{Flakes, Snow};
-use paprsek::scenes::particles::{self, fires};
+use paprsek::scenes::bench::particles::{self, fires};
 
 const SIZE: Size = (128, 72);
 /// As in the tests of sprites.

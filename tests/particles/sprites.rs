@@ -4,12 +4,12 @@ use super::common::levels;
 use super::layer::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth, view, worst};
 use super::oracle::{FLAKES, random, snow_beside};
 use glam::{DVec3, Vec3, vec3};
-use paprsek::particles::Particles;
+use paprsek::frame::Renderer;
+use paprsek::particles::ParticleLayer;
 use paprsek::particles::fire::Fire;
 use paprsek::particles::snow::Flakes;
 use paprsek::particles::sprite::Lens;
-use paprsek::scenes::particles::{self, fires, flakes};
-use paprsek::tile::Renderer;
+use paprsek::scenes::bench::particles::{self, fires, flakes};
 
 /// Light, where places on the screen are good to some 1e-5 pixels and sprites are about a pixel large, or larger.
 const PLACES: f64 = 1e-4;
@@ -279,7 +279,7 @@ fn every_level_and_thread_count_gives_the_same_light() {
         for (name, level) in levels() {
             for threads in [1, 2, 3] {
                 let view = view(Vec3::ZERO, Vec3::NEG_Z, SIZE);
-                let particles = Particles::fire(colours(150, alpha), 1.0, &view, SIZE.0, SIZE.1);
+                let particles = ParticleLayer::fire(colours(150, alpha), 1.0, &view, SIZE.0, SIZE.1);
                 let mut renderer = Renderer::new(threads).unwrap().at_level(level);
                 let found = draw(&mut renderer, particles, SIZE, solids);
                 assert!(same(first.get_or_insert(found.clone()), &found), "{name}, {threads} threads, alpha {alpha}");

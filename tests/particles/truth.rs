@@ -3,9 +3,9 @@
 use super::common::levels;
 use super::oracle::{FLAKES, SPARKS, fire, flakes_in_the_cylinder, scene, snow};
 use glam::DVec3;
-use paprsek::quality::Quality;
+use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
-use paprsek::tile::{Frame, Renderer};
+use paprsek::settings::Quality;
 
 /// A multiple of neither tiles nor lanes in one direction, so that their edges are somewhere else in each row of them.
 const SIZE: (usize, usize) = (632, 356);

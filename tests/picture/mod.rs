@@ -3,13 +3,13 @@
 
 use fearless_simd::Level;
 use glam::Vec3;
-use paprsek::camera::Camera;
-use paprsek::color::{Transfer, quantize};
-use paprsek::quality::Quality;
-use paprsek::tile::{Layer, Tile};
-use paprsek::trace::Traced;
-use paprsek::trace::scalar::{self, Ray};
+use paprsek::frame::encode::{Transfer, quantize};
+use paprsek::frame::{Layer, Tile};
+use paprsek::settings::Quality;
+use paprsek::trace::TraceLayer;
+use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::world::World;
+use paprsek::view::Camera;
 
 /// A picture of linear light, row by row from the top left.
 #[derive(Clone)]
@@ -29,7 +29,7 @@ fn tile() -> Tile {
 /// What the renderer makes of a world, tile by tile.
 pub fn traced(world: &World, camera: Camera, size: (usize, usize), quality: Quality, level: Level) -> Light {
     let (width, height) = size;
-    let layer = Traced::new(world.clone(), camera, width, height, quality);
+    let layer = TraceLayer::new(world.clone(), camera, width, height, quality);
     let mut pixels = vec![Vec3::ZERO; width * height];
     let (mut tile, mut samples) = (tile(), 0);
     for y in (0..height).step_by(Tile::SIZE) {
@@ -61,7 +61,7 @@ pub fn eye_ray(camera: &Camera, size: (usize, usize), x: usize, y: usize) -> Vec
 pub fn plain(world: &World, camera: Camera, size: (usize, usize)) -> Light {
     let (width, height) = size;
     let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    let pixels = rows.map(|(x, y)| scalar::radiance(world, Ray::new(camera.eye, eye_ray(&camera, size, x, y)), 1));
+    let pixels = rows.map(|(x, y)| reference::radiance(world, Ray::new(camera.eye, eye_ray(&camera, size, x, y)), 1));
     Light { width, height, pixels: pixels.collect(), samples: (width * height) as u64 }
 }
 

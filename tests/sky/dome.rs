@@ -2,14 +2,14 @@
 
 use crate::common;
 use glam::{DVec3, Mat3, Vec3, vec3};
-use paprsek::camera::Camera;
-use paprsek::color::Transfer;
-use paprsek::quality::Quality;
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
+use paprsek::settings::Quality;
 use paprsek::sky::air::Air;
-use paprsek::sky::backdrop::{Backdrop, Look};
 use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::sky::place::Place;
-use paprsek::tile::{Frame, Layer, Picture, Renderer, Tile};
+use paprsek::view::Camera;
 use paprsek::view::View;
 use proptest::prelude::*;
 
@@ -149,7 +149,11 @@ fn no_jump_as_the_sun_goes_down() {
         }
         let light = dome.lighting();
         colors.extend([light.color * 0.2, light.sky, light.ground]);
-        colors.iter().flat_map(|c| c.to_array()).map(|c| 255.0 * paprsek::color::srgb_encode(c)).collect::<Vec<_>>()
+        colors
+            .iter()
+            .flat_map(|c| c.to_array())
+            .map(|c| 255.0 * paprsek::frame::encode::srgb_encode(c))
+            .collect::<Vec<_>>()
     };
     let (mut before, mut last) = (look(5.04), look(5.02));
     let (mut worst, mut pace) = ((0.0f32, 0.0), (0.0f32, 0.0));
@@ -175,8 +179,9 @@ fn no_jump_across_the_horizon() {
     for altitude in [40.0, 3.0, 0.0, -5.0, -10.0, -18.0] {
         let dome = Dome::new(sky(altitude), EXACT);
         for azimuth in [0.0, 90.0, 180.0] {
-            let code =
-                |y: f32| dome.radiance(toward(y, azimuth)).to_array().map(|c| 255.0 * paprsek::color::srgb_encode(c));
+            let code = |y: f32| {
+                dome.radiance(toward(y, azimuth)).to_array().map(|c| 255.0 * paprsek::frame::encode::srgb_encode(c))
+            };
             let mut last = code(-2.0);
             for i in -199..=200 {
                 // A hundredth of a degree, a sixth of a pixel.
@@ -219,7 +224,7 @@ fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
 
 fn frame(renderer: &mut Renderer, sky: Sky, quality: DomeQuality, look: Look, size: (usize, usize)) -> Frame {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.3, 0.3, -1.0), 0.9, 0.1);
-    let layer = Backdrop::new(Dome::new(sky, quality), camera, size.0, size.1, look);
+    let layer = SkyLayer::new(Dome::new(sky, quality), camera, size.0, size.1, look);
     let mut frame = Frame::new(size.0, size.1);
     renderer.draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     frame
@@ -277,7 +282,7 @@ fn fills_what_solids_leave() {
     for sky in skies() {
         let layer = |behind| {
             let look = Look { behind, ..Look::default() };
-            Backdrop::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look)
+            SkyLayer::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look)
         };
         for (_, level) in common::levels() {
             let (mut all, mut rest) = (Tile::at(0, 0, 64, 64), Tile::at(0, 0, 64, 64));
@@ -348,7 +353,7 @@ fn the_moon_is_lit_where_the_sun_is() {
         let camera = Camera::look_at(Vec3::ZERO, moon, 0.2, 0.0);
         let look = Look { moon: 10.0, ..Look::default() };
         let mut tile = Tile::at(0, 0, 64, 64);
-        let layer = Backdrop::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look);
+        let layer = SkyLayer::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look);
         layer.draw(common::levels()[0].1, &mut tile);
         let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
         for i in 0..Tile::AREA {
@@ -376,7 +381,7 @@ fn the_sun_reddens_towards_the_horizon() {
         let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
         let dome = Dome::new(sky, DomeQuality::new(&Quality::FAST));
-        Backdrop::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
+        SkyLayer::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
         let middle = 32 * Tile::SIZE + 32;
         let (red, blue) = (tile.red[middle], tile.blue[middle]);
         assert!(red > 0.9 && red <= 1.0, "{altitude}: {red}");

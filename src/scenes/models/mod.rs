@@ -6,9 +6,9 @@ pub mod mustang;
 pub mod tree;
 
 use super::script::{Script, VARIABLES, operations};
-use crate::hash::rnd;
 use crate::raster::form::Body;
 use crate::raster::mesh::{Mesh, Paint};
+use crate::simd::hash::rnd;
 use glam::{Mat3, Vec3, vec3};
 
 /// What the paints of the land and all that stands on it are named by, their place in [`PAINTS`].

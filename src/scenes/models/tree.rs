@@ -2,10 +2,10 @@
 
 use super::land::{self, height, wooded};
 use super::{BODY, END, PAINTS, RANDOM, ROTATE, STREAM, build, paint};
-use crate::hash::rnd;
 use crate::raster::form::Body;
 use crate::raster::mesh::Mesh;
 use crate::scenes::script::{ADD, MUL, Script, Word, get, script, set};
+use crate::simd::hash::rnd;
 use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
 

@@ -79,7 +79,7 @@ pub fn build(
     // A cargo that knows this no more builds the library as it is, for some more bytes.
     cargo.env("__CARGO_TESTS_ONLY_SRC_ROOT", &library);
     cargo.args(["rustc", "--release", "--locked", "--package", "paprsek", "--bin", "paprsek"]);
-    cargo.args(["--no-default-features", "--features", "day"]);
+    cargo.args(["--no-default-features"]);
     cargo.arg("-Zprofile-rustflags");
     cargo.args(["-Zbuild-std=std,panic_abort", "-Zbuild-std-features=optimize_for_size", "--target", TARGET]);
     cargo.arg("--target-dir").arg(&target);

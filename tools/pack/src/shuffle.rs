@@ -21,7 +21,7 @@ const SHUFFLES: [Shuffle; 5] = [
     ("as they are", |_| Ok(())),
     ("module `raster` is `polygons`", |sources| rename(sources, "raster", "polygons")),
     ("`refracted` is in sky/sun.rs", |sources| relocate(sources, "refracted", "src/sky/place.rs", "src/sky/sun.rs")),
-    ("functions of scenes/day.rs by name", |sources| sort(sources, "src/scenes/day.rs")),
+    ("functions of show/day.rs by name", |sources| sort(sources, "src/scenes/show/day.rs")),
     ("all three, functions of every file by name", |sources| {
         let mut paths: Vec<String> = sources.keys().cloned().collect();
         paths.retain(|path| functions(&sources[path]).len() > 1);

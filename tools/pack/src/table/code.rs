@@ -82,7 +82,7 @@ fn addresses(instruction: &Instruction) -> impl Iterator<Item = u64> {
 }
 
 /// Our crate is the one whose root has the shortest relative path; its name stands behind the path, as in
-/// `src/main.rs/@/paprsek.1606792f32def728-cgu.0`.
+/// `src/bin/paprsek/main.rs/@/paprsek.1606792f32def728-cgu.0`.
 fn home(dwarf: &Dwarf<Slice>) -> Result<Option<Home>, gimli::Error> {
     let mut found: Option<(usize, Home)> = None;
     let mut units = dwarf.units();
@@ -96,9 +96,8 @@ fn home(dwarf: &Dwarf<Slice>) -> Result<Option<Home>, gimli::Error> {
         };
         let name = text(DW_AT_name)?;
         let Some((path, name)) = name.split_once("/@/").filter(|(path, _)| !path.starts_with('/')) else { continue };
-        let Some(folder) = path.strip_suffix("src/main.rs").or_else(|| path.strip_suffix("src/lib.rs")) else {
-            continue;
-        };
+        let root = path.ends_with("/main.rs") || path.ends_with("/lib.rs");
+        let Some((folder, _)) = path.split_once("src/").filter(|_| root) else { continue };
         if found.as_ref().is_none_or(|(length, _)| folder.len() < *length) {
             let root = format!("{}/{folder}", text(DW_AT_comp_dir)?).trim_end_matches('/').to_string();
             found = Some((folder.len(), Home { root, name: name.split('.').next().unwrap_or(name).to_string() }));

@@ -65,7 +65,7 @@ mod tests {
             ("/home/me/paprsek/src/trace/mod.rs", "paprsek::trace", true),
             ("/home/me/paprsek/src/lib.rs", "paprsek", true),
             ("/home/me/paprsek/src/main.rs", "paprsek::main", true),
-            ("src/tile.rs", "paprsek::tile", true),
+            ("src/tile.rs", "paprsek::frame", true),
             ("/home/me/paprsek/third/x11-dl/src/link.rs", "x11_dl", false),
             ("/home/me/paprsek/third/x11-dl-2.21/src/link.rs", "x11_dl", false),
             (&format!("{cargo}/rayon-core-1.13.0/src/job.rs"), "rayon_core", false),

@@ -1,0 +1,153 @@
+//! The time of a scene that plays: real time, paused, moved by hand, looped.
+
+use crate::args::{Args, BENCH};
+use paprsek::frame::Scene;
+use paprsek::scenes::show::intro::{INTRO, PARTS};
+use std::time::Instant;
+
+/// What the keys move.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock {
+    /// Scene time at `since`, or for good while `since` is `None`.
+    base: f64,
+    since: Option<Instant>,
+    start: f64,
+    /// Where playing ends; the scene loops without it.
+    end: Option<f64>,
+    duration: f64,
+    /// Is it the show, with parts to jump to?
+    show: bool,
+}
+
+impl Clock {
+    /// A clock that starts now. `--at` starts paused at its instant.
+    pub fn new(args: &Args) -> Clock {
+        let start = args.start.unwrap_or(0.0);
+        let since = (!args.still).then(Instant::now);
+        let Scene { name, duration, .. } = *args.scene();
+        // Not zero, since time is taken modulo the duration.
+        Clock { base: start, since, start, end: args.end, duration: duration.max(1e-3), show: name == INTRO.name }
+    }
+
+    /// The same clock, but ending with the scene instead of looping.
+    #[cfg(all(unix, feature = "terminal"))]
+    pub fn once(self) -> Clock {
+        let still = self.since.is_none();
+        Clock { end: self.end.or((!still).then_some(self.duration)), ..self }
+    }
+
+    fn raw(&self) -> f64 {
+        self.base + self.since.map_or(0.0, |since| since.elapsed().as_secs_f64())
+    }
+
+    /// The scene time to show now; `None` past the end.
+    pub fn now(&self) -> Option<f64> {
+        let time = self.raw();
+        match (self.end, self.since) {
+            (Some(end), _) => (time < end).then_some(time),
+            // A still is shown as asked for, even past the end of the scene.
+            (None, None) => Some(time),
+            (None, Some(_)) => Some(wrap(time, self.duration)),
+        }
+    }
+
+    /// Stops, or goes on.
+    pub fn toggle(&mut self) {
+        self.base = self.now().unwrap_or(self.base);
+        self.since = if self.since.is_none() { Some(Instant::now()) } else { None };
+    }
+
+    /// Does time stand still?
+    pub fn rests(&self) -> bool {
+        self.since.is_none()
+    }
+
+    /// Moves by `seconds`.
+    pub fn seek(&mut self, seconds: f64) {
+        self.go(self.now().unwrap_or(self.base) + seconds);
+    }
+
+    /// Goes to where a part starts, counted from 0; nowhere where there is none.
+    pub fn jump(&mut self, part: usize) {
+        // Of a scene that is not the show its start is the only part, and so the show's first.
+        let parts = if BENCH && !self.show { &PARTS[..1] } else { PARTS };
+        if let Some(part) = parts.get(part) {
+            self.go(part.0);
+        }
+    }
+
+    /// Goes to a scene time; a looping scene wraps, a range stops at its start.
+    fn go(&mut self, time: f64) {
+        self.base = if self.end.is_some() { time.max(self.start) } else { wrap(time, self.duration) };
+        self.since = self.since.map(|_| Instant::now());
+    }
+}
+
+/// A time within a loop. The exact remainder, `%`, is 736 bytes of long division.
+fn wrap(time: f64, duration: f64) -> f64 {
+    (time - (time / duration).floor() * duration).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn still(base: f64, end: Option<f64>) -> Clock {
+        Clock { base, since: None, start: 1.0, end, duration: 20.0, show: true }
+    }
+
+    #[test]
+    fn a_still_shows_the_instant_that_was_asked_for() {
+        assert_eq!(still(33.25, None).now(), Some(33.25));
+    }
+
+    #[test]
+    fn a_loop_wraps_both_ways() {
+        let mut clock = still(18.0, None);
+        clock.seek(5.0);
+        assert_eq!(clock.now(), Some(3.0));
+        clock.seek(-5.0);
+        assert_eq!(clock.now(), Some(18.0));
+    }
+
+    #[test]
+    fn a_range_stops_at_its_start_and_ends_at_its_end() {
+        let mut clock = still(3.0, Some(7.0));
+        clock.seek(-5.0);
+        assert_eq!(clock.now(), Some(1.0));
+        clock.seek(5.0);
+        clock.seek(1.0);
+        assert_eq!(clock.now(), None);
+    }
+
+    #[test]
+    fn parts_are_where_they_start() {
+        let mut clock = Clock { duration: INTRO.duration, ..still(3.0, None) };
+        for (number, part) in PARTS.iter().enumerate() {
+            clock.jump(number);
+            assert_eq!(clock.now(), Some(part.0));
+        }
+        clock.seek(2.0);
+        let there = clock.now();
+        clock.jump(PARTS.len());
+        assert_eq!(clock.now(), there);
+        // A range stops at its start, and a part past its end ends it.
+        let mut clock = still(3.0, Some(7.0));
+        clock.jump(0);
+        assert_eq!(clock.now(), Some(1.0));
+        clock.jump(PARTS.len() - 1);
+        assert_eq!(clock.now(), if PARTS.len() > 1 { None } else { Some(1.0) });
+    }
+
+    #[test]
+    fn time_stands_still_while_paused() {
+        let mut clock = Clock { since: Some(Instant::now()), ..still(2.0, None) };
+        clock.toggle();
+        assert!(clock.rests());
+        let paused = clock.now();
+        assert!(paused >= Some(2.0));
+        assert_eq!(clock.now(), paused);
+        clock.toggle();
+        assert!(clock.now() >= paused);
+    }
+}

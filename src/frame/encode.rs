@@ -1,0 +1,177 @@
+//! From linear light to the 8-bit pixels of a screen.
+//!
+//! The scalar functions are the truth, in f64; [`encode`] is what a frame uses.
+
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::math::{exp2_within, log2};
+use fearless_simd::{Simd, prelude::*};
+use fearless_simd_macros::simd;
+
+/// How linear light becomes an 8-bit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// `round(255 c^(1/2.2))`, no dither: what the bench scenes specify.
+    Gamma22,
+    /// `round(255 c)`, no dither: likewise, where it is display light that is mixed.
+    Linear,
+    /// The piecewise sRGB curve with an unbiased dither.
+    Srgb,
+}
+
+/// The code for linear light, 0 to 1, of display light 0 to 1: IEC 61966-2-1. Values outside are clamped, NaN is 0.
+pub fn srgb_encode(linear: f32) -> f32 {
+    let c = clamp(linear);
+    (if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }) as f32
+}
+
+/// The linear light of an sRGB code of 0 to 1. Values outside are clamped, NaN is 0.
+pub fn srgb_decode(code: f32) -> f32 {
+    let v = clamp(code);
+    (if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }) as f32
+}
+
+/// `linear^(1/2.2)`. Values outside 0 to 1 are clamped, NaN is 0.
+pub fn gamma22_encode(linear: f32) -> f32 {
+    clamp(linear).powf(1.0 / 2.2) as f32
+}
+
+/// 0 to 1; NaN is 0.
+fn clamp(x: f32) -> f64 {
+    if x > 0.0 { x.min(1.0) as f64 } else { 0.0 }
+}
+
+/// The code of one channel (0 red, 1 green, 2 blue) of the pixel at column `x` and row `y`: 0 to 255.
+///
+/// Black is always 0 and full light 255; NaN is 0.
+pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -> u32 {
+    let (value, threshold) = match transfer {
+        Transfer::Gamma22 => (gamma22_encode(linear), 0.5),
+        Transfer::Linear => (clamp(linear) as f32, 0.5),
+        Transfer::Srgb => (srgb_encode(linear), dither(x, y, channel)),
+    };
+    (255.0 * value as f64 + threshold as f64) as u32
+}
+
+/// Steps of the dither along x and y, 2^-32: the inverse plastic number and its square, rounded to odd numbers so that
+/// every value comes before one comes again.
+const STEP_X: u32 = 0xC13F_A9A9;
+const STEP_Y: u32 = 0x91E1_0DA5;
+/// Steps of the dither from red to green to blue, 2^-32: a third, so that the three seldom round up together.
+const STEP_CHANNEL: u32 = 0x5555_5555;
+
+/// The dither added before a code is truncated, 0 to 1 - 2^-16.
+///
+/// Roberts' R2 sequence laid out over the picture: neighbours differ, and every area has all values equally often, so
+/// the mean over it is the value itself. 16 bits, so that 255 and a dither stay below 256 in f32.
+///
+/// M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
+fn dither(x: u32, y: u32, channel: u32) -> f32 {
+    let turns = x.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
+    let turns = turns.wrapping_add(channel.wrapping_mul(STEP_CHANNEL));
+    (turns >> 16) as f32 * (1.0 / 65536.0)
+}
+
+/// A transfer function times 255, `scale c^exponent - offset` but `toe c` up to `toe_end`, and what is added to it.
+///
+/// Numbers for both rather than a branch: the code is there once, and the loop has none.
+struct Curve {
+    exponent: f32,
+    scale: f32,
+    offset: f32,
+    toe: f32,
+    toe_end: f32,
+    /// Added before truncation: `round + dither d` for a dither of `d`, 0 to 2^16 - 1.
+    round: f32,
+    dither: f32,
+}
+
+const GAMMA22: Curve =
+    Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0, round: 0.5, dither: 0.0 };
+/// All toe.
+const LINEAR: Curve = Curve { toe: 255.0, toe_end: 1.0, ..GAMMA22 };
+const SRGB: Curve = Curve {
+    exponent: 1.0 / 2.4,
+    scale: 255.0 * 1.055,
+    offset: 255.0 * 0.055,
+    toe: 255.0 * 12.92,
+    toe_end: 0.003_130_8,
+    round: 0.0,
+    dither: 1.0 / 65536.0,
+};
+
+/// Encodes a row of linear light, from pixel (`x0`, `y`) on, to `0x00RRGGBB`: [`quantize`] for every channel, but for
+/// values within 1e-4 codes of a step. The same bits at every SIMD level.
+///
+/// Panics where a channel is shorter than `out`.
+#[simd]
+#[allow(clippy::too_many_arguments)] // Three channels and where they lie.
+pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
+    let curve = match transfer {
+        Transfer::Gamma22 => GAMMA22,
+        Transfer::Linear => LINEAR,
+        Transfer::Srgb => SRGB,
+    };
+    let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
+    let mut done = 0;
+    while done < out.len() {
+        let end = out.len();
+        let (r, g, b, out) = (&r[done..end], &g[done..end], &b[done..end], &mut out[done..]);
+        if let (Some(r), Some(g), Some(b), Some(out)) =
+            (r.first_chunk(), g.first_chunk(), b.first_chunk(), out.first_chunk_mut())
+        {
+            encode_block(simd, &curve, turns, [r, g, b], out);
+        } else {
+            let (mut rest, mut pixels) = ([[0.0; BLOCK]; 3], [0; BLOCK]);
+            for (block, plane) in rest.iter_mut().zip([r, g, b]) {
+                block[..plane.len()].copy_from_slice(plane);
+            }
+            encode_block(simd, &curve, turns, [&rest[0], &rest[1], &rest[2]], &mut pixels);
+            out.copy_from_slice(&pixels[..out.len()]);
+        }
+        turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));
+        done += BLOCK;
+    }
+}
+
+/// Encodes a block of red, green and blue, the dither of whose first pixel is `turns`.
+#[simd]
+fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOCK]; 3], pixels: &mut [u32; BLOCK]) {
+    // The dither of the first pixels; further ones are a step of so many pixels on.
+    let mut lanes = [turns; 16];
+    for (x, lane) in (0u32..).zip(&mut lanes) {
+        *lane = turns.wrapping_add(STEP_X.wrapping_mul(x));
+    }
+    let mut along = S::u32s::from_slice(simd, &lanes[..S::u32s::LEN]);
+    let mut i = 0;
+    while i < BLOCK / S::f32s::LEN {
+        let mut turns = along;
+        let mut pixel = S::u32s::splat(simd, 0);
+        // Unrolled, the three are chains of operations that need not wait for each other.
+        for plane in light {
+            let c = limit(simd, load(simd, plane, i));
+            let power = exp2_within(simd, log2(simd, c) * curve.exponent);
+            pixel = (pixel << 8) | code::<S>(curve, c, power, turns);
+            turns += STEP_CHANNEL;
+        }
+        store(pixel, pixels, i);
+        along += STEP_X.wrapping_mul(S::u32s::LEN as u32);
+        i += 1;
+    }
+}
+
+/// Linear light from the least normal number, which stands for black and for NaN, to 1.
+#[inline(always)]
+fn limit<S: Simd>(simd: S, linear: S::f32s) -> S::f32s {
+    // Comparisons, as the minimum of a NaN is not the same everywhere.
+    let (black, white) = (S::f32s::splat(simd, f32::MIN_POSITIVE), S::f32s::splat(simd, 1.0));
+    let c = linear.simd_gt(black).select(linear, black);
+    c.simd_lt(white).select(c, white)
+}
+
+/// The codes of one channel of linear light `c` whose power has been taken.
+#[inline(always)]
+fn code<S: Simd>(curve: &Curve, c: S::f32s, power: S::f32s, turns: S::u32s) -> S::u32s {
+    let value = c.simd_le(curve.toe_end).select(c * curve.toe, power * curve.scale - curve.offset);
+    let dither = (turns >> 16).bitcast::<S::i32s>().to_float::<S::f32s>() * curve.dither + curve.round;
+    (value + dither).to_int::<S::i32s>().bitcast()
+}

@@ -1,0 +1,111 @@
+//! Frames to the size of a window, for a window that does not do it by itself.
+
+use crate::frame::Frame;
+use std::ops::Range;
+
+/// Columns and rows of a frame as large as it fits into a window, in its own aspect.
+pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
+    let columns = (height * frame.width / frame.height).min(width).max(1);
+    (columns, (width * frame.height / frame.width).min(height).max(1))
+}
+
+/// Rows of the frame at `columns` x `count` pixels, interpolated between the nearest four of its own: four bytes a pixel,
+/// as it lies in memory.
+pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
+    let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
+    let mut bytes = vec![0; 4 * columns * rows.len()];
+    for (row, line) in rows.zip(bytes.chunks_exact_mut(4 * columns)) {
+        let (upper, lower, below) = tap(row, down, frame.height);
+        let (upper, lower) = (&frame.pixels[upper * frame.width..], &frame.pixels[lower * frame.width..]);
+        for (column, place) in line.as_chunks_mut().0.iter_mut().enumerate() {
+            let (left, right, beyond) = tap(column, across, frame.width);
+            let mixed = [left, right].map(|at| mix(spread(upper[at]), spread(lower[at]), below));
+            let pixel = mix(mixed[0], mixed[1], beyond);
+            *place = ((pixel | pixel >> 24) as u32).to_le_bytes();
+        }
+    }
+    bytes
+}
+
+/// Between which two of `from` pixels the middle of pixel `number` lies where each is as wide as `width` 65536ths of
+/// those, and how far beyond the first, in 256ths.
+fn tap(number: usize, width: usize, from: usize) -> (usize, usize, u64) {
+    let place = (number * width + width / 2).saturating_sub(1 << 15);
+    let first = place >> 16;
+    (first, (first + 1).min(from - 1), (place >> 8) as u64 & 255)
+}
+
+/// The channels, each with room for its product with a share: blue, red, green.
+const CHANNELS: u64 = 0xff_00ff_00ff;
+
+/// A pixel with its green above the others.
+fn spread(pixel: u32) -> u64 {
+    (u64::from(pixel) | u64::from(pixel) << 24) & CHANNELS
+}
+
+/// All channels between two.
+fn mix(a: u64, b: u64, share: u64) -> u64 {
+    (a * (256 - share) + b * share) >> 8 & CHANNELS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(width: usize, height: usize) -> Frame {
+        let pixels = (0..width * height).map(|i| (i as u32).wrapping_mul(0x9e3779b1) & 0xffffff).collect();
+        Frame { width, height, pixels }
+    }
+
+    fn scaled(frame: &Frame, columns: usize, count: usize) -> Vec<u32> {
+        let bytes = rows(frame, columns, count, 0..count);
+        bytes.as_chunks().0.iter().map(|pixel| u32::from_le_bytes(*pixel)).collect()
+    }
+
+    #[test]
+    fn the_same_size_is_the_same_picture() {
+        for (width, height) in [(1, 1), (7, 3), (320, 180)] {
+            let frame = frame(width, height);
+            assert_eq!(scaled(&frame, width, height), frame.pixels);
+        }
+    }
+
+    #[test]
+    fn bands_are_the_whole() {
+        let frame = frame(16, 9);
+        let bands: Vec<_> = [0..5, 5..6, 6..40].map(|band| rows(&frame, 50, 40, band)).concat();
+        assert_eq!(bands, rows(&frame, 50, 40, 0..40));
+    }
+
+    #[test]
+    fn between_pixels_it_is_linear() {
+        let frame = Frame { width: 2, height: 1, pixels: vec![0x000000, 0xff8040] };
+        // The middles of eight pixels are at -3/8, -1/8, 1/8 ... of the distance of the two.
+        let expected = [0x000000, 0x000000, 0x1f1008, 0x5f3018, 0x9f5028, 0xdf7038, 0xff8040, 0xff8040];
+        assert_eq!(scaled(&frame, 8, 1), expected);
+        // The mean of two and two where it is halved.
+        assert_eq!(scaled(&frame, 1, 1), [0x7f4020]);
+    }
+
+    #[test]
+    fn one_colour_stays_it_at_any_size() {
+        let frame = Frame { width: 5, height: 4, pixels: vec![0xfffefd; 20] };
+        for (columns, count) in [(1, 1), (3, 7), (5, 4), (64, 33)] {
+            assert_eq!(scaled(&frame, columns, count), vec![0xfffefd; columns * count]);
+        }
+    }
+
+    #[test]
+    fn the_aspect_is_kept() {
+        let frame = frame(1280, 720);
+        for (window, expected) in [
+            ((1280, 720), (1280, 720)),
+            ((1920, 1200), (1920, 1080)),
+            ((3440, 1440), (2560, 1440)),
+            ((320, 300), (320, 180)),
+            ((1, 1), (1, 1)),
+        ] {
+            assert_eq!(fit(&frame, window), expected);
+        }
+    }
+}

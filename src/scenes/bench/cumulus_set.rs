@@ -1,0 +1,94 @@
+//! The voxels and clouds that volume renderers are compared by, after the specification.
+
+use crate::cloud::march::Cloud;
+use crate::cloud::shape::Kind;
+use crate::cloud::voxels::Voxels;
+use crate::simd::hash::rnd;
+use crate::simd::level;
+use fearless_simd::dispatch;
+use glam::{DVec3, Vec3, dvec3, vec3};
+use std::sync::{Arc, OnceLock};
+
+/// Points along an edge.
+const EDGE: usize = 64;
+
+/// Direction to the sun.
+pub fn sun() -> Vec3 {
+    vec3(0.6, 0.55, 0.45).normalize()
+}
+
+/// Shape `k` of four, made when it is first asked for.
+pub fn shape(k: usize) -> Arc<Voxels> {
+    static SHAPES: [OnceLock<Arc<Voxels>>; 4] = [const { OnceLock::new() }; 4];
+    let grow = || {
+        let level = level::best();
+        let mut voxels = dispatch!(level, simd => Kind::grow(simd, &Kind::CUMULUS, k as u32, EDGE));
+        voxels.light = bake(&voxels.density);
+        voxels.pack();
+        Arc::new(voxels)
+    };
+    SHAPES[k].get_or_init(grow).clone()
+}
+
+/// Eye and view direction of `cumulus`, `cumulus-inside` and `sky-of-clouds` at `t` seconds.
+pub fn camera(variant: usize, t: f64) -> (DVec3, DVec3) {
+    let a = 0.3 * t + [1.6, 0.4, 0.0][variant];
+    match variant {
+        0 => {
+            let eye = dvec3(105.0 * a.sin(), 42.0, 105.0 * a.cos());
+            (eye, dvec3(0.0, 62.0, 0.0) - eye)
+        }
+        1 => {
+            let eye = dvec3(27.0 * a.sin(), 55.0 + 5.0 * (0.8 * t).sin(), 27.0 * a.cos());
+            (eye, dvec3((a + 0.3).cos(), 0.25, -(a + 0.3).sin()))
+        }
+        _ => {
+            let b = 0.1 * t + 2.3;
+            (dvec3(-700.0 + 10.0 * t, 25.0, 620.0 - 9.0 * t), dvec3(b.sin(), 0.22, b.cos()))
+        }
+    }
+}
+
+/// The clouds of a variant.
+pub fn clouds(variant: usize) -> Vec<Cloud> {
+    if variant < 2 {
+        let extinction = [30.0, 10.0][variant];
+        return vec![Cloud { voxels: shape(0), centre: vec3(0.0, 60.0, 0.0), size: 50.0, extinction }];
+    }
+    let cloud = |i: u32| {
+        let r = |k: u32| rnd(1, i, k);
+        let size = 45.0 + 55.0 * r(3) * r(3);
+        let centre = vec3(1800.0 * (r(0) - 0.5), 130.0 + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
+        Cloud { voxels: shape(i as usize % 4), centre, size, extinction: 30.0 }
+    };
+    (0..100).map(cloud).collect()
+}
+
+/// The sun's light at each voxel: 60 samples towards it, one voxel apart.
+fn bake(density: &[u8]) -> Vec<u8> {
+    // A margin of nothing, as far as a sample may stick out.
+    const WIDE: usize = EDGE + 2;
+    let mut padded = vec![0.0; WIDE * WIDE * WIDE];
+    for (at, density) in density.iter().enumerate() {
+        let (i, j, l) = (at % EDGE + 1, at / EDGE % EDGE + 1, at / (EDGE * EDGE) + 1);
+        padded[i + WIDE * (j + WIDE * l)] = *density as f32 / 255.0;
+    }
+    let light = |at: usize| {
+        let start = Vec3::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(|i| (i + 1) as f32));
+        let mut depth = 0.0;
+        for s in 0..60 {
+            let p = start + sun() * (s as f32 + 0.5);
+            if p.max_element() >= (WIDE - 1) as f32 {
+                break;
+            }
+            let (base, f) = (p.floor(), p.fract());
+            let at = base.x as usize + WIDE * (base.y as usize + WIDE * base.z as usize);
+            let along = |at: usize| padded[at] + (padded[at + 1] - padded[at]) * f.x;
+            let face = |at: usize| along(at) + (along(at + WIDE) - along(at)) * f.y;
+            depth += face(at) + (face(at + WIDE * WIDE) - face(at)) * f.z;
+        }
+        let q = 30.0 * depth / 32.0;
+        (255.0 * (0.7 * (-0.5 * q).exp() + 0.3 * (-0.06 * q).exp())).round() as u8
+    };
+    (0..EDGE * EDGE * EDGE).map(light).collect()
+}

@@ -1,0 +1,90 @@
+//! The bench scenes `spheres`, `spheres-flat` and `spheres-glass`, as specified for every renderer that is compared.
+
+use crate::frame::Picture;
+use crate::frame::encode::Transfer;
+use crate::frame::{FrameSpec, Scene};
+use crate::scenes::traced;
+use crate::texture::{Palette, Pattern, Texture};
+use crate::trace::shape::Shape;
+use crate::trace::world::{Light, Material, Object, Sky, Source, World};
+use crate::view::Camera;
+use glam::{Vec3, vec3};
+use std::f64::consts::FRAC_PI_4;
+
+/// Textured.
+pub const SPHERES: Scene =
+    Scene { name: "spheres", about: "bench: nine spheres, noise textures", duration: 20.0, picture: textured };
+/// Without textures.
+pub const SPHERES_FLAT: Scene =
+    Scene { name: "spheres-flat", about: "bench: the same in plain colours", duration: 20.0, picture: flat };
+/// With a glass ball.
+pub const SPHERES_GLASS: Scene = Scene {
+    name: "spheres-glass",
+    about: "bench: plain colours, the middle one of glass",
+    duration: 20.0,
+    picture: glass,
+};
+
+fn textured(spec: &FrameSpec) -> Picture {
+    traced(spec, world(spec.time, true, false), camera(spec.time), Transfer::Gamma22)
+}
+
+fn flat(spec: &FrameSpec) -> Picture {
+    traced(spec, world(spec.time, false, false), camera(spec.time), Transfer::Gamma22)
+}
+
+fn glass(spec: &FrameSpec) -> Picture {
+    traced(spec, world(spec.time, false, true), camera(spec.time), Transfer::Gamma22)
+}
+
+/// The camera at `time` seconds.
+pub fn camera(time: f64) -> Camera {
+    let (sin, cos) = (0.3 * time).sin_cos();
+    let eye = vec3(7.0 * sin as f32, 2.5, 7.0 * cos as f32);
+    Camera::look_at(eye, vec3(0.0, 0.8, 0.0), 50f32.to_radians(), 0.0)
+}
+
+/// The world at `time` seconds.
+pub fn world(time: f64, textured: bool, glass: bool) -> World {
+    let mut objects = Vec::with_capacity(10);
+    for i in 0..8 {
+        let a = i as f64 * FRAC_PI_4 + 0.4 * time;
+        let center = vec3(2.6 * a.cos() as f32, (0.85 + 0.25 * (2.0 * a + time).sin()) as f32, 2.6 * a.sin() as f32);
+        let hue = Vec3::splat(i as f32 / 8.0) + vec3(0.0, 0.33, 0.67);
+        let color = Vec3::splat(0.55) + (hue * std::f32::consts::TAU).map(f32::cos) * 0.45;
+        let albedo = if textured {
+            // C (0.6 + 0.4 fbm4(4 P)), and the field is 1/2 + 1/2 fbm.
+            Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(color * 0.2, color), 4.0)
+        } else {
+            Texture::plain(color * 0.6)
+        };
+        let material = Material::matt(albedo).polished(0.25, 0.5, 48.0);
+        objects.push(Object { shape: Shape::Sphere { center, radius: 0.55 }, material, casts_shadow: true });
+    }
+    let middle = if glass {
+        Material::glass(1.5, Vec3::ONE)
+    } else {
+        Material::matt(Texture::plain(Vec3::splat(0.1))).polished(0.8, 0.8, 64.0)
+    };
+    let shape = Shape::Sphere { center: vec3(0.0, 1.1, 0.0), radius: 1.1 };
+    objects.push(Object { shape, material: middle, casts_shadow: !glass });
+    let floor = if textured {
+        let palette = Palette::Mix(vec3(0.15, 0.17, 0.2), vec3(0.9, 0.88, 0.8));
+        Texture::new(Pattern::Marble { warp: 8.0, scale: 4.0, octaves: 4 }, palette, 4.0)
+    } else {
+        Texture::plain(vec3(0.55, 0.54, 0.5))
+    };
+    let material = Material::matt(floor).polished(0.15, 0.2, 32.0);
+    objects.push(Object { shape: Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material, casts_shadow: false });
+    let light = |position, color| Light { source: Source::Point(position), color, radius: 0.0 };
+    World {
+        objects,
+        lights: vec![
+            light(vec3(4.0, 6.0, 3.0), vec3(0.9, 0.85, 0.8)),
+            light(vec3(-5.0, 4.0, -2.0), vec3(0.35, 0.4, 0.5)),
+        ],
+        ambient: Vec3::splat(0.08),
+        sky: Sky { horizon: vec3(0.75, 0.8, 0.9), zenith: vec3(0.2, 0.35, 0.6), glow: (Vec3::Y, Vec3::ZERO, 0.0) },
+        max_level: if glass { 6 } else { 4 },
+    }
+}

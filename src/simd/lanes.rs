@@ -1,0 +1,158 @@
+//! Vectors of three lanes, and the few lane operations that the kernels share.
+//!
+//! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
+
+use crate::simd::block::{BLOCK, load, store};
+use fearless_simd::prelude::*;
+use glam::Vec3;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// The native lanes of f32 of a SIMD level.
+pub type F<S> = <S as Simd>::f32s;
+/// The native lanes of u32.
+pub type U<S> = <S as Simd>::u32s;
+/// A mask over the native 32-bit lanes.
+pub type M<S> = <S as Simd>::mask32s;
+
+/// One `Vec3` a lane.
+#[derive(Clone, Copy)]
+pub struct V3<S: Simd> {
+    /// x of every lane.
+    pub x: F<S>,
+    /// y of every lane.
+    pub y: F<S>,
+    /// z of every lane.
+    pub z: F<S>,
+}
+
+impl<S: Simd> V3<S> {
+    /// The same vector in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, v: Vec3) -> V3<S> {
+        V3 { x: F::<S>::splat(simd, v.x), y: F::<S>::splat(simd, v.y), z: F::<S>::splat(simd, v.z) }
+    }
+
+    /// Vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn load(simd: S, blocks: &[[f32; BLOCK]; 3], i: usize) -> V3<S> {
+        V3 { x: load(simd, &blocks[0], i), y: load(simd, &blocks[1], i), z: load(simd, &blocks[2], i) }
+    }
+
+    /// Writes vector `i` of blocks of x, y and z.
+    #[inline(always)]
+    pub fn store(self, blocks: &mut [[f32; BLOCK]; 3], i: usize) {
+        store(self.x, &mut blocks[0], i);
+        store(self.y, &mut blocks[1], i);
+        store(self.z, &mut blocks[2], i);
+    }
+
+    /// Inner product.
+    #[inline(always)]
+    pub fn dot(self, o: V3<S>) -> F<S> {
+        self.x * o.x + self.y * o.y + self.z * o.z
+    }
+
+    /// Inner product with one vector.
+    #[inline(always)]
+    pub fn dot1(self, o: Vec3) -> F<S> {
+        self.x * o.x + self.y * o.y + self.z * o.z
+    }
+
+    /// This minus one vector.
+    #[inline(always)]
+    pub fn sub1(self, o: Vec3) -> V3<S> {
+        V3 { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
+    }
+
+    /// Componentwise product.
+    #[inline(always)]
+    pub fn mulv(self, o: V3<S>) -> V3<S> {
+        V3 { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
+    }
+
+    /// The largest component.
+    #[inline(always)]
+    pub fn max_element(self) -> F<S> {
+        self.x.max(self.y).max(self.z)
+    }
+
+    /// The vector of the first lane.
+    #[inline(always)]
+    pub fn first(self) -> Vec3 {
+        Vec3::new(self.x[0], self.y[0], self.z[0])
+    }
+
+    /// `a` where the mask holds, else `b`.
+    #[inline(always)]
+    pub fn select(mask: M<S>, a: V3<S>, b: V3<S>) -> V3<S> {
+        V3 { x: mask.select(a.x, b.x), y: mask.select(a.y, b.y), z: mask.select(a.z, b.z) }
+    }
+
+    /// `self` where the mask holds, else zero.
+    #[inline(always)]
+    pub fn masked(self, simd: S, mask: M<S>) -> V3<S> {
+        let zero = F::<S>::splat(simd, 0.0);
+        V3 { x: mask.select(self.x, zero), y: mask.select(self.y, zero), z: mask.select(self.z, zero) }
+    }
+}
+
+impl<S: Simd> Add for V3<S> {
+    type Output = V3<S>;
+    #[inline(always)]
+    fn add(self, o: V3<S>) -> V3<S> {
+        V3 { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
+    }
+}
+
+impl<S: Simd> Sub for V3<S> {
+    type Output = V3<S>;
+    #[inline(always)]
+    fn sub(self, o: V3<S>) -> V3<S> {
+        V3 { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
+    }
+}
+
+impl<S: Simd> Neg for V3<S> {
+    type Output = V3<S>;
+    #[inline(always)]
+    fn neg(self) -> V3<S> {
+        V3 { x: -self.x, y: -self.y, z: -self.z }
+    }
+}
+
+/// Scales every component of a lane by that lane's number.
+impl<S: Simd> Mul<Lane<S>> for V3<S> {
+    type Output = V3<S>;
+    #[inline(always)]
+    fn mul(self, k: Lane<S>) -> V3<S> {
+        V3 { x: self.x * k.0, y: self.y * k.0, z: self.z * k.0 }
+    }
+}
+
+/// One number a lane, for `V3 * Lane`.
+#[derive(Clone, Copy)]
+pub struct Lane<S: Simd>(pub F<S>);
+
+/// 0, 1, 2, as many as there are lanes.
+pub static STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+/// Whole numbers with a sign as numbers.
+#[inline(always)]
+pub fn float<S: Simd>(_simd: S, n: U<S>) -> F<S> {
+    n.bitcast::<S::i32s>().to_float()
+}
+
+/// The lanes for which a mask holds, lowest first.
+pub struct Bits(pub u64);
+
+impl Iterator for Bits {
+    type Item = usize;
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        (self.0 != 0).then(|| {
+            let lane = self.0.trailing_zeros() as usize;
+            self.0 &= self.0 - 1;
+            lane
+        })
+    }
+}

@@ -1,0 +1,243 @@
+//! The plain truth beside the packets: one ray at a time, recursion as in the textbook (Whitted 1980).
+//!
+//! Same conventions as [`super::packet`], no lanes, no deferred textures, no thresholds.
+
+use super::shape::{FAR, Shape};
+use super::world::{Light, Source, World};
+use glam::{Mat3, Vec3};
+
+/// Where the line `o + t d`, `|d| = 1`, is inside a body: entry and exit, none where it never is.
+pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
+    let (t0, t1) = match *shape {
+        Shape::Sphere { center, radius } => {
+            let q = o - center;
+            let b = -q.dot(d);
+            let m = q + d * b;
+            let disc = radius * radius - m.dot(m);
+            let far = b + disc.max(0.0).sqrt().copysign(b);
+            let near = (q.dot(q) - radius * radius) / far;
+            (disc > 0.0).then(|| (far.min(near), far.max(near)))?
+        }
+        Shape::Plane { normal, offset } => {
+            let (speed, height) = (d.dot(normal), o.dot(normal) - offset);
+            match speed {
+                s if s < 0.0 => (-height / s, FAR),
+                s if s > 0.0 => (-FAR, -height / s),
+                _ => (height <= 0.0).then_some((-FAR, FAR))?,
+            }
+        }
+        #[cfg(feature = "full")]
+        Shape::Globe { touch, normal, radius } => {
+            let q = o - touch;
+            let (along, slope) = (q.dot(d), d.dot(normal));
+            let m = q - d * along;
+            let disc = slope * slope * radius - 2.0 * m.dot(normal) - m.dot(m) / radius;
+            let b = -(along + slope * radius);
+            let far = b + (disc.max(0.0) * radius).sqrt().copysign(b);
+            let near = (q.dot(q) + 2.0 * radius * q.dot(normal)) / far;
+            (disc > 0.0).then(|| (far.min(near), far.max(near)))?
+        }
+        Shape::Block { center, half, turn } => {
+            let (o, d) = (turn * (o - center), turn * d);
+            let mut span = (-FAR, FAR);
+            for axis in 0..3 {
+                let (a, b) = slab(o[axis], d[axis], half[axis]);
+                span = (span.0.max(a), span.1.min(b));
+            }
+            span
+        }
+        Shape::Cylinder { center, axis, half, radius } => {
+            let q = o - center;
+            let (qa, da) = (q.dot(axis), d.dot(axis));
+            let (c0, c1) = slab(qa, da, half);
+            let (q, d) = (q - axis * qa, d - axis * da);
+            let a = d.dot(d).max(1e-12);
+            let b = -q.dot(d) / a;
+            let m = q + d * b;
+            let disc = radius * radius - m.dot(m);
+            let s = (disc.max(0.0) / a).sqrt();
+            (disc > 0.0).then(|| (c0.max(b - s), c1.min(b + s)))?
+        }
+    };
+    (t0 <= t1).then_some((t0, t1))
+}
+
+/// Where a line is between `-half` and `half` on one axis.
+fn slab(o: f32, d: f32, half: f32) -> (f32, f32) {
+    let d = d.abs().max(1e-20).copysign(d);
+    let (a, b) = ((-half - o) / d, (half - o) / d);
+    (a.min(b), a.max(b))
+}
+
+impl Shape {
+    /// Unit outward normal at a point of the surface.
+    pub fn normal_at(&self, p: Vec3) -> Vec3 {
+        match *self {
+            Shape::Sphere { center, .. } => (p - center).normalize(),
+            Shape::Plane { normal, .. } => normal,
+            #[cfg(feature = "full")]
+            Shape::Globe { touch, normal, radius } => ((p - touch) / radius + normal).normalize(),
+            Shape::Block { center, half, turn } => {
+                let q = turn * (p - center);
+                let axis = (q / half).abs().max_position();
+                Mat3::transpose(&turn).col(axis) * q[axis].signum()
+            }
+            Shape::Cylinder { center, axis, half, radius } => {
+                let q = p - center;
+                let h = q.dot(axis);
+                let round = q - axis * h;
+                if h.abs() / half >= round.length() / radius { axis * h.signum() } else { round.normalize() }
+            }
+        }
+    }
+}
+
+/// Index and distance of the nearest body in front of a point, among those that `counts`.
+pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
+    first(world, o, d, |index| if counts(index) { Exits::Both } else { Exits::None })
+}
+
+/// Which crossings of a body's surface count.
+enum Exits {
+    None,
+    Far,
+    Both,
+}
+
+fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
+    let mut best = None;
+    for (index, body) in world.objects.iter().enumerate() {
+        let Some((t0, t1)) = span(&body.shape, o, d) else { continue };
+        let t = match exits(index) {
+            Exits::None => continue,
+            Exits::Far => t1,
+            Exits::Both if t0 > 0.0 => t0,
+            Exits::Both => t1,
+        };
+        if t > 0.0 && best.is_none_or(|(_, b)| t < b) && t < FAR {
+            best = Some((index, t));
+        }
+    }
+    best
+}
+
+/// A ray and where it comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Start.
+    pub origin: Vec3,
+    /// Unit direction.
+    pub direction: Vec3,
+    /// The body whose surface it leaves, and whether inwards.
+    pub from: Option<(usize, bool)>,
+}
+
+impl Ray {
+    /// A ray that leaves no body.
+    pub fn new(origin: Vec3, direction: Vec3) -> Ray {
+        Ray { origin, direction, from: None }
+    }
+}
+
+/// The light that comes back along a ray: linear radiance. Lights with a size are taken as points.
+pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
+    if level > world.max_level {
+        return Vec3::ZERO;
+    }
+    let Ray { origin, direction, from } = ray;
+    let hit = first(world, origin, direction, |index| match from {
+        Some((f, inward)) if f == index => {
+            if inward {
+                Exits::Far
+            } else {
+                Exits::None
+            }
+        }
+        _ => Exits::Both,
+    });
+    let Some((index, t)) = hit else { return sky(world, direction) };
+    let body = &world.objects[index];
+    let material = &body.material;
+    let point = origin + direction * t;
+    let outward = body.shape.normal_at(point);
+    let inside = direction.dot(outward) > 0.0;
+    let normal = if inside { -outward } else { outward };
+    let cosine = -direction.dot(normal);
+    let mirrored = Ray { origin: point, direction: direction + normal * (2.0 * cosine), from: Some((index, false)) };
+
+    if material.is_glass() {
+        let eta = if inside { material.ior } else { 1.0 / material.ior };
+        let k = 1.0 - eta * eta * (1.0 - cosine * cosine);
+        let mirrored = Ray { from: Some((index, inside)), ..mirrored };
+        let (_, shine) = local(world, index, point, normal, direction);
+        if k <= 0.0 {
+            return shine + radiance(world, mirrored, level + 1);
+        }
+        let through = k.sqrt();
+        let s = (eta * cosine - through) / (eta * cosine + through);
+        let p = (eta * through - cosine) / (eta * through + cosine);
+        let share = 0.5 * (s * s + p * p);
+        let refracted = Ray {
+            origin: point,
+            direction: direction * eta + normal * (eta * cosine - through),
+            from: Some((index, !inside)),
+        };
+        return shine
+            + radiance(world, mirrored, level + 1) * share
+            + radiance(world, refracted, level + 1) * material.filter * (1.0 - share);
+    }
+    let grazing = (1.0 - cosine.min(1.0)).powi(5);
+    let mirror = material.reflectance + (Vec3::ONE - material.reflectance) * (material.fresnel * grazing);
+    let (diffuse, shine) = local(world, index, point, normal, direction);
+    let shaded = diffuse * material.albedo.color(point) + shine;
+    let mut sum = shaded * (Vec3::ONE - mirror);
+    if mirror.max_element() > 0.0 {
+        sum += radiance(world, mirrored, level + 1) * mirror;
+    }
+    sum
+}
+
+/// Diffuse and specular light at a point.
+fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3) -> (Vec3, Vec3) {
+    let material = &world.objects[index].material;
+    let (mut diffuse, mut specular) = (world.ambient, Vec3::ZERO);
+    if material.is_glass() && material.specular == 0.0 {
+        return (diffuse, specular);
+    }
+    for light in &world.lights {
+        let (aim, reach) = toward(light, point);
+        let cosine = normal.dot(aim);
+        if cosine <= 0.0 || shadowed(world, index, point, aim, reach) {
+            continue;
+        }
+        let glint = (aim - normal * (2.0 * cosine)).dot(direction);
+        diffuse += light.color * cosine;
+        if glint > 0.0 {
+            specular += light.color * (material.specular * glint.powf(material.exponent));
+        }
+    }
+    (diffuse, specular)
+}
+
+fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
+    match light.source {
+        Source::Point(position) => ((position - point).normalize(), (position - point).length()),
+        Source::Directional(direction) => (direction, FAR),
+    }
+}
+
+fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> bool {
+    world.objects.iter().enumerate().any(|(index, body)| {
+        body.casts_shadow
+            && index != from
+            && span(&body.shape, point, aim).is_some_and(|(t0, t1)| t1 > 0.0 && t0 < reach)
+    })
+}
+
+/// The sky in a direction.
+pub fn sky(world: &World, d: Vec3) -> Vec3 {
+    let sky = &world.sky;
+    let base = sky.horizon + (sky.zenith - sky.horizon) * d.y.max(0.0);
+    let (towards, color, exponent) = sky.glow;
+    if exponent == 0.0 { base } else { base + color * d.dot(towards).max(0.0).powf(exponent) }
+}

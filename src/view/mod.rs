@@ -1,0 +1,83 @@
+//! From pixels to eye rays, and from points to pixels.
+
+mod camera;
+
+use crate::simd::lanes::{F, Lane, V3};
+pub use camera::{Camera, Eye, Stereo};
+use fearless_simd::prelude::*;
+use glam::Vec3;
+
+/// From pixels to eye rays.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    camera: Camera,
+    /// Screen units of a pixel, and of the middle from the top left corner.
+    pixel: f32,
+    half: (f32, f32),
+}
+
+impl View {
+    /// The view of a camera on a picture of that many pixels.
+    pub fn new(camera: Camera, width: usize, height: usize) -> View {
+        let pixel = 2.0 / height as u32 as f32;
+        View { camera, pixel, half: (width as u32 as f32 / height as u32 as f32 - camera.shift, 1.0) }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The screen's middle, pixels from its top left corner, and what `right` and `up` times a metre are in pixels at one
+    /// metre.
+    pub fn screen(&self) -> ((f32, f32), f32) {
+        let scale = self.camera.right.length_squared();
+        ((self.half.0 / self.pixel, self.half.1 / self.pixel), 1.0 / (scale * self.pixel))
+    }
+
+    /// The angle of a pixel in the middle of the view, radians: the widest.
+    pub fn pixel(&self) -> f32 {
+        self.camera.up.length() * self.pixel
+    }
+
+    /// Unit normals, to the inside, of the planes through the eye and the picture's left, right, lower and upper edges.
+    pub fn sides(&self) -> [Vec3; 4] {
+        let c = &self.camera;
+        let aspect = self.half.0 + c.shift;
+        let side = |across: Vec3, most: f32| {
+            let length = across.length();
+            (across / length + c.forward * (most * length)).normalize()
+        };
+        [side(c.right, aspect - c.shift), side(-c.right, aspect + c.shift), side(c.up, 1.0), side(-c.up, 1.0)]
+    }
+
+    /// The unnormalised eye rays through points of the picture, in pixels from its top left corner.
+    #[inline(always)]
+    pub fn rays<S: Simd>(&self, simd: S, x: F<S>, y: F<S>) -> V3<S> {
+        let px = x * self.pixel - self.half.0;
+        let py = -(y * self.pixel) + self.half.1;
+        let c = &self.camera;
+        V3::splat(simd, c.forward) + V3::splat(simd, c.right) * Lane(px) + V3::splat(simd, c.up) * Lane(py)
+    }
+
+    /// The unnormalised eye ray through one point of the picture.
+    pub fn ray(&self, x: f32, y: f32) -> Vec3 {
+        let c = &self.camera;
+        c.forward + c.right * (x * self.pixel - self.half.0) + c.up * (self.half.1 - y * self.pixel)
+    }
+
+    /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
+    pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
+        let c = &self.camera;
+        let q = p - c.eye;
+        let depth = q.dot(c.forward);
+        if depth < 1e-3 {
+            return None;
+        }
+        let scale = c.right.length_squared();
+        let px = q.dot(c.right) / (scale * depth);
+        let py = q.dot(c.up) / (scale * depth);
+        let metre = 1.0 / (scale.sqrt() * depth * self.pixel);
+        Some(((px + self.half.0) / self.pixel, (self.half.1 - py) / self.pixel, metre))
+    }
+}

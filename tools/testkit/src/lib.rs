@@ -1,0 +1,1 @@
+//! What Paprsek's tests, benches and report share: oracles, pictures and metrics, and running the program.
