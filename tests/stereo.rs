@@ -8,7 +8,6 @@ use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
-use paprsek::texture::Texture;
 use paprsek::trace::{Material, Object, Shape, World};
 use paprsek::view::View;
 use paprsek::view::{Camera, Eye, Stereo};

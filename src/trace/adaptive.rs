@@ -1,4 +1,4 @@
-//! Adaptive subdivision by corners [Intro07], made safe: where the corners of a square agree, no more rays are traced.
+//! Adaptive subdivision by corners `[Intro07]`, made safe: where the corners of a square agree, no more rays are traced.
 //!
 //! A tile is cut into squares. The corners of each, which neighbours share, and its centre are traced. Where all five
 //! have the same path signature (the objects on every path, the state of every light at each hit) and the centre is what
@@ -107,73 +107,104 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     loop {
         for level in 0..LEVELS {
             let squares = std::mem::take(&mut work[level]);
-            for &Square { x, y, size } in &squares {
-                grid.want(x, y);
-                if size == 1 && unit == 1 {
-                    continue;
-                }
-                grid.want(x + size, y);
-                grid.want(x, y + size);
-                grid.want(x + size, y + size);
-                if size > unit {
-                    grid.want(x + size / 2, y + size / 2);
-                }
+            for &square in &squares {
+                want(grid, square, unit);
             }
             grid.trace(simd, job);
             for &square in &squares {
-                let Square { x, y, size } = square;
-                if size == 1 {
-                    if unit == 1 {
-                        whole.push(square);
-                    }
-                    continue;
-                }
-                let corners = grid.corners(square);
-                let same = same_path(corners);
-                // Parts of a pixel only refine the shares of its surfaces.
-                if size < unit {
-                    if !same {
+                match judge(simd, job, tile, grid, square) {
+                    Verdict::Done => {}
+                    Verdict::Whole => whole.push(square),
+                    Verdict::Cut => cutter.cut(work, square),
+                    Verdict::Edge => {
+                        edges.push(square);
                         cutter.cut(work, square);
                     }
-                    continue;
-                }
-                let finest = job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y));
-                // A pixel whose corners have one signature is their mean, however much light and point differ.
-                let agree = same
-                    && if size == unit {
-                        finest > 1
-                    } else {
-                        size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
-                    };
-                if agree {
-                    whole.push(square);
-                } else {
-                    if size == unit {
-                        edges.push(square);
-                    }
-                    cutter.cut(work, square);
                 }
             }
             work[level] = squares;
             work[level].clear();
         }
-        let mut at = 0;
-        let mut done = true;
-        while at < whole.len() {
-            let square = whole[at];
-            // Edges are followed down to pixels, not into them: samples on a pixel's border are half a pixel apart at most.
-            if square.size == unit || !grid.entered(square) {
-                at += 1;
-                continue;
-            }
-            done = false;
-            whole.swap_remove(at);
-            cutter.cut(work, square);
-        }
-        if done {
+        if !follow(grid, &cutter, work, whole) {
             break;
         }
     }
+}
+
+/// Asks for the samples that a square is judged by: its corners, and its centre if it is larger than a pixel of `unit`
+/// lattice steps. Where a corner is a pixel, a pixel has one sample.
+#[inline(always)]
+fn want(grid: &mut Grid, Square { x, y, size }: Square, unit: usize) {
+    grid.want(x, y);
+    if size == 1 && unit == 1 {
+        return;
+    }
+    grid.want(x + size, y);
+    grid.want(x, y + size);
+    grid.want(x + size, y + size);
+    if size > unit {
+        grid.want(x + size / 2, y + size / 2);
+    }
+}
+
+/// What becomes of a square.
+enum Verdict {
+    /// It needs nothing more.
+    Done,
+    /// It is interpolated, or it is a pixel that is traced itself.
+    Whole,
+    /// It is cut.
+    Cut,
+    /// It is a pixel that an edge runs through. It is cut for the shares of its surfaces.
+    Edge,
+}
+
+/// Judges a square whose samples are there.
+#[inline(always)]
+fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) -> Verdict {
+    let Square { x, y, size } = square;
+    let unit = job.unit();
+    if size == 1 {
+        return if unit == 1 { Verdict::Whole } else { Verdict::Done };
+    }
+    let corners = grid.corners(square);
+    let same = same_path(corners);
+    if size < unit {
+        return if same { Verdict::Done } else { Verdict::Cut };
+    }
+    let finest = job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y));
+    // A pixel whose corners have one signature is their mean, however much light and point differ.
+    let agree = same
+        && if size == unit {
+            finest > 1
+        } else {
+            size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
+        };
+    match agree {
+        true => Verdict::Whole,
+        false if size == unit => Verdict::Edge,
+        false => Verdict::Cut,
+    }
+}
+
+/// Cuts the squares that were to be interpolated but that an edge enters from a neighbour. Returns whether there were any.
+#[inline(always)]
+fn follow(grid: &Grid, cutter: &Cutter, work: &mut [Vec<Square>; LEVELS], whole: &mut Vec<Square>) -> bool {
+    let mut at = 0;
+    let mut any = false;
+    // Squares are removed on the way, so there is no range to iterate over.
+    while at < whole.len() {
+        let square = whole[at];
+        // Edges are followed down to pixels, not into them: samples on a pixel's border are half a pixel apart at most.
+        if square.size == cutter.unit || !grid.entered(square) {
+            at += 1;
+            continue;
+        }
+        any = true;
+        whole.swap_remove(at);
+        cutter.cut(work, square);
+    }
+    any
 }
 
 /// What cutting a square needs to know of the tile, in lattice steps.

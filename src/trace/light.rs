@@ -81,7 +81,7 @@ pub fn visibility<S: Simd>(
     seen * (1.0 / samples as f32)
 }
 
-/// Point `k` of `n` that are spread evenly over the unit disc along Vogel's spiral [Vogel79].
+/// Point `k` of `n` that are spread evenly over the unit disc along Vogel's spiral `[Vogel79]`.
 fn disc_point(k: u32, n: u32) -> (f32, f32) {
     const GOLDEN_ANGLE: f32 = 2.399_963_2;
     let radius = ((k as f32 + 0.5) / n as f32).sqrt();

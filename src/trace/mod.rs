@@ -1,4 +1,4 @@
-//! The ray tracer: Whitted's recursion [Whitted80] over convex bodies, with adaptive subdivision by corners [Intro07].
+//! The ray tracer: Whitted's recursion `[Whitted80]` over convex bodies, with adaptive subdivision by corners `[Intro07]`.
 //!
 //! A [`World`] of convex bodies, lights and a background becomes a [`TraceLayer`], which fills every pixel of a picture.
 //! Rays are traced at the corners of squares of pixels; where the corners agree, the square is interpolated. One flow
@@ -16,6 +16,37 @@
 //!
 //! What is approximated is in [`TraceSettings`](crate::settings::TraceSettings); its limit traces every pixel. The same
 //! recursion in plain scalar code, against which the tests hold the packets, is [`mod@reference`].
+//!
+//! A shining ball on a floor, one tile of it:
+//!
+//! ```
+//! use glam::{Vec3, vec3};
+//! use paprsek::frame::{Layer, Tile};
+//! use paprsek::settings::Quality;
+//! use paprsek::simd::level;
+//! use paprsek::trace::{Background, Light, Material, Object, Shape, TraceLayer, World};
+//! use paprsek::view::{Camera, View};
+//!
+//! let ball = Shape::Sphere { center: Vec3::Y, radius: 1.0 };
+//! let floor = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
+//! let world = World {
+//!     objects: vec![
+//!         Object::new(ball, Material::plain(vec3(0.8, 0.1, 0.1)).polished(0.2, 0.5, 50.0)),
+//!         Object::new(floor, Material::plain(Vec3::splat(0.5))).without_shadow(),
+//!     ],
+//!     lights: vec![Light::point(vec3(3.0, 5.0, 4.0), Vec3::ONE)],
+//!     ambient: Vec3::splat(0.1),
+//!     background: Background::gradient(vec3(0.7, 0.8, 0.9), vec3(0.2, 0.4, 0.7)),
+//!     ..World::default()
+//! };
+//! let camera = Camera::look_at(vec3(0.0, 1.5, 6.0), Vec3::Y, 0.8, 0.0);
+//! let layer = TraceLayer::new(world, &View::new(camera, 64, 64), &Quality::DEFAULT.trace);
+//! let mut tile = Tile::at(0, 0, 64, 64);
+//! layer.draw(level::best(), &mut tile);
+//! // The pixel in the middle shows the ball.
+//! let middle = 32 * Tile::SIZE + 32;
+//! assert!(tile.red[middle] > 2.0 * tile.blue[middle] && tile.inv_depth[middle] > 0.15);
+//! ```
 
 mod adaptive;
 mod deferred;

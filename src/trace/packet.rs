@@ -1,4 +1,4 @@
-//! Whitted's recursion [Whitted80] in packets: one eye ray per lane, followed through its whole tree of rays.
+//! Whitted's recursion `[Whitted80]` in packets: one eye ray per lane, followed through its whole tree of rays.
 //!
 //! All lanes of a packet take the same path of reflections and refractions; lanes that have nothing to follow there are
 //! switched off. The tree is walked depth first, mirrored rays at once and refracted ones from a stack:

@@ -1,4 +1,4 @@
-//! The reference for packets of rays: Whitted's recursion [Whitted80] as a textbook has it, one ray at a time.
+//! The reference for packets of rays: Whitted's recursion `[Whitted80]` as a textbook has it, one ray at a time.
 //!
 //! It has no lanes, no deferred textures and no thresholds, and takes lights with a radius as points. Conventions are those
 //! of [`super::ray`] and [`super::world`]. The tests hold the packets against it, and it against closed forms.

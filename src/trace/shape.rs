@@ -94,7 +94,7 @@ impl Shape {
     /// Where the mask is false the interval means nothing. A line that only touches a round body has none. Planes and
     /// globes are half-spaces and a ball, so an interval may reach to minus or plus [`FAR`].
     ///
-    /// The ball is tested in the projected form [Haines19]: the distance from the centre to the line's nearest point does
+    /// The ball is tested in the projected form `[Haines19]`: the distance from the centre to the line's nearest point does
     /// not cancel as `b^2 - 4ac` does far away.
     #[inline(always)]
     pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>, M<S>) {

@@ -63,7 +63,7 @@ impl<S: Simd> Surface<S> {
         V3 { x: self.numbers[at], y: self.numbers[at + 1], z: self.numbers[at + 2] }
     }
 
-    /// The share of each colour that is mirrored under an angle of incidence, by Schlick's approximation [Schlick94].
+    /// The share of each colour that is mirrored under an angle of incidence, by Schlick's approximation `[Schlick94]`.
     #[inline(always)]
     pub fn mirror(&self, simd: S, cosine: F<S>) -> V3<S> {
         let one = F::<S>::splat(simd, 1.0);

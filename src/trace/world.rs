@@ -1,8 +1,8 @@
 //! What the ray tracer is given: convex bodies with their materials, lights, and the background behind them.
 //!
 //! Light is linear; a colour is light per channel (red, green, blue) and may exceed 1. Lengths are metres, y points up.
-//! Nothing is validated: directions and axes that are called unit have to be, and where a number is not finite the
-//! body or light that has it may vanish or blacken pixels, but nothing panics.
+//! Nothing is validated: directions and axes that are called unit have to be of length 1, and numbers that are not finite
+//! give unspecified light.
 
 use super::shape::Shape;
 use crate::texture::Texture;
@@ -11,7 +11,7 @@ use glam::Vec3;
 /// How a surface answers light: Phong's model over a solid texture with a mirror on top, or clear glass.
 ///
 /// A matte surface reflects `albedo` times the light that falls on it by Lambert's law, and adds a highlight
-/// [Phong75]. The mirror takes its share of both and replaces it by the mirrored light. Glass has neither texture nor
+/// `[Phong75]`. The mirror takes its share of both and replaces it by the mirrored light. Glass has neither texture nor
 /// mirror: it splits light by Fresnel's law for unpolarised light, and adds a highlight.
 #[derive(Clone, Copy, Debug)]
 pub struct Material {
@@ -20,7 +20,7 @@ pub struct Material {
     /// Share of each colour that is mirrored at normal incidence, 0 to 1; the rest is shaded locally. Glass ignores it.
     pub reflectance: Vec3,
     /// How much of what lacks to a full mirror is added at grazing angles, 0 to 1, by the fifth power of Schlick's
-    /// approximation [Schlick94]. Glass ignores it.
+    /// approximation `[Schlick94]`. Glass ignores it.
     pub fresnel: f32,
     /// Weight of the highlight; 0 for none.
     pub specular: f32,
@@ -102,7 +102,7 @@ impl Object {
 /// Where light comes from.
 #[derive(Clone, Copy, Debug)]
 pub enum Emitter {
-    /// A point in space. Its light does not fall off with distance [Intro07].
+    /// A point in space. Its light does not fall off with distance `[Intro07]`.
     Point(Vec3),
     /// The unit direction towards a light that is infinitely far away.
     Directional(Vec3),
