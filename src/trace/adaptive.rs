@@ -22,7 +22,7 @@ use super::edge::Groups;
 use super::fill::{self, Ramps};
 use super::grid::{Grid, Square, same_path};
 use super::job::Job;
-use super::sample::{GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
+use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
 use crate::frame::Tile;
 use crate::settings::samples_per_axis;
 use crate::simd::lanes::F;
@@ -266,12 +266,11 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
 fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
     let mut mean = [0.0; NUMBERS];
     for i in (0..c[0].used()).step_by(F::<S>::LEN) {
-        let range = i..i + F::<S>::LEN;
-        let sum = F::<S>::from_slice(simd, &c[0].numbers[range.clone()])
-            + F::<S>::from_slice(simd, &c[1].numbers[range.clone()])
-            + F::<S>::from_slice(simd, &c[2].numbers[range.clone()])
-            + F::<S>::from_slice(simd, &c[3].numbers[range.clone()]);
-        (sum * 0.25).store_slice(&mut mean[range]);
+        let sum = sample::load(simd, &c[0].numbers, i)
+            + sample::load(simd, &c[1].numbers, i)
+            + sample::load(simd, &c[2].numbers, i)
+            + sample::load(simd, &c[3].numbers, i);
+        sample::store::<S>(sum * 0.25, &mut mean, i);
     }
     mean
 }

@@ -4,7 +4,7 @@
 //! surface in a pixel has its textures evaluated once.
 
 use super::grid::{Grid, Square, same_path};
-use super::sample::{NUMBERS, Sample};
+use super::sample::{self, NUMBERS, Sample};
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 
@@ -52,9 +52,8 @@ impl Groups {
         for group in &mut *groups {
             let k = 1.0 / group.share;
             for i in (0..group.mean.used()).step_by(F::<S>::LEN) {
-                let range = i..i + F::<S>::LEN;
-                let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
-                (sum * k).store_slice(&mut group.mean.numbers[range]);
+                let sum = sample::load(simd, &group.mean.numbers, i);
+                sample::store::<S>(sum * k, &mut group.mean.numbers, i);
             }
         }
         groups
@@ -78,10 +77,9 @@ impl Groups {
         }
         group.share += weight;
         for i in (0..sample.used()).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
-            let number = F::<S>::from_slice(simd, &sample.numbers[range.clone()]);
-            (sum + number * weight).store_slice(&mut group.mean.numbers[range]);
+            let sum = sample::load(simd, &group.mean.numbers, i);
+            let number = sample::load(simd, &sample.numbers, i);
+            sample::store::<S>(sum + number * weight, &mut group.mean.numbers, i);
         }
     }
 }

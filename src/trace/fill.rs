@@ -3,7 +3,9 @@
 use super::deferred::Deferred;
 use super::grid::{Grid, Square};
 use super::job::Job;
-use super::sample::{GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits};
+use super::sample::{
+    self, GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits,
+};
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
@@ -126,14 +128,13 @@ impl Patch {
         let zero = [0.0; NUMBERS];
         let mut patch = Patch { start: corners[0].numbers, along: zero, down: zero, twist: zero };
         for i in (0..corners[0].used()).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let a = F::<S>::from_slice(simd, &corners[0].numbers[range.clone()]);
-            let b = F::<S>::from_slice(simd, &corners[1].numbers[range.clone()]);
-            let c = F::<S>::from_slice(simd, &corners[2].numbers[range.clone()]);
-            let d = F::<S>::from_slice(simd, &corners[3].numbers[range.clone()]);
-            (b - a).store_slice(&mut patch.along[range.clone()]);
-            (c - a).store_slice(&mut patch.down[range.clone()]);
-            (d - c - b + a).store_slice(&mut patch.twist[range]);
+            let a = sample::load(simd, &corners[0].numbers, i);
+            let b = sample::load(simd, &corners[1].numbers, i);
+            let c = sample::load(simd, &corners[2].numbers, i);
+            let d = sample::load(simd, &corners[3].numbers, i);
+            sample::store::<S>(b - a, &mut patch.along, i);
+            sample::store::<S>(c - a, &mut patch.down, i);
+            sample::store::<S>(d - c - b + a, &mut patch.twist, i);
         }
         patch
     }

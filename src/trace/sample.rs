@@ -3,6 +3,9 @@
 //! A sample is a signature, which is compared, and a row of numbers, which are interpolated. The numbers lie in one array
 //! rather than in fields so that whole vectors of them can be summed and mixed at once.
 
+use crate::simd::lanes::F;
+use fearless_simd::prelude::*;
+
 /// Textured hits that a sample can remember. Later ones, the deepest and of least weight, are looked up on the spot.
 pub const REMEMBERED: usize = 4;
 
@@ -63,6 +66,18 @@ impl Sample {
     pub fn used(&self) -> usize {
         PLAIN + HIT * self.count as usize
     }
+}
+
+/// The vector of numbers that begins at `i`.
+#[inline(always)]
+pub fn load<S: Simd>(simd: S, numbers: &[f32; NUMBERS], i: usize) -> F<S> {
+    F::<S>::from_slice(simd, &numbers[i..i + F::<S>::LEN])
+}
+
+/// Writes the vector of numbers that begins at `i`.
+#[inline(always)]
+pub fn store<S: Simd>(value: F<S>, numbers: &mut [f32; NUMBERS], i: usize) {
+    value.store_slice(&mut numbers[i..i + F::<S>::LEN]);
 }
 
 /// The numbers of a sample by textured hit; those beyond its count mean nothing.
