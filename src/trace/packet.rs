@@ -150,14 +150,12 @@ pub fn trace<S: Simd>(simd: S, context: &TraceContext, xs: &[f32], ys: &[f32], o
 #[simd]
 fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sample], stack: &mut Vec<Node<S>>) {
     let TraceContext { world, limits, .. } = *context;
-    let eye = context.view.camera().eye;
     let zero = F::<S>::splat(simd, 0.0);
-    let one = F::<S>::splat(simd, 1.0);
     for sample in out.iter_mut() {
         // Numbers beyond `used` may stay what they were.
         (sample.count, sample.numbers[0], sample.numbers[1], sample.numbers[2]) = (0, 0.0, 0.0, 0.0);
     }
-    let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
+    let lanes = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
     let step = ray.dot(ray).sqrt();
     let mut path_signature = U::<S>::splat(simd, 0);
     let mut light = V3::splat(simd, Vec3::ZERO);
@@ -165,20 +163,8 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
     let mut gathered = zero;
     let mut first_inv_depth = zero;
     stack.clear();
-    let mut next = Some(Node {
-        active: lanes_in_use,
-        faint: M::<S>::splat(simd, false),
-        ray: RayPacket {
-            origin: V3::splat(simd, eye),
-            direction: ray * Lane(one / step),
-            from: U::<S>::splat(simd, NOWHERE),
-            inward: M::<S>::splat(simd, false),
-        },
-        weight: V3 { x: one, y: one, z: one },
-        length: zero,
-        level: 1,
-        path: 1,
-    });
+    let mut next =
+        Some(Node::root(simd, context.view.camera().eye, ray * Lane(F::<S>::splat(simd, 1.0) / step), lanes));
     loop {
         let node = match next.take() {
             Some(node) => node,
@@ -234,11 +220,30 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
     for (lane, sample) in out.iter_mut().enumerate() {
         sample.path_signature = path_signature[lane];
         let [red, green, blue, inv_depth, ..] = &mut sample.numbers;
-        // Textures that did not fit are in the light already.
+        // Added, because textures that found no place are there already.
         *red += light.x[lane];
         *green += light.y[lane];
         *blue += light.z[lane];
         *inv_depth = first_inv_depth[lane];
+    }
+}
+
+impl<S: Simd> Node<S> {
+    /// The eye rays.
+    #[inline(always)]
+    fn root(simd: S, eye: Vec3, direction: V3<S>, active: M<S>) -> Node<S> {
+        let one = F::<S>::splat(simd, 1.0);
+        let nothing = M::<S>::splat(simd, false);
+        let from = U::<S>::splat(simd, NOWHERE);
+        Node {
+            active,
+            faint: nothing,
+            ray: RayPacket { origin: V3::splat(simd, eye), direction, from, inward: nothing },
+            weight: V3 { x: one, y: one, z: one },
+            length: F::<S>::splat(simd, 0.0),
+            level: 1,
+            path: 1,
+        }
     }
 }
 
