@@ -116,7 +116,7 @@ fn main() {
         }
         "day" => {
             // Plzen through 2026-06-29 and the night after, with a full moon; each towards the sun, the moon, the north.
-            let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
+            let days = time::days(2026, 6, 29);
             let size = (480, 270);
             let hours = [11.0, 18.0, 18.9, 19.4, 19.8, 20.5, 21.5, 23.5];
             let mut sheet = RgbImage::new(size.0 as u32 * 3, size.1 as u32 * hours.len() as u32);
@@ -138,7 +138,7 @@ fn main() {
             let size = (200, 200);
             let mut sheet = RgbImage::new(size.0 as u32 * 5, size.1 as u32 * 2);
             for i in 0..10 {
-                let mut days = 9662.0 + i as f64 * 2.9;
+                let mut days = time::days(2026, 6, 15) + 0.5 + i as f64 * 2.9;
                 let height = |t: f64| Sky::new(t, &Place::PLZEN).moon.y;
                 days += (0..96)
                     .map(|q| q as f64 / 96.0)
