@@ -2,6 +2,7 @@
 
 use crate::cuts::BENCH;
 use crate::noise::{self, Fade};
+pub use crate::simd::block::Block3;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, V3};
 use crate::simd::math;
@@ -150,9 +151,6 @@ impl Texture {
         }
     }
 }
-
-/// x, y and z (or red, green and blue) of [`BLOCK`] points.
-pub type Block3 = [[f32; BLOCK]; 3];
 
 /// The colours of a block of points: [`Texture::color`], [`BLOCK`] at a time.
 ///

@@ -6,11 +6,11 @@
 //! Hillaire, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", 2020, at 680, 550 and 440 nm.
 
 use crate::simd::lanes::{F, Lane, V3};
-use crate::simd::math;
+use crate::simd::math::exp3;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, LOG2_E};
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Radius of the earth, where the air ends, and where the eye is above the ground.
 const EARTH: f32 = 6360.0;
@@ -180,11 +180,4 @@ pub fn scattered<S: Simd>(simd: S, air: &Air, lamps: &[Lamp], again: Vec3, steps
         }
     }
     sum.mulv(ground)
-}
-
-/// `e^(v k)` by component.
-#[simd]
-pub(super) fn exp3<S: Simd>(simd: S, v: V3<S>, k: f32) -> V3<S> {
-    let k = k * LOG2_E;
-    V3 { x: math::exp2(simd, v.x * k), y: math::exp2(simd, v.y * k), z: math::exp2(simd, v.z * k) }
 }

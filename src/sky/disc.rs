@@ -1,12 +1,12 @@
 //! The discs of sun and moon, and the glare around the sun.
 
-use super::air::exp3;
 use super::dome::Dome;
 use super::grid::put;
 use crate::frame::Tile;
 use crate::noise;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::math::exp3;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;

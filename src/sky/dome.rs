@@ -1,6 +1,6 @@
 //! The sky at a time and place, as an eye sees it that has got used to the light.
 
-use super::air::{self, Air, Lamp, exp3, scattered};
+use super::air::{self, Air, Lamp, scattered};
 use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
@@ -8,6 +8,7 @@ use super::time::{sane, turned};
 use crate::settings::Quality;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::level;
+use crate::simd::math::exp3;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3, vec3};
