@@ -1,7 +1,7 @@
 //! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
 
 use crate::cuts::BENCH;
-use crate::noise::{self, Fade};
+use crate::noise::{self, Footprint};
 pub use crate::simd::block::Block3;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, V3};
@@ -184,7 +184,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let mut field = [0.0; BLOCK];
     let mut lost = [0.0; BLOCK];
     let [x, y, z] = &local;
-    let fade = if footprint.is_some() { Some(Fade { footprint: &foot, lost: &mut lost }) } else { None };
+    let fade = if footprint.is_some() { Some(Footprint { length: &foot, lost: &mut lost }) } else { None };
     noise::octaves_block(simd, [x, y, z], octaves, absolute, fade, &mut field);
     let wood = matches!(texture.pattern, Pattern::Wood { .. });
     // A sine's phase is even over the footprint, of which a third lies along any one axis; and radians of a wave.
