@@ -1,4 +1,4 @@
-//! Solid textures [Perlin85]: a scalar field in space, turned into colours by a palette.
+//! Solid textures `[Perlin02]`: a scalar field in space, turned into colours by a palette.
 //!
 //! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (thesis A). The plain truth is
 //! [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the size of a pixel

@@ -1,7 +1,7 @@
 //! Keyframes, easing and cuts: from seconds to values.
 //!
 //! A table of keys has a time and some values per line. Between the keys each value runs along Steffen's monotone cubic
-//! [Steffen90]: its speed is continuous, and between two keys it never leaves their range. So nothing swings past a wall,
+//! `[Steffen90]`: its speed is continuous, and between two keys it never leaves their range. So nothing swings past a wall,
 //! and two keys of the same value hold it still. Catmull-Rom, the alternative, does neither.
 
 /// A key: its time in seconds, then the values at that time. Times ascend within a table.
@@ -71,7 +71,7 @@ fn monotone(speed: f32, a: f32, b: f32) -> f32 {
 }
 
 /// An ease from 0 at `from` seconds to 1 at `to` seconds, with no speed and no acceleration at either end: Perlin's quintic
-/// [Perlin02]. A `time` of NaN gives 0.
+/// `[Perlin02]`. A `time` of NaN gives 0.
 #[inline(never)] // Called in many places, never in a hot loop.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     let x = (time - from) / (to - from);

@@ -22,13 +22,13 @@ pub enum Transfer {
     Srgb,
 }
 
-/// The sRGB code, 0 to 1, of linear light [IEC61966]. Light is clamped to 0..1; NaN is 0.
+/// The sRGB code, 0 to 1, of linear light (IEC 61966-2-1). Light is clamped to 0..1; NaN is 0.
 pub fn srgb_encode(linear: f32) -> f32 {
     let c = clamp(linear);
     (if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }) as f32
 }
 
-/// The linear light, 0 to 1, of an sRGB code [IEC61966]. Codes are clamped to 0..1; NaN is 0.
+/// The linear light, 0 to 1, of an sRGB code (IEC 61966-2-1). Codes are clamped to 0..1; NaN is 0.
 pub fn srgb_decode(code: f32) -> f32 {
     let v = clamp(code);
     (if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }) as f32
@@ -65,7 +65,7 @@ const STEP_CHANNEL: u32 = 0x5555_5555;
 
 /// The dither, 0 to 1 - 2^-16, that is added to a code before it is truncated.
 ///
-/// It is the R2 sequence [Roberts18] laid out over the picture: neighbours differ, and every area has all values equally
+/// It is the R2 sequence `[Roberts18]` laid out over the picture: neighbours differ, and every area has all values equally
 /// often, so the mean of its codes is the light itself. It has 16 bits, so that 255 and a dither stay below 256 in f32.
 fn dither(x: u32, y: u32, channel: u32) -> f32 {
     let turns = x.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));

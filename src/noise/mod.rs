@@ -1,4 +1,4 @@
-//! Gradient noise: Perlin's improved noise [Perlin02] and sums of its octaves.
+//! Gradient noise: Perlin's improved noise `[Perlin02]` and sums of its octaves.
 //!
 //! At each point of the integer lattice stands one of twelve gradients, chosen by a hash of the point. The noise at a point
 //! in space is a blend of the eight corners of its cell, each of which adds the product of its gradient and the offset from
@@ -6,7 +6,7 @@
 //!
 //! The files, from the plain truth to the fastest kernel; all give the same bits:
 //!
-//! - [`reference`]: one point at a time, as Perlin wrote it. The tests hold everything else against it.
+//! - [`mod@reference`]: one point at a time, as Perlin wrote it. The tests hold everything else against it.
 //! - `permutation`: his table, from which both hashes and gradients are taken.
 //! - `curve`: his weights and the interpolation, over lanes.
 //! - `wide`: 64 points at any SIMD level. Hashes are looked up one by one, everything else is over lanes.
