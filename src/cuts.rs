@@ -19,3 +19,6 @@ pub const REFERENCE: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
+
+/// Whether textures can be checkers: the show has none.
+pub const CHECKER: bool = FULL;
