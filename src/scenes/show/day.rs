@@ -162,7 +162,7 @@ pub(in crate::scenes) fn show(
 ) -> Picture {
     let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
     let mut layers: Vec<Box<dyn Layer>> =
-        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, spec.quality))];
+        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
     layers.extend(between);
     layers.push(Box::new(sky));
     Picture { layers, transfer: Transfer::Srgb }
