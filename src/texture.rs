@@ -1,6 +1,6 @@
 //! Solid textures `[Perlin02]`: a scalar field in space, turned into colours by a palette.
 //!
-//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (thesis A). The plain truth is
+//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (`[Intro07]`). The plain truth is
 //! [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the size of a pixel
 //! on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed form.
 

@@ -152,13 +152,13 @@ pub fn through<S: Simd>(simd: S, air: &Air, d: V3<S>) -> V3<S> {
 struct Path<S: Simd> {
     /// Its unit direction, bent away from the ground.
     direction: V3<S>,
-    /// How much darker it is where it was below the horizon.
+    /// The factor by which its light is darker, 1 above the horizon and less below it.
     ground: V3<S>,
     /// Columns along all of it.
     whole: V3<S>,
     /// Its length up to the end of the air, km.
     reach: F<S>,
-    /// How far before the eye its line is nearest to the earth's centre, km.
+    /// How far behind the eye its line is nearest to the earth's centre, km.
     back: F<S>,
 }
 
