@@ -1,5 +1,4 @@
 //! Pictures that stand for clouds: frames do not depend on which are kept, and are near to those of rays.
-#![cfg(feature = "full")]
 
 use fearless_simd::Level;
 use paprsek::frame::{Frame, Renderer};

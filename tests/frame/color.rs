@@ -1,7 +1,5 @@
 //! Transfer functions against published values and f64, the dither's mean, elementary functions against f64.
 
-mod common;
-
 use fearless_simd::{Simd, dispatch, prelude::*};
 use paprsek::frame::encode::{Transfer, encode, gamma22_encode, quantize, srgb_decode, srgb_encode};
 use paprsek::simd::math;
@@ -12,7 +10,7 @@ const STEP_MARGIN: f64 = 1e-4;
 /// Encodes a row at every level, asserts that all give the same, and answers with it.
 fn encode_all(transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32]) -> Vec<u32> {
     let mut first = None;
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let mut out = vec![0xdead_beef; r.len()];
         dispatch!(level, simd => encode(simd, transfer, x0, y, r, g, b, &mut out));
         assert_eq!(first.get_or_insert_with(|| out.clone()), &out, "{name}");
@@ -159,7 +157,7 @@ fn dither_keeps_the_mean() {
 /// One function of [`math`] over many arguments at every level, which must agree bit by bit.
 fn apply_all(function: Function, arguments: &[f32]) -> Vec<f32> {
     let mut first: Option<Vec<f32>> = None;
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let out = dispatch!(level, simd => apply(simd, function, arguments));
         let same = first.get_or_insert_with(|| out.clone()).iter().zip(&out).all(|(a, b)| a.to_bits() == b.to_bits());
         assert!(same, "{function:?} {name}");

@@ -1,15 +1,12 @@
 //! Fog against Beer and Lambert's law in f64.
 
-mod common;
-mod oracle;
-
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, vec3};
-use oracle::random::Random;
 use paprsek::effects::Fog;
 use paprsek::frame::{Layer, Tile};
 use paprsek::view::Camera;
 use paprsek::view::View;
+use testkit::random::Random;
 
 const SIZE: [usize; 2] = [150, 100];
 
@@ -85,7 +82,7 @@ fn light_fades_into_fog_by_distance() {
 #[test]
 fn no_fog_leaves_the_picture_as_it_is() {
     let before = bits(&tile());
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         for end in [1.0, 5e4] {
             assert!(bits(&drawn(&fog(0.0, end), level)) == before, "{name}");
         }
@@ -94,8 +91,8 @@ fn no_fog_leaves_the_picture_as_it_is() {
 
 #[test]
 fn every_level_gives_the_same_bits() {
-    let truth = bits(&drawn(&fog(0.004, 2e3), common::levels()[0].1));
-    for (name, level) in common::levels() {
+    let truth = bits(&drawn(&fog(0.004, 2e3), testkit::levels()[0].1));
+    for (name, level) in testkit::levels() {
         assert!(bits(&drawn(&fog(0.004, 2e3), level)) == truth, "{name}");
     }
 }

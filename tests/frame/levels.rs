@@ -2,8 +2,6 @@
 //!
 //! Nothing is fused and no sum is reordered, so no tolerance is needed.
 
-mod common;
-
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
@@ -50,7 +48,7 @@ fn every_level_gives_the_same_frame() {
         for name in BENCH {
             for time in [2.0, 9.4] {
                 let mut first: Option<Frame> = None;
-                for (level_name, level) in common::levels() {
+                for (level_name, level) in testkit::levels() {
                     let mut renderer = Renderer::new(2).unwrap().at_level(level);
                     assert_eq!(renderer.simd(), level_name);
                     let found = frame(&mut renderer, name, time, &Quality::named(quality).unwrap(), size);
@@ -107,7 +105,7 @@ fn odd_sizes_are_filled() {
             for name in BENCH {
                 let quality = Quality::named(quality).unwrap();
                 let mut first: Option<Frame> = None;
-                for (level_name, level) in common::levels() {
+                for (level_name, level) in testkit::levels() {
                     let mut found = Frame::new(size.0, size.1);
                     // No scene is of this colour.
                     found.pixels.fill(0xff00_0000);

@@ -1,7 +1,5 @@
 //! Noise against an independent one in f64, against what is known of it, and every SIMD level against the scalar.
 
-mod common;
-
 use fearless_simd::dispatch;
 use glam::Vec3;
 use paprsek::noise::{fbm, noise, noise_block, octaves_block, turbulence};
@@ -240,7 +238,7 @@ fn check_levels(points: &[Vec3; BLOCK]) {
             assert!(t.to_bits() == v.to_bits() || t.is_nan() && v.is_nan(), "{what} {level} at {p}: {v:e} for {t:e}");
         }
     };
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let mut out = [0.0; BLOCK];
         dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
         same("noise", name, &out, &noise);

@@ -1,8 +1,5 @@
 //! Two eyes side by side: each half is the picture of its eye, and depths are where geometry has them.
 
-mod common;
-mod picture;
-
 use glam::{Vec3, vec3};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
@@ -13,7 +10,7 @@ use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Material, Object, Sky, World};
 use paprsek::view::View;
 use paprsek::view::{Camera, Eye, Stereo};
-use picture::traced;
+use testkit::picture::traced;
 
 /// Pixels that a projection may be off: f32 has steps of 6e-5 at 1000 pixels, and a point 1e5 metres away is itself
 /// rounded to 1e-2 of them.
@@ -190,7 +187,7 @@ fn threads_and_levels_do_not_matter() {
             for threads in [2, 3, 8] {
                 assert!(draw(&mut Renderer::new(threads).unwrap()) == first, "{name} on {threads} threads");
             }
-            for (level_name, level) in common::levels() {
+            for (level_name, level) in testkit::levels() {
                 assert!(draw(&mut Renderer::new(2).unwrap().at_level(level)) == first, "{name} at {level_name}");
             }
         }

@@ -1,13 +1,11 @@
 //! The command line: what is refused and how, and what the files and figures look like. The 64 kB build has the show
 //! alone, without scenes to name and anything to measure.
 
-mod program;
-
+use crate::{after, paprsek};
 #[cfg(feature = "full")]
 use paprsek::scenes;
 use paprsek::scenes::show::intro::INTRO;
 use paprsek::settings::Quality;
-use program::{after, fails, paprsek, succeeds};
 #[cfg(feature = "full")]
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
@@ -18,6 +16,7 @@ use std::path::Path;
 use std::process::{Output, Stdio};
 use std::thread::{available_parallelism, sleep};
 use std::time::Duration;
+use testkit::run::{fails, succeeds};
 
 /// Are there scenes to name, and a benchmark?
 const MEASURES: bool = cfg!(feature = "full");
@@ -172,7 +171,7 @@ fn help_and_version_are_answered() {
     let more = ["--bench", "--json", "--stereo", "--eye-distance", "--convergence", "--list", "--version"];
     assert!(options.iter().all(|option| help.contains(option)), "{help}");
     assert!(more.iter().all(|option| help.contains(option) == MEASURES), "{help}");
-    assert!(!MEASURES || include_str!("../README.md").contains(&*help), "the README has another help");
+    assert!(!MEASURES || include_str!("../../README.md").contains(&*help), "the README has another help");
     if MEASURES {
         let version = String::from_utf8(succeeds(run(&["--version"]))).unwrap();
         assert_eq!(version, concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n"));
@@ -246,7 +245,7 @@ fn pieces_are_the_whole() {
 
 #[test]
 fn the_readme_s_pieces_are_the_show() {
-    let readme = include_str!("../README.md");
+    let readme = include_str!("../../README.md");
     let (_, after) = readme.split_once(" seconds in pieces of ").unwrap();
     let step: usize = after.split(',').next().unwrap().parse().unwrap();
     let (length, count) = (INTRO.duration as usize, INTRO.duration as usize / step);

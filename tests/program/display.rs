@@ -1,12 +1,8 @@
 //! X servers that are silent, odd or strict, against a fake one: every wait is over in 5 s and ends in one line, and Esc
 //! is heard. Where there is no window the plain build does something else, and the 64 kB build ends.
-#![cfg(target_os = "linux")]
 
-mod fake;
-mod program;
-
-use fake::{Client, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, agreed, entry, refusal, set_up};
-use program::{ending, fails, paprsek, succeeds};
+use crate::fake::{Client, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, agreed, entry, refusal, set_up};
+use crate::paprsek;
 use std::fs;
 use std::io::Result;
 use std::net::Shutdown;
@@ -16,6 +12,7 @@ use std::process::{Child, Command, Output, Stdio};
 use std::sync::mpsc::channel;
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
+use testkit::run::{ending, fails, succeeds};
 
 /// Has it minifb, a terminal and the benchmark?
 const PLAIN: bool = cfg!(feature = "minifb");

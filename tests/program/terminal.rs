@@ -1,9 +1,6 @@
 //! Playing in a terminal, on a pseudo-terminal of `script` (util-linux).
-#![cfg(target_os = "linux")]
 
-mod program;
-
-use program::paprsek;
+use crate::paprsek;
 use std::fs;
 use std::io::{Read, Write};
 use std::process::{ChildStdin, Command, Stdio};

@@ -1,10 +1,7 @@
 //! The window, on a display of the test's own.
-#![cfg(target_os = "linux")]
 
-mod program;
-
+use crate::paprsek;
 use paprsek::scenes::show::intro::PARTS;
-use program::{ending, fails, paprsek, succeeds};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::os::unix::net::UnixStream;
@@ -12,6 +9,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+use testkit::run::{ending, fails, succeeds};
 
 /// What these tests need, as Debian calls it.
 const PACKAGES: &str = "install xvfb, xdotool and imagemagick, or set PAPRSEK_SKIP_WINDOW=1";

@@ -1,13 +1,7 @@
 //! Triangles through the eye's plane, behind it, and beyond any number; perspective and culling: all against rays in
 //! f64.
 
-mod common;
-mod drawn;
-mod oracle;
-
-use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{Affine3A, DVec3, Vec3, vec3};
-use oracle::random::Random;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::NEAR;
 use paprsek::raster::{Body, World};
@@ -15,6 +9,8 @@ use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use proptest::prelude::*;
 use std::sync::Arc;
+use testkit::drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
+use testkit::random::Random;
 
 const SIZE: [usize; 2] = [150, 90];
 const FOV: f32 = 0.9;
@@ -51,7 +47,7 @@ fn ground_is_where_the_rays_meet_it() {
         let camera = Camera::look_at(eye, eye + look, FOV, random.range(-1.0, 1.0) as f32);
         let world = dark(vec![body(ground(half, 0.0, cells))]);
         let mut first: Option<Planes> = None;
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let planes = draw(&world, camera, SIZE, Quality::EXACT, level);
             if let Some(first) = &first {
                 assert_eq!(first.differs(&planes), None, "{name}, case {case}");
@@ -72,7 +68,7 @@ fn ground_is_where_the_rays_meet_it() {
                     let near = hits.map(|t| 1.0 / t.unwrap());
                     let (low, high) = near.iter().fold((f64::MAX, 0f64), |(l, h), n| (l.min(*n), h.max(*n)));
                     // f32 of the far corners' places: metres of the eye's height, at most this share of it.
-                    let slack = 1e-5 + 4.0 * oracle::ULP * (half as f64) / up;
+                    let slack = 1e-5 + 4.0 * testkit::ULP * (half as f64) / up;
                     let right = found >= low * (1.0 - slack) && found <= high * (1.0 + slack);
                     assert!(right, "case {case}, eye {eye}, pixel {pixel}: {found} not in {low} to {high}");
                 }
@@ -91,7 +87,7 @@ fn a_plane_of_a_million_metres_has_a_horizon() {
     let camera = Camera::look_at(vec3(0.0, 100.0, 0.0), vec3(10.0, 99.0, -3.0), FOV, 0.2);
     for half in [1e5, 1e6] {
         let world = dark(vec![body(ground(half, 0.0, 1))]);
-        let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         let mut off = 0;
         for pixel in 0..planes.inv_depth.len() {
             let [d, around @ ..] = rays(&camera, SIZE, pixel);
@@ -122,7 +118,7 @@ fn long_roads_lead_straight_past_the_eye() {
         let world = dark(vec![body(triangles(&[[a, b, c], [b, d, c]]))]);
         let eye = vec3(0.1, 1.7, 0.0);
         let camera = Camera::look_at(eye, eye + vec3(0.05, -0.2, -1.0), FOV, 0.1);
-        let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         for pixel in 0..planes.inv_depth.len() {
             let hit = |d: DVec3| {
                 let p = eye.as_dvec3() + d * (-1.7 / d.y);
@@ -148,7 +144,7 @@ fn nothing_behind_the_eye_or_before_the_near_plane_is_seen() {
     for z in distances {
         let r = 3.0 * z.abs().max(1.0);
         let faces = [[vec3(-r, -r, -z), vec3(r, -r, -z), vec3(0.0, r, -z)]];
-        let planes = draw(&dark(vec![body(triangles(&faces))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&dark(vec![body(triangles(&faces))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         let middle = planes.inv_depth[SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2];
         if z < NEAR {
             assert!(planes.inv_depth.iter().all(|c| *c == 0.0), "{z}");
@@ -179,7 +175,7 @@ fn clipped_neighbours_leave_no_gap() {
         let eye = Vec3::ZERO;
         let camera = Camera::look_at(eye, random.direction(), 1.4, random.range(-3.0, 3.0) as f32);
         // What the near plane cuts out of the box is open; nothing else is.
-        let planes = draw(&dark(vec![body(mesh)]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+        let planes = draw(&dark(vec![body(mesh)]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         for pixel in 0..planes.inv_depth.len() {
             let way = |d: DVec3| {
                 let t = |p: f32, d: f64| p as f64 / d;
@@ -215,7 +211,7 @@ fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
         let mut bodies = vec![layer(5000.0, 7, 1.0), layer(5001.0, 5, 0.0)];
         for _ in 0..2 {
             let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(bodies.clone()) };
-            let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[0].1);
+            let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
             // Blue where there is a layer; a little more of the far one is seen at the rim.
             let (near, far) = planes
                 .color
@@ -238,7 +234,7 @@ fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
 fn corners_that_are_no_numbers_spoil_only_their_faces() {
     let camera = Camera::look_at(vec3(0.0, 0.0, 5.0), Vec3::ZERO, FOV, 0.0);
     let good = [[vec3(-1.0, -1.0, 0.0), vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0)]];
-    let truth = draw(&dark(vec![body(triangles(&good))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let truth = draw(&dark(vec![body(triangles(&good))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     assert!(truth.coverage.contains(&1.0));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN] {
         for spoilt in 1..8 {
@@ -251,7 +247,7 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
                     let bad_face = order.map(|i| face[i]);
                     for faces in [[bad_face, good[0]], [good[0], bad_face]] {
                         let mesh = body(triangles(&faces));
-                        let planes = draw(&dark(vec![mesh]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+                        let planes = draw(&dark(vec![mesh]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
                         assert_eq!(planes.differs(&truth), None, "{bad} in {face:?}");
                     }
                 }
@@ -266,11 +262,11 @@ fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
     let face = [vec3(-4e4, -1.0, 3e4), vec3(4e4, -1.0, 3e4), vec3(0.0, -1.0, -9e4)];
     let mesh = triangles(&vec![face; 8192]);
     let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
-    let few = draw(&dark(vec![body(triangles(&[face]))]), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let few = draw(&dark(vec![body(triangles(&[face]))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     // Before another body, whose pixels must stay its own.
     let wall = ground(1e5, -2.0, 1);
     let bodies = vec![body(mesh), body(wall)];
-    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     let low = SIZE[0] * (SIZE[1] - 1) + SIZE[0] / 2;
     assert!(few.inv_depth[low] > 0.0 && planes.inv_depth[low] == few.inv_depth[low]);
 }
@@ -283,10 +279,10 @@ fn bodies_beyond_the_last_number_are_left_out() {
     let nothing = body(triangles(&[]));
     let mut bodies = vec![nothing; 16383];
     bodies.push(body(wall(-1.0)));
-    let truth = draw(&dark(bodies.clone()), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let truth = draw(&dark(bodies.clone()), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     assert!(truth.coverage.contains(&1.0));
     bodies.push(body(wall(1.0)));
-    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, common::levels()[0].1);
+    let planes = draw(&dark(bodies), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     assert_eq!(planes.differs(&truth), None);
 }
 
@@ -313,7 +309,7 @@ proptest! {
         let camera = Camera::look_at(eye, if look.is_finite() { look } else { Vec3::X }, FOV, 0.3);
         let world = World { ambient: [Vec3::ONE, vec3(0.1, 0.2, 0.3)], ..dark(vec![body(triangles(&faces))]) };
         let mut first: Option<Planes> = None;
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let planes = draw(&world, camera, [40, 30], Quality::DEFAULT, level);
             prop_assert!(planes.color.iter().all(|c| c.is_finite()), "{}", name);
             // Beside corners 1e20 metres away even the near plane is only roughly known.
@@ -347,7 +343,7 @@ fn normals_are_interpolated_in_perspective() {
         mesh.normals = normals.to_vec();
         let world = World { lights: suns(), ..dark(vec![body(mesh)]) };
         let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
-        let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[case % common::levels().len()].1);
+        let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[case % testkit::levels().len()].1);
         let [a, b, c] = face.map(Vec3::as_dvec3);
         let plane = (b - a).cross(c - a);
         let units = normals.map(|n| n.as_dvec3().normalize());
@@ -383,7 +379,7 @@ fn closed_boxes_show_their_front_and_nothing_from_inside() {
         let inside = case % 4 == 0;
         let eye = if inside { random.direction() * 0.3 } else { random.direction() * random.range(2.0, 9.0) as f32 };
         let camera = Camera::look_at(eye, if inside { random.direction() } else { Vec3::ZERO }, FOV, 0.5);
-        let planes = draw(&world, camera, SIZE, Quality::EXACT, common::levels()[case % common::levels().len()].1);
+        let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[case % testkit::levels().len()].1);
         let turn = place.matrix3.as_dmat3().transpose();
         let from = turn * eye.as_dvec3();
         for pixel in 0..planes.color.len() {

@@ -2,18 +2,15 @@
 //!
 //! The projection is the identity, so corners are where a test puts them, in steps of 1/256 pixel.
 
-mod common;
-mod oracle;
-
 use fearless_simd::{Level, Simd, dispatch};
 use glam::{Affine3A, Vec3, Vec4, vec3};
-use oracle::{ULP, random::Random};
 use paprsek::frame::Tile;
 use paprsek::raster::bins::{Bins, NOTHING, parts};
 use paprsek::raster::fill::{CENTER, Sample, Visible, fill};
 use paprsek::raster::mesh::{Face, Mesh, Paint};
 use paprsek::raster::project::Projection;
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
+use testkit::{ULP, random::Random};
 
 /// Steps of 1/256 pixel, and nearness.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -188,7 +185,7 @@ fn coverage_is_exact() {
         let here = if back_faces { area(&t) > 0 } else { area(&t) < 0 };
         let piece = [piece(&[t], size, back_faces)];
         drawn += here as u64;
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let shown = draw(level, &piece, size, sample);
             for (pixel, found) in shown.0.iter().enumerate() {
                 let truth = here && covers(&t, sample_of(pixel, size[0], sample));
@@ -241,7 +238,7 @@ fn grids_have_no_gap_and_no_overdraw() {
             }
         }
         let sample = if case % 2 == 0 { CENTER } else { [(random.unit() * SUB as f64) as i32, 0] };
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let counts = counts(level, &triangles, size, sample);
             let off: Vec<_> = counts.iter().enumerate().filter(|c| *c.1 != 1).take(5).collect();
             assert!(off.is_empty(), "{name}, case {case}: {off:?}");
@@ -273,7 +270,7 @@ fn fans_cover_their_polygon_exactly_once() {
         if fan.iter().any(|t| area(t) < 0) {
             continue;
         }
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             for (pixel, count) in counts(level, &fan, size, CENTER).into_iter().enumerate() {
                 // Edges that a line to the right crosses, from a hair to the right of the sample and below it.
                 let s = sample_of(pixel, size[0], CENTER);
@@ -327,7 +324,7 @@ fn nearness_is_the_plane_and_stays_between_the_corners() {
         let piece = [piece(&[t], size, area(&t) > 0)];
         let (low, high) = t.iter().fold((f32::MAX, 0f32), |(l, h), c| (l.min(c.near), h.max(c.near)));
         let mut first: Option<Shown> = None;
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let shown = draw(level, &piece, size, CENTER);
             for (pixel, found) in shown.0.iter().enumerate().filter(|(_, p)| p.1.is_some()) {
                 assert!(found.0 >= low && found.0 <= high, "{name}: {found:?} of {t:?}");
@@ -362,7 +359,7 @@ fn the_nearest_wins_in_any_order() {
         orders.push(triangles.clone());
         triangles.rotate_left(7);
         orders.push(triangles.clone());
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let shown: Vec<Shown> =
                 orders.iter().map(|t| draw(level, &[piece(t, size, false)], size, CENTER)).collect();
             for pixel in 0..shown[0].0.len() {

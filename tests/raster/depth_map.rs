@@ -1,13 +1,10 @@
 //! Lookups of a depth map against the area of the lit texels around a point.
 
-mod common;
-mod oracle;
-
 use fearless_simd::{Simd, dispatch, prelude::*};
-use oracle::random::Random;
 use paprsek::frame::Tile;
 use paprsek::raster::shadow::DepthMap;
 use paprsek::simd::lanes::F;
+use testkit::random::Random;
 
 /// Two views of random depths.
 fn map(random: &mut Random, size: usize) -> (DepthMap, [Vec<f32>; 2]) {
@@ -70,7 +67,7 @@ fn a_lookup_is_the_lit_share_of_the_texels_around() {
             let near = if case % 5 == 0 { depths[view][case % (size * size)] } else { random.unit() as f32 };
             for smooth in [false, true] {
                 let truth = truth(&depths[view], size, at.map(f64::from), near, smooth);
-                for (name, level) in common::levels() {
+                for (name, level) in testkit::levels() {
                     let found = dispatch!(level, simd => look(simd, &map, view as f32, at, near, smooth));
                     // Sums of sixteen weights, each rounded where the place is.
                     let slack = if smooth { 1e-6 * (1.0 + size as f64) } else { 1e-7 };

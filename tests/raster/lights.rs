@@ -1,12 +1,6 @@
 //! Several lights in one pass, how far they reach, and how much of a pixel triangles cover: against formulas in f64.
 
-mod common;
-mod drawn;
-mod oracle;
-
-use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
-use oracle::{ULP, random::Random};
 use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::Projection;
@@ -14,6 +8,8 @@ use paprsek::raster::shadow::{Bias, ShadowViews};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
+use testkit::drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
+use testkit::{ULP, random::Random};
 
 const SIZE: [usize; 2] = [120, 80];
 /// Depth maps and light as the intro has them, one sample a pixel.
@@ -44,7 +40,7 @@ fn lamps_fade_by_their_formula_and_end_at_their_reach() {
         for reach in [f32::INFINITY, 30.0, 5.0, 2.5, 1.9] {
             let lights = vec![lamp(place, falloff, reach, Vec3::ONE)];
             let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
-            let planes = draw(&world, camera, SIZE, ONE, common::levels()[0].1);
+            let planes = draw(&world, camera, SIZE, ONE, testkit::levels()[0].1);
             let (a, b, r) = (falloff.x as f64, falloff.y as f64, reach as f64);
             let left = |d: f64| 1.0 / (1.0 + a * d + b * d * d);
             // What does not fade ends at once.
@@ -117,7 +113,7 @@ fn stage() -> World {
 #[test]
 fn one_pass_is_the_sum_of_a_pass_for_each_light() {
     let mut random = Random(1);
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         for quality in [Quality::FAST, Quality::DEFAULT] {
             for count in [2, 5, 32] {
                 let lights = lights(&mut random, count);
@@ -139,7 +135,7 @@ fn one_pass_is_the_sum_of_a_pass_for_each_light() {
 #[test]
 fn a_light_out_of_reach_changes_no_bit() {
     let mut random = Random(2);
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let few = lights(&mut random, 4);
         let truth = draw(&World { lights: few.clone(), ..stage() }, camera(), SIZE, Quality::DEFAULT, level);
         // Its box is near enough to some blocks of pixels, but no point is.
@@ -188,7 +184,7 @@ const FILM: f64 = 1e-6;
 fn film_squeezes_light() {
     let mut random = Random(5);
     let world = World { lights: lights(&mut random, 8), ..stage() };
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let plain = draw(&world, camera(), SIZE, ONE, level);
         let film = draw(&World { film: true, ..world.clone() }, camera(), SIZE, ONE, level);
         assert!(plain.color.iter().any(|c| c.max_element() > 1.0));
@@ -211,7 +207,7 @@ fn shares_of_a_pixel_sum_up_to_one() {
     }
     let camera = Camera::look_at(vec3(0.0, 0.0, 1.0), Vec3::ZERO, 0.9, 0.2);
     let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points)]) };
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         for (coverage, grid) in [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)] {
             let planes = draw(&world, camera, [100, 70], Quality { coverage, grid, ..Quality::EXACT }, level);
             for (pixel, (share, color)) in planes.coverage.iter().zip(&planes.color).enumerate() {
@@ -267,7 +263,7 @@ fn coverage_nears_the_area_with_more_samples() {
             .iter()
             .map(|&(coverage, grid)| {
                 let quality = Quality { coverage, grid, ..Quality::EXACT };
-                draw(&world, camera, SIZE, quality, common::levels()[0].1)
+                draw(&world, camera, SIZE, quality, testkit::levels()[0].1)
             })
             .collect();
         for pixel in 0..SIZE[0] * SIZE[1] {

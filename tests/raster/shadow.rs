@@ -4,10 +4,6 @@
 //! (dark instead of lit) and leaks (lit instead of dark) are counted apart. Only the box is to cast a shadow where what
 //! looks away from the sun is drawn: level ground does not.
 
-mod common;
-mod drawn;
-
-use drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
 use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::mesh::Mesh;
@@ -17,6 +13,7 @@ use paprsek::raster::{Body, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use std::sync::Arc;
+use testkit::drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
 
 const SIZE: [usize; 2] = [220, 130];
 /// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
@@ -87,7 +84,7 @@ impl Sunny {
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
         let source = Source::Sun(self.towards().as_vec3());
         let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(self.plan()) }];
-        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     }
 
     /// Each pixel that shows the ground: where, and the share of the sun's light there.
@@ -206,7 +203,7 @@ fn a_plan_without_views_is_no_shadow() {
         let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
         World { lights, ..dark(vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))]) }
     };
-    let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, common::levels()[0].1);
+    let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, testkit::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
         let plan = ShadowViews { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
@@ -220,7 +217,7 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
     let picture = |shadow| {
         let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
         let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
-        draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, common::levels()[0].1)
+        draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, testkit::levels()[0].1)
     };
     let truth = picture(None);
     for traced in [false, true] {
@@ -276,7 +273,7 @@ fn the_finest_map_that_reaches_is_looked_up() {
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
         let source = Source::Sun(fine.towards().as_vec3());
         let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
-        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, common::levels()[0].1)
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     };
     let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
     let view = fine.plan().views[0];
@@ -339,7 +336,7 @@ fn kept_maps_change_no_frame() {
         let mut bodies = vec![Body::new(renew(&floor), Affine3A::IDENTITY), Body::new(renew(&shapes[shape]), place)];
         bodies.truncate(1 + there as usize);
         let size = [[90, 60], [64, 64], [33, 70]][k % 3];
-        draw(&World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, common::levels()[0].1)
+        draw(&World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, testkit::levels()[0].1)
     };
     let truths: Vec<Planes> = (0..40).map(|k| frame(k, true)).collect();
     // Several at once: they take maps from each other.

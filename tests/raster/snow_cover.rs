@@ -1,9 +1,5 @@
 //! Snow that settles, against its formula in f64 and what stands above a point.
 
-mod common;
-mod drawn;
-
-use drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
 use glam::{DVec3, Vec3, vec3};
 use paprsek::noise::noise;
 use paprsek::raster::light::{Light, Source};
@@ -15,6 +11,7 @@ use paprsek::raster::{Body, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
 use paprsek::view::Camera;
+use testkit::drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
 
 const SIZE: [usize; 2] = [160, 100];
 const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
@@ -49,7 +46,7 @@ fn paint(mut mesh: Mesh, albedo: Vec3, gloss: f32) -> Mesh {
 }
 
 fn picture(world: &World, camera: Camera) -> Planes {
-    draw(world, camera, SIZE, Quality::FAST, common::levels()[0].1)
+    draw(world, camera, SIZE, Quality::FAST, testkit::levels()[0].1)
 }
 
 fn from_above() -> Camera {
@@ -237,7 +234,7 @@ fn stage() -> (World, Camera) {
 #[test]
 fn no_snow_is_as_before_bit_for_bit() {
     let (world, camera) = stage();
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         for quality in [Quality::FAST, Quality::DEFAULT] {
             let bare = draw(&world, camera, SIZE, quality, level);
             let none =
@@ -269,8 +266,8 @@ fn every_level_gives_the_same_bits_with_a_kept_map_too() {
     let (world, camera) = stage();
     for quality in [Quality::FAST, Quality::DEFAULT] {
         let world = World { snow: snow(0.6, Some(plan(24.0, 128))), ..world.clone() };
-        let truth = draw(&world, camera, SIZE, quality, common::levels()[0].1);
-        for (name, level) in common::levels() {
+        let truth = draw(&world, camera, SIZE, quality, testkit::levels()[0].1);
+        for (name, level) in testkit::levels() {
             for _ in 0..2 {
                 assert_eq!(draw(&world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
             }

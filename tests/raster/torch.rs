@@ -3,10 +3,6 @@
 //! A point is misclassified where more than half of the light comes though it should not, or the other way round. Acne
 //! (dark instead of lit) and leaks (lit instead of dark) are counted apart.
 
-mod common;
-mod drawn;
-
-use drawn::{Count, block, body, dark, draw, enters, ray};
 use glam::{DVec3, Vec2, Vec3, vec3};
 use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
@@ -15,6 +11,7 @@ use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{Bias, ShadowViews};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
+use testkit::drawn::{Count, block, body, dark, draw, enters, ray};
 
 const SIZE: [usize; 2] = [220, 130];
 /// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
@@ -58,7 +55,7 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     let from = torch.as_dvec3();
     let lit = |p: DVec3| !boxes.iter().any(|b| enters(p, from - p, *b).is_some_and(|(t, _)| t > 1e-9 && t < 1.0));
     for &camera in cameras {
-        let planes = draw(&world, camera, SIZE, QUALITY, common::levels()[0].1);
+        let planes = draw(&world, camera, SIZE, QUALITY, testkit::levels()[0].1);
         for pixel in 0..planes.color.len() {
             let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
             let eye = camera.eye.as_dvec3();

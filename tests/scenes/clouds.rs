@@ -4,8 +4,6 @@ use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::show::clouds::{CLOUDS, SHOTS};
 use paprsek::settings::Quality;
 
-mod common;
-
 fn frame(renderer: &mut Renderer, time: f64, quality: &Quality) -> Frame {
     let mut frame = Frame::new(96, 54);
     renderer.render(&CLOUDS, time, quality, &mut frame);
@@ -24,7 +22,7 @@ fn moments(frame: &Frame) -> [f64; 2] {
 fn every_level_and_thread_count_gives_the_same_frame() {
     for (quality, time) in [(Quality::FAST, 2.5), (Quality::DEFAULT, 7.0), (Quality::DEFAULT, 45.0)] {
         let truth = frame(&mut Renderer::new(1).unwrap(), time, &quality);
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             for threads in [2, 3] {
                 let found = frame(&mut Renderer::new(threads).unwrap().at_level(level), time, &quality);
                 assert!(found == truth, "{name}, {threads} threads, {time} s");

@@ -4,8 +4,6 @@ use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::show::day::{DAY, LENGTH, clock};
 use paprsek::settings::Quality;
 
-mod common;
-
 /// Scene seconds of an hour (4 to 28) of a season (0 to 3: summer, autumn, winter, spring).
 fn at(season: usize, hour: f64) -> f64 {
     LENGTH * (season as f64 + (hour - 4.0) / 24.0)
@@ -110,7 +108,7 @@ fn every_level_and_thread_count_gives_the_same_frame() {
     for quality in [Quality::FAST, Quality::DEFAULT, Quality::EXACT] {
         for time in [at(0, 18.0), at(2, 22.5)] {
             let truth = frame(&mut Renderer::new(1).unwrap(), time, &quality);
-            for (name, level) in common::levels() {
+            for (name, level) in testkit::levels() {
                 for threads in [2, 3] {
                     let found = frame(&mut Renderer::new(threads).unwrap().at_level(level), time, &quality);
                     assert!(found == truth, "{name}, {threads} threads, {time} s");

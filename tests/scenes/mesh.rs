@@ -296,7 +296,6 @@ fn the_chapel_is_open_only_at_its_pillars() {
 /// Strips around a pillar of the chapel.
 const PILLAR_SIDES: usize = 8;
 
-#[cfg(feature = "full")]
 mod bench_set {
     use super::*;
     use paprsek::scenes::bench::shadow_set;

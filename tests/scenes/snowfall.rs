@@ -5,8 +5,6 @@ use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::show::snowfall::{LENGTH, SNOWFALL, weather};
 use paprsek::settings::Quality;
 
-mod common;
-
 fn frame(renderer: &mut Renderer, time: f64, quality: &Quality) -> Frame {
     let mut frame = Frame::new(96, 54);
     renderer.render(&SNOWFALL, time, quality, &mut frame);
@@ -73,7 +71,7 @@ fn every_level_and_thread_count_gives_the_same_frame() {
     for quality in [Quality::FAST, Quality::DEFAULT, Quality::EXACT] {
         for time in [0.5, 15.0, 31.0] {
             let truth = frame(&mut Renderer::new(1).unwrap(), time, &quality);
-            for (name, level) in common::levels() {
+            for (name, level) in testkit::levels() {
                 for threads in [2, 3] {
                     let found = frame(&mut Renderer::new(threads).unwrap().at_level(level), time, &quality);
                     assert!(found == truth, "{name}, {threads} threads, {time} s");

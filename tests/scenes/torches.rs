@@ -7,8 +7,6 @@ use paprsek::sky::dome::Sky;
 use paprsek::sky::place::{Place, angles};
 use paprsek::sky::time::{Date, days};
 
-mod common;
-
 fn frame(renderer: &mut Renderer, time: f64, quality: &Quality) -> Frame {
     let mut frame = Frame::new(96, 54);
     renderer.render(&TORCHES, time, quality, &mut frame);
@@ -33,7 +31,7 @@ fn every_level_and_thread_count_gives_the_same_frame() {
         let quality = [Quality::FAST, Quality::DEFAULT, Quality::EXACT][number % 3];
         let time = 0.5 * (cut[0] + cut[1]);
         let truth = frame(&mut Renderer::new(1).unwrap(), time, &quality);
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             for threads in [1, 2, 3] {
                 let found = frame(&mut Renderer::new(threads).unwrap().at_level(level), time, &quality);
                 assert!(found == truth, "{name}, {threads} threads, {time} s");

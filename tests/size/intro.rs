@@ -1,14 +1,11 @@
 //! The packed intro: 64 kB that play what the plain build plays.
-#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
-mod program;
-
-use program::{fails, paprsek, succeeds};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
+use testkit::run::{self, fails, succeeds};
 
 /// The packed intro, built once by `tools/pack`; `None` where its tests are to be skipped.
 fn intro() -> Option<PathBuf> {
@@ -44,7 +41,7 @@ fn it_shows_the_plain_build_s_pictures() {
         let frames = capture(Command::new(&intro), &words);
         assert!(frames.len() >= 10 * 160 * 90 * 3);
         // One SIMD level gives the bytes of any other.
-        assert!(frames == capture(paprsek(), &words), "{words:?} differs");
+        assert!(frames == capture(run::paprsek(env!("CARGO_BIN_EXE_paprsek")), &words), "{words:?} differs");
     }
 }
 

@@ -1,8 +1,6 @@
 //! The adaptive picture against every pixel traced: whole pictures by their metrics, and what could fall between the
 //! corners of a square, pushed through it in steps of an eighth of a pixel.
 
-mod picture;
-
 use fearless_simd::Level;
 use glam::{Mat3, Vec3, vec3};
 use paprsek::frame::{Frame, Renderer};
@@ -13,7 +11,8 @@ use paprsek::texture::{Palette, Pattern, Texture};
 use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
 use paprsek::view::Camera;
-use picture::{Codes, traced};
+use testkit::metrics::{Difference, gaps, ssim};
+use testkit::picture::traced;
 
 /// Targets for the adaptive picture against every pixel traced.
 const PSNR: f64 = 40.0;
@@ -35,10 +34,10 @@ const FLICKER: f64 = 1.5;
 const CELL: usize = Quality::FAST.cell;
 const STEPS: usize = CELL * 8;
 
-fn frame(scene: &str, time: f64, quality: Quality, size: (usize, usize)) -> Codes {
+fn frame(scene: &str, time: f64, quality: Quality, size: (usize, usize)) -> Frame {
     let mut frame = Frame::new(size.0, size.1);
     Renderer::new(0).unwrap().render(&scenes::named(scene).unwrap(), time, &quality, &mut frame);
-    Codes::from_pixels(size.0, size.1, &frame.pixels)
+    frame
 }
 
 #[test]
@@ -47,10 +46,11 @@ fn adaptive_pictures_meet_their_targets() {
     for scene in ["spheres", "spheres-flat", "spheres-glass"] {
         for time in [0.0, 2.0, 5.7, 11.3, 16.9] {
             let size = (640, 360);
-            let d = frame(scene, time, Quality::EXACT, size).difference(&frame(scene, time, Quality::FAST, size));
-            println!("{scene} at {time}: {d:.4?}");
-            if d.psnr < PSNR || d.ssim < SSIM || d.bad > BAD {
-                failed.push(format!("{scene} at {time}: {d:.4?}"));
+            let [exact, fast] = [Quality::EXACT, Quality::FAST].map(|quality| frame(scene, time, quality, size));
+            let (d, ssim) = (Difference::between(&exact, &fast), ssim(&exact, &fast));
+            println!("{scene} at {time}: {:.1} dB, SSIM {ssim:.4}, {d:.4?}", d.psnr());
+            if d.psnr() < PSNR || ssim < SSIM || d.bad > BAD {
+                failed.push(format!("{scene} at {time}: {:.1} dB, SSIM {ssim:.4}, {d:.4?}", d.psnr()));
             }
         }
     }
@@ -60,10 +60,11 @@ fn adaptive_pictures_meet_their_targets() {
 fn antialiased(scenes: &[&str], size: (usize, usize)) {
     let mut failed = vec![];
     for scene in scenes {
-        let d = frame(scene, 2.0, Quality::REFERENCE, size).difference(&frame(scene, 2.0, Quality::DEFAULT, size));
-        println!("{scene}: {d:.4?}");
-        if d.psnr < ANTIALIASED {
-            failed.push(format!("{scene}: {d:.4?}"));
+        let [truth, ours] = [Quality::REFERENCE, Quality::DEFAULT].map(|quality| frame(scene, 2.0, quality, size));
+        let psnr = Difference::between(&truth, &ours).psnr();
+        println!("{scene}: {psnr:.1} dB");
+        if psnr < ANTIALIASED {
+            failed.push(format!("{scene}: {psnr:.1} dB"));
         }
     }
     assert!(failed.is_empty(), "{failed:#?}");
@@ -127,12 +128,12 @@ struct Tally {
 impl Tally {
     /// `world` with the thing and `empty` without it; `share` of its pixels may be off, and [`MISCOUNT`].
     fn add(&mut self, what: impl Fn() -> String, world: &World, empty: &World, camera: Camera, share: f64) {
-        let draw = |world: &World, quality| traced(world, camera, SMALL, quality, Level::new()).codes();
+        let draw = |world: &World, quality| traced(world, camera, SMALL, quality, Level::new()).frame();
         let background = draw(empty, Quality::EXACT);
         let (truth, found) = (draw(world, Quality::EXACT), draw(world, Quality::FAST));
         let count = |gaps: Vec<u8>| gaps.into_iter().filter(|g| *g > SEEN).count() as i64;
-        let (there, here) = (count(truth.gaps(&background)), count(found.gaps(&background)));
-        let wrong = count(found.gaps(&truth));
+        let (there, here) = (count(gaps(&truth, &background)), count(gaps(&found, &background)));
+        let wrong = count(gaps(&found, &truth));
         self.pictures += 1;
         self.pixels += there;
         let missed = there > 0 && here == 0;
@@ -508,7 +509,7 @@ fn textures_finer_than_a_square_stay_whole() {
         let draw = |quality| traced(&world, floor.camera, size, quality, Level::new());
         let (exact, fast) = (draw(Quality::EXACT), draw(Quality::FAST));
         assert!(fast.samples * 10 < exact.samples, "nothing was interpolated: {} rays", fast.samples);
-        let gaps = exact.codes().gaps(&fast.codes());
+        let gaps = gaps(&exact.frame(), &fast.frame());
         let off = gaps.iter().filter(|g| **g > SEEN).count();
         println!("checker {scale}: {off} of {} pixels", gaps.len());
         assert!(off as f64 <= 2e-4 * gaps.len() as f64, "checker {scale}: {off} pixels");
@@ -530,13 +531,13 @@ fn moving_pictures_do_not_flicker() {
         // The largest change from frame to frame: root mean square, and the share of pixels that visibly change.
         let sweep = |quality| {
             let (mut rms, mut bad) = (0.0f64, 0.0f64);
-            let mut last: Option<Codes> = None;
+            let mut last: Option<Frame> = None;
             for k in 0..32 {
                 let camera = Camera { eye: still.eye + step * k as f32, ..still };
-                let now = traced(&world, camera, size, quality, Level::new()).codes();
+                let now = traced(&world, camera, size, quality, Level::new()).frame();
                 if let Some(last) = last.replace(now.clone()) {
-                    let d = last.difference(&now);
-                    (rms, bad) = (rms.max(d.rms), bad.max(d.bad));
+                    let d = Difference::between(&last, &now);
+                    (rms, bad) = (rms.max(d.rmse()), bad.max(d.bad));
                 }
             }
             (rms, bad)

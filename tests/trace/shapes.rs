@@ -4,12 +4,9 @@
 //! Errors are backward errors: how much the body must grow or shrink to be met exactly where it was found, in roundings
 //! of the lengths that take part. For a ball that is the relative error of t over the conditioning of t.
 
-mod common;
-mod oracle;
-
+use super::span::{Crossing, span as exact_span};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
-use oracle::{ULP, random::Random, span::Crossing, span::span as exact_span};
 use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::texture::Texture;
 use paprsek::trace::packet::{self, NOWHERE, nearest};
@@ -17,6 +14,7 @@ use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{Ball, FAR, Shape};
 use paprsek::trace::world::{Material, Object, Sky, World};
 use proptest::prelude::*;
+use testkit::{ULP, random::Random};
 
 /// The target for balls, roundings: four, as the projected form reaches them.
 const BALL: f64 = 4.0;
@@ -66,7 +64,7 @@ fn wide_at(level: Level, case: &Case, roughly: bool) -> Option<(f32, f32)> {
 fn spans(case: &Case) -> Vec<(&'static str, Option<(f32, f32)>)> {
     let Case { shape, o, d } = case;
     let mut all = vec![("scalar", reference::span(shape, *o, *d))];
-    all.extend(common::levels().into_iter().map(|(name, level)| (name, wide_at(level, case, false))));
+    all.extend(testkit::levels().into_iter().map(|(name, level)| (name, wide_at(level, case, false))));
     all
 }
 
@@ -428,7 +426,7 @@ fn rough_spans_are_as_good_as_they_say() {
         let slack = ROUGH * ULP * (o.length() + radius) as f64;
         let Some(inner) = exact_span(&shape, o, d, -slack) else { continue };
         let outer = exact_span(&shape, o, d, slack).unwrap();
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let (t0, t1) = wide_at(level, &case, true).unwrap_or_else(|| panic!("{name}: {case:?}"));
             let within = |t: f32, a: f64, b: f64| (a.min(b) - slack..=a.max(b) + slack).contains(&(t as f64));
             assert!(within(t0, outer[0].t, inner[0].t) && within(t1, outer[1].t, inner[1].t), "{name}: {case:?}");
@@ -463,7 +461,7 @@ fn segments_are_blocked_by_what_lies_between() {
         let meets = |grow: f64| exact_span(&shape, o, d, grow).is_some_and(|s| s[1].t > 0.0 && s[0].t < reach as f64);
         let (surely, possibly) = (meets(-slack), meets(slack));
         counts[if surely { 0 } else { 1 + possibly as usize }] += 1;
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let found = dispatch!(level, simd => wide_blocks(simd, &Case { shape, o, d }, reach));
             assert!(found || !surely, "{name}: {shape:?} does not block {o} to {end}");
             assert!(!found || possibly, "{name}: {shape:?} blocks {o} to {end}");
@@ -527,7 +525,7 @@ fn normals_are_unit_outward_and_right() {
                 continue;
             }
             let mut all = vec![("scalar", shape.normal_at(p))];
-            for (name, level) in common::levels() {
+            for (name, level) in testkit::levels() {
                 all.push((name, dispatch!(level, simd => wide_normal(simd, &shape, p))));
             }
             for (name, normal) in all {
@@ -653,7 +651,7 @@ proptest! {
                     prop_assert!(t0 <= t1);
                 }
             }
-            for (_, level) in common::levels() {
+            for (_, level) in testkit::levels() {
                 wide_at(level, &case, true);
                 dispatch!(level, simd => wide_blocks(simd, &case, reach));
                 dispatch!(level, simd => wide_normal(simd, &shape, o));
@@ -672,7 +670,7 @@ proptest! {
             let o = random.direction() * random.log(1e-8, 1e8) as f32;
             let case = Case { shape, o, d: random.direction() };
             let bits = |span: Option<(f32, f32)>| span.map(|(a, b)| (a.to_bits(), b.to_bits()));
-            let all: Vec<_> = common::levels()
+            let all: Vec<_> = testkit::levels()
                 .into_iter()
                 .map(|(_, level)| {
                     let normal = dispatch!(level, simd => wide_normal(simd, &shape, o));

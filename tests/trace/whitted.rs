@@ -1,11 +1,6 @@
 //! The tracer against light that is known in closed form, and the packets against the plain recursion.
 
-mod common;
-mod oracle;
-mod picture;
-
 use glam::{DVec3, Mat3, Vec3, vec3};
-use oracle::random::Random;
 use paprsek::scenes::bench::spheres;
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
@@ -13,8 +8,10 @@ use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::Shape;
 use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
 use paprsek::view::Camera;
-use picture::{plain, traced};
 use std::f64::consts::FRAC_1_SQRT_2;
+use testkit::metrics::gaps;
+use testkit::picture::{plain, traced};
+use testkit::random::Random;
 
 /// Light that is known, after a handful of f32 operations a level.
 const LIGHT: f64 = 2e-6;
@@ -125,14 +122,14 @@ fn reflection_is_total_beyond_the_critical_angle() {
             let truth = share + (1.0 - share) * (1.0 - through);
             // The squared cosine behind the surface is known to a few roundings; its root is the slope of all that
             // happens here.
-            let doubt = 8.0 * n * n * oracle::ULP;
+            let doubt = 8.0 * n * n * testkit::ULP;
             let low = (through * through - doubt).max(0.0).sqrt();
             let high = (through * through + doubt).sqrt();
             let steep = 4.0 * n / (1.0 - 1.0 / (n * n)).sqrt() + 1.0;
             let bound = (steep * (high - low)).min(1.0) + 1e-6;
             assert!((found - truth).abs() <= bound, "{n}, {k}: {found} for {truth}, within {bound}");
             worst = worst.max((found - truth).abs());
-            if n * sine > 1.0 + 8.0 * n * oracle::ULP {
+            if n * sine > 1.0 + 8.0 * n * testkit::ULP {
                 assert_eq!(found, 1.0, "{n}, {k}");
             }
         }
@@ -158,7 +155,7 @@ fn ball_in_furnace(ior: f64, angle: f64, level: u32) -> f64 {
 fn furnace_doubt(distance: f64, sine: f64, ior: f64, level: u32) -> f64 {
     let cosine = (1.0 - sine * sine).sqrt();
     let inner = (1.0 - (sine / ior).powi(2)).abs().sqrt();
-    LIGHT + 8.0 * level as f64 * oracle::ULP * (1.0 + distance) / cosine.min(inner)
+    LIGHT + 8.0 * level as f64 * testkit::ULP * (1.0 + distance) / cosine.min(inner)
 }
 
 fn furnaces(levels: &[u32]) {
@@ -220,7 +217,7 @@ fn bodies_of_equal_index_are_invisible() {
             let camera = Camera::look_at(eye, Vec3::ZERO, 0.9, 0.3);
             let size = (96, 64);
             let truth = plain(&world, camera, size);
-            for (name, level) in common::levels() {
+            for (name, level) in testkit::levels() {
                 let found = traced(&world, camera, size, Quality::EXACT, level);
                 for (a, b) in found.pixels.iter().zip(&truth.pixels) {
                     let error = (*a - Vec3::ONE).abs().max_element().max((*b - Vec3::ONE).abs().max_element());
@@ -236,10 +233,10 @@ fn packet_furnaces(level: u32) {
         let world = furnace(vec![(ball(Vec3::ZERO, 1.0), glass(ior))], level);
         let camera = Camera::look_at(vec3(0.0, 0.0, 3.0), Vec3::ZERO, 0.8, 0.0);
         let size = (128, 128);
-        for (name, simd) in common::levels() {
+        for (name, simd) in testkit::levels() {
             let picture = traced(&world, camera, size, Quality::EXACT, simd);
             for (i, found) in picture.pixels.iter().enumerate() {
-                let d = picture::eye_ray(&camera, size, i % 128, i / 128).as_dvec3();
+                let d = testkit::picture::eye_ray(&camera, size, i % 128, i / 128).as_dvec3();
                 let offset = camera.eye.as_dvec3().cross(d).length();
                 if offset > 0.999 {
                     continue;
@@ -282,7 +279,7 @@ fn packets_never_meet_the_body_they_leave() {
             };
             let eye = center + random.direction() * 5.0 * scale;
             let camera = Camera::look_at(eye, center, 0.5, 0.0);
-            for (name, level) in common::levels() {
+            for (name, level) in testkit::levels() {
                 let draw = |material, max_level| {
                     let world = furnace(vec![(shape, material)], max_level);
                     traced(&world, camera, (100, 100), Quality::EXACT, level).pixels
@@ -379,7 +376,7 @@ fn shadows_end_where_geometry_says() {
             let truth = 1.0 / ((a.cos() / long).powi(2) + (a.sin() / wide).powi(2)).sqrt();
             let found = shadow_edge(&world, middle, middle + DVec3::new(a.cos(), 0.0, a.sin()) * 10.0);
             // Coordinates of up to ten, seen under the light's angle.
-            let doubt = 32.0 * oracle::ULP * 10.0 / elevation.sin();
+            let doubt = 32.0 * testkit::ULP * 10.0 / elevation.sin();
             assert!((found - truth).abs() < doubt, "{elevation}, {k}: {found} for {truth}");
         }
     }
@@ -426,7 +423,7 @@ fn highlights_peak_in_the_mirror_direction() {
     }
     println!("highlight: {worst:e}");
     // Forty-eight times the rounding of a cosine.
-    assert!(worst < 48.0 * 4.0 * oracle::ULP * 0.4);
+    assert!(worst < 48.0 * 4.0 * testkit::ULP * 0.4);
 }
 
 /// Every shape, every pattern, both palettes, every kind of material and light.
@@ -480,9 +477,9 @@ const RIMS: usize = 6;
 
 fn compare(what: &str, world: &World, camera: Camera) {
     let size = (160, 90);
-    let truth = plain(world, camera, size).codes();
-    for (name, level) in common::levels() {
-        let gaps = traced(world, camera, size, Quality::EXACT, level).codes().gaps(&truth);
+    let truth = plain(world, camera, size).frame();
+    for (name, level) in testkit::levels() {
+        let gaps = gaps(&traced(world, camera, size, Quality::EXACT, level).frame(), &truth);
         let off: Vec<usize> = (0..gaps.len()).filter(|i| gaps[*i] > 1).collect();
         let places: Vec<_> = off.iter().map(|i| (i % 160, i / 160, gaps[*i])).collect();
         println!("{what}, {name}: {} pixels off by more than a code {places:?}", off.len());
@@ -533,9 +530,9 @@ fn tiles_leave_nothing_out() {
         let fov = [0.3, 1.0, 2.0, 2.8][round % 4];
         let camera = Camera::look_at(Vec3::ZERO, random.direction(), fov, random.range(-3.0, 3.0) as f32);
         let size = (150, 100);
-        let truth = plain(&world, camera, size).codes();
-        let found = traced(&world, camera, size, Quality::EXACT, common::levels()[0].1).codes();
-        let off = found.gaps(&truth).iter().filter(|g| **g > 1).count();
+        let truth = plain(&world, camera, size).frame();
+        let found = traced(&world, camera, size, Quality::EXACT, testkit::levels()[0].1).frame();
+        let off = gaps(&found, &truth).iter().filter(|g| **g > 1).count();
         assert!(off <= RIMS, "view {round}: {off} pixels");
         rims += off;
     }

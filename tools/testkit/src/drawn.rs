@@ -1,5 +1,4 @@
 //! What the rasterizer makes of a world, in linear light, and simple worlds.
-#![allow(dead_code)] // Every test takes its part.
 
 use fearless_simd::Level;
 use glam::{Affine3A, DVec3, Mat3, Vec3};
@@ -7,7 +6,7 @@ use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
 use paprsek::raster::light::Haze;
 use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::{Body, RasterLayer, World};
+use paprsek::raster::{Body, RasterLayer, World, shadow};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -16,11 +15,15 @@ use std::sync::{Arc, Mutex};
 /// A picture before it becomes codes, row by row from the top left.
 #[derive(Clone)]
 pub struct Planes {
+    /// Pixels in a row.
     pub width: usize,
+    /// Rows.
     pub height: usize,
+    /// Linear light.
     pub color: Vec<Vec3>,
     /// 1 / distance along the axis; 0 for nothing.
     pub inv_depth: Vec<f32>,
+    /// Share of the pixel that something covers, 0 to 1.
     pub coverage: Vec<f32>,
 }
 
@@ -91,11 +94,12 @@ pub fn dark(bodies: Vec<Body>) -> World {
     }
 }
 
+/// A body that stands where its mesh is.
 pub fn body(mesh: Mesh) -> Body {
     Body::new(Arc::new(mesh), Affine3A::IDENTITY)
 }
 
-/// White.
+/// A mesh without triangles whose one paint is white.
 pub fn blank() -> Mesh {
     Mesh::painted(&[Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }])
 }
@@ -142,15 +146,20 @@ pub fn enters(o: DVec3, d: DVec3, (low, high): (Vec3, Vec3)) -> Option<(f64, usi
 /// Points of shadows: acne is dark instead of lit, leaks are lit instead of dark.
 #[derive(Default, Debug, Clone, Copy)]
 pub struct Count {
+    /// All that were judged.
     pub pixels: u32,
+    /// Those that are in shadow.
     pub dark: u32,
+    /// Those that are dark instead of lit.
     pub acne: u32,
+    /// Those that are lit instead of dark.
     pub leaks: u32,
     /// Misclassified, but farther from a true edge than a map may err.
     pub far: u32,
 }
 
 impl Count {
+    /// Counts a point that is lit in truth or not, that was found lit or not, and whether it lies far from an edge.
     pub fn add(&mut self, truth: bool, found: bool, far: bool) {
         self.pixels += 1;
         self.dark += !truth as u32;
@@ -159,7 +168,17 @@ impl Count {
         self.far += (truth != found && far) as u32;
     }
 
+    /// The share of the points that are misclassified.
     pub fn share(&self) -> f64 {
         (self.acne + self.leaks) as f64 / self.pixels as f64
+    }
+}
+
+/// Has the next frame draw the first light's map, as if that light had moved, as sun and torch do in every frame of a show:
+/// maps are kept while a light rests, which would spare whoever comes second in a comparison his own.
+pub fn forget_maps() {
+    for (key, _) in shadow::maps().iter_mut().filter(|(key, _)| key.slot == 0) {
+        // No light has a plan without views. The memory stays for the next map.
+        key.views.clear();
     }
 }

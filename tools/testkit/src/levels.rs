@@ -1,4 +1,4 @@
-//! What tests and benches share.
+//! The SIMD levels of this machine.
 
 use fearless_simd::Level;
 

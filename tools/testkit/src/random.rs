@@ -3,7 +3,10 @@
 use glam::{Mat3, Quat, Vec3};
 
 /// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
-pub struct Random(pub u64);
+pub struct Random(
+    /// The seed, then the state.
+    pub u64,
+);
 
 impl Random {
     /// Uniform, 0 to 1.

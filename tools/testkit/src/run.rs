@@ -1,22 +1,19 @@
 //! Runs the executable and judges how it ends.
-// Each test file uses its part of this.
-#![allow(dead_code)]
 
 use std::process::{Child, Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The executable, without a display: cargo's, or the one that the environment's `PAPRSEK` names, such as the packed intro.
-pub fn paprsek() -> Command {
-    let ours = env!("CARGO_BIN_EXE_paprsek").into();
-    let mut command = Command::new(std::env::var_os("PAPRSEK").unwrap_or(ours));
+/// The executable, without a display: cargo's, whose path the caller knows as `CARGO_BIN_EXE_paprsek`, or the one that the
+/// environment's `PAPRSEK` names, such as the packed intro.
+pub fn paprsek(ours: &str) -> Command {
+    let mut command = Command::new(std::env::var_os("PAPRSEK").unwrap_or(ours.into()));
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     command
 }
 
 /// The same by a shell that does something before, in the process that becomes the executable.
-pub fn after(deed: &str) -> Command {
-    let program = paprsek();
+pub fn after(deed: &str, program: Command) -> Command {
     let mut shell = Command::new("sh");
     shell.args(["-c", &format!("{deed}; exec \"$0\" \"$@\"")]).arg(program.get_program());
     shell.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
