@@ -13,6 +13,7 @@ use std::sync::mpsc::channel;
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
 use testkit::run::{ending, fails, succeeds};
+use testkit::{Tool, needs};
 
 /// Has it minifb, a terminal and the benchmark?
 const PLAIN: bool = cfg!(feature = "minifb");
@@ -28,6 +29,11 @@ const COOKIES: &str = "MIT-MAGIC-COOKIE-1";
 const MAX_SIDE: usize = 16384;
 /// Where there is no authority file.
 const NONE: &str = "/nowhere";
+
+/// The 64 kB build speaks X11 itself.
+fn has_a_window_system() -> bool {
+    !PLAIN || needs(&[Tool::Xlib])
+}
 
 /// The program at work; it ends with the test.
 struct Running(Option<Child>);
@@ -88,6 +94,9 @@ fn is_left(talk: impl Fn(&mut Client) -> Result<()> + Clone + Send + 'static) {
 
 #[test]
 fn a_polite_server_gets_a_window() {
+    if !has_a_window_system() {
+        return;
+    }
     let (child, _fake) = against(|mut client| {
         client.agree()?;
         client.serve_until_shown()?;
@@ -99,6 +108,9 @@ fn a_polite_server_gets_a_window() {
 
 #[test]
 fn silence_is_left() {
+    if !has_a_window_system() {
+        return;
+    }
     // How much of the set-up is said, and how many answers follow.
     let cases = [(0, 0), (9, 0), (usize::MAX, 0), (usize::MAX, 1)];
     thread::scope(|scope| {
@@ -120,6 +132,9 @@ fn silence_is_left() {
 
 #[test]
 fn a_set_up_in_drops_is_left() {
+    if !has_a_window_system() {
+        return;
+    }
     is_left(|client| {
         for byte in set_up(24, 32) {
             client.say(&[byte])?;
@@ -131,12 +146,18 @@ fn a_set_up_in_drops_is_left() {
 
 #[test]
 fn a_server_that_does_not_take_us_up_is_left() {
+    if !has_a_window_system() {
+        return;
+    }
     let (fake, _listener) = Fake::deaf();
     has_no_window(&show(&fake, NONE.as_ref()).end(PATIENCE));
 }
 
 #[test]
 fn odd_set_ups_are_said_in_one_line() {
+    if !has_a_window_system() {
+        return;
+    }
     let good = set_up(24, 32);
     let words: Vec<u32> = good[8..].chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
     let mut replies = vec![vec![], set_up(16, 16), vec![0; 8], vec![0xff; 8], agreed(&[u32::MAX; 0xffff])];
@@ -161,6 +182,9 @@ fn odd_set_ups_are_said_in_one_line() {
 
 #[test]
 fn the_length_of_an_answer_is_not_believed() {
+    if !has_a_window_system() {
+        return;
+    }
     // minifb's keyboard is Xlib's.
     if PLAIN {
         return;
@@ -181,6 +205,9 @@ fn the_length_of_an_answer_is_not_believed() {
 
 #[test]
 fn a_server_that_falls_silent_later_is_a_lost_display() {
+    if !has_a_window_system() {
+        return;
+    }
     let (sender, over) = channel();
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
@@ -199,6 +226,9 @@ fn a_server_that_falls_silent_later_is_a_lost_display() {
 
 #[test]
 fn a_server_that_says_no_more_is_a_lost_display() {
+    if !has_a_window_system() {
+        return;
+    }
     let (child, _fake) = against(|mut client| {
         client.agree()?;
         client.serve_until(MAP_WINDOW)?;
@@ -210,6 +240,9 @@ fn a_server_that_says_no_more_is_a_lost_display() {
 
 #[test]
 fn esc_is_heard_while_the_server_does_not_read() {
+    if !has_a_window_system() {
+        return;
+    }
     // Xlib hears nothing while it waits, but no longer than 5 s.
     if PLAIN {
         return;
@@ -231,6 +264,9 @@ fn esc_is_heard_while_the_server_does_not_read() {
 
 #[test]
 fn the_largest_window_gets_a_smaller_picture_and_esc_ends_at_once() {
+    if !has_a_window_system() {
+        return;
+    }
     // minifb makes a picture of its own of the window's size.
     if PLAIN {
         return;
@@ -288,6 +324,9 @@ fn with_authority(prepare: impl Fn(&Path, &str)) -> Output {
 
 #[test]
 fn a_cookie_that_names_no_display_fits() {
+    if !has_a_window_system() {
+        return;
+    }
     for display in ["", "own"] {
         let output = with_authority(|path, own| {
             let number = if display == "own" { own } else { display };
@@ -302,6 +341,9 @@ fn a_cookie_that_names_no_display_fits() {
 
 #[test]
 fn a_refusal_is_said() {
+    if !has_a_window_system() {
+        return;
+    }
     let output = with_authority(|path, own| fs::write(path, entry(own, COOKIES, &[1; 16])).unwrap());
     assert!(has_no_window(&output).contains("the display refused us"));
     // Another display's cookie is not shown to this one, and one that is cut off is none.
@@ -314,6 +356,9 @@ fn a_refusal_is_said() {
 
 #[test]
 fn an_authority_of_any_kind_is_read_in_bounded_time() {
+    if !has_a_window_system() {
+        return;
+    }
     let fifo = |path: &Path| assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
     let many = |number: &str| (0..30_000).flat_map(|_| entry(number, COOKIES, &[1; 16])).collect::<Vec<_>>();
     has_no_window(&with_authority(|path, _| fifo(path)));

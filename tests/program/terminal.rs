@@ -6,6 +6,7 @@ use std::io::{Read, Write};
 use std::process::{ChildStdin, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+use testkit::{Tool, needs};
 
 const ENTER: &str = "\x1b[?1049h\x1b[?25l";
 const LEAVE: &str = "\x1b[0m\x1b[?25h\x1b[?1049l";
@@ -27,11 +28,7 @@ fn act(words: &str, term: &str, then: impl FnOnce(&mut ChildStdin, &str)) -> Str
     let mut script = Command::new("script");
     script.args(["-qec", &line, "/dev/null"]).env("TERM", term).env("SHELL", "/bin/sh");
     script.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    let mut child = script
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("install util-linux and bsdutils: script runs a program in a terminal");
+    let mut child = script.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     // Kept to the end: a closed input would be an end of file typed into the terminal.
     let mut keyboard = child.stdin.take().unwrap();
     let mut screen = child.stdout.take().unwrap();
@@ -75,6 +72,9 @@ fn is_put_back(printed: &str, code: i32) {
 
 #[test]
 fn a_range_plays_and_ends() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     let began = Instant::now();
     is_whole(&play("lumen --to 1", "xterm-256color", b""));
     assert!(began.elapsed() >= Duration::from_secs(1));
@@ -82,6 +82,9 @@ fn a_range_plays_and_ends() {
 
 #[test]
 fn keys_end_it() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     for keys in [&b"\x03"[..], b"\x1b", b"q"] {
         is_whole(&play("lumen", "xterm-256color", keys));
     }
@@ -89,6 +92,9 @@ fn keys_end_it() {
 
 #[test]
 fn ctrl_s_stops_nothing() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     is_whole(&act("lumen", "xterm-256color", |keyboard, _| {
         keyboard.write_all(b"\x13").unwrap();
         // What is under way then does not count.
@@ -99,6 +105,9 @@ fn ctrl_s_stops_nothing() {
 
 #[test]
 fn a_signal_puts_the_terminal_back_and_ends_it() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     for (signal, number) in [("HUP", 1), ("INT", 2), ("TERM", 15)] {
         let printed = act("lumen", "xterm-256color", |_, process| {
             assert!(Command::new("kill").args(["-s", signal, process]).status().unwrap().success());
@@ -109,6 +118,9 @@ fn a_signal_puts_the_terminal_back_and_ends_it() {
 
 #[test]
 fn a_signal_ends_it_while_the_terminal_takes_nothing() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     let printed = act("lumen", "xterm-256color", |_, process| {
         // Longer than any buffer has room.
         sleep(Duration::from_secs(1));
@@ -124,6 +136,9 @@ fn a_signal_ends_it_while_the_terminal_takes_nothing() {
 
 #[test]
 fn a_terminal_without_colour_gets_the_benchmark() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
     let printed = play("lumen --size 16x9", "dumb", b"");
     assert!(printed.starts_with("paprsek: no display"), "{printed}");
     assert!(printed.contains("fps median") && !printed.contains('\x1b'), "{printed}");

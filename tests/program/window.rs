@@ -10,9 +10,8 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use testkit::run::{ending, fails, succeeds};
+use testkit::{Tool, needs};
 
-/// What these tests need, as Debian calls it.
-const PACKAGES: &str = "install xvfb, xdotool and imagemagick, or set PAPRSEK_SKIP_WINDOW=1";
 /// Longest wait for anything but the end.
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Esc ends at once: within this, on a loaded machine.
@@ -22,19 +21,19 @@ const AT_ONCE: Duration = Duration::from_secs(1);
 struct Display(Child, String);
 
 impl Display {
-    /// `None` where the tests of windows are to be skipped.
+    /// `None` where the machine lacks what it takes.
     fn open() -> Option<Display> {
         Display::of("640x480x24")
     }
 
     /// The same with a screen of that size and depth.
     fn of(screen: &str) -> Option<Display> {
-        if std::env::var_os("PAPRSEK_SKIP_WINDOW").is_some() {
+        if !(needs(&[Tool::Xvfb, Tool::Xdotool, Tool::Import]) && (!PLAIN || needs(&[Tool::Xlib]))) {
             return None;
         }
         let mut xvfb = Command::new("Xvfb");
         xvfb.args(["-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"]);
-        let mut child = xvfb.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect(PACKAGES);
+        let mut child = xvfb.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
         let mut number = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut number).unwrap();
         assert!(!number.trim().is_empty(), "Xvfb does not start");
@@ -73,11 +72,11 @@ impl Display {
     fn picture(&self) -> Vec<u8> {
         let mut import = Command::new("import");
         let output = import.args(["-window", "root", "-depth", "8", "rgb:-"]).env("DISPLAY", &self.1).output();
-        output.expect(PACKAGES).stdout
+        output.unwrap().stdout
     }
 
     fn xdotool(&self, words: &[&str]) -> String {
-        let output = Command::new("xdotool").args(words).env("DISPLAY", &self.1).output().expect(PACKAGES);
+        let output = Command::new("xdotool").args(words).env("DISPLAY", &self.1).output().unwrap();
         assert!(output.status.success(), "xdotool {words:?}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap().trim().to_owned()
     }
@@ -174,7 +173,7 @@ fn until_the_first_frame_a_light_runs_and_esc_ends() {
         .args(["search", "--onlyvisible", "--name", "^Paprsek$"])
         .env("DISPLAY", &display.1)
         .output()
-        .expect(PACKAGES)
+        .unwrap()
         .status
         .success()
     {

@@ -1,29 +1,16 @@
 //! The packed intro: 64 kB that play what the plain build plays.
 
+use crate::{pack, target};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
-use std::sync::OnceLock;
 use testkit::run::{self, fails, succeeds};
+use testkit::{Tool, needs};
 
-/// The packed intro, built once by `tools/pack`; `None` where its tests are to be skipped.
+/// The packed intro; `None` where the test is left out.
 fn intro() -> Option<PathBuf> {
-    static INTRO: OnceLock<Option<PathBuf>> = OnceLock::new();
-    INTRO.get_or_init(build).clone()
-}
-
-fn build() -> Option<PathBuf> {
-    if std::env::var_os("PAPRSEK_SKIP_INTRO").is_some() {
-        return None;
-    }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let target = root.join(option_env!("CARGO_TARGET_DIR").unwrap_or("target"));
-    let mut pack = Command::new(env!("CARGO"));
-    pack.current_dir(root).args(["run", "--quiet", "--package", "pack", "--target-dir"]).arg(&target);
-    let output = pack.env("CARGO_TARGET_DIR", &target).output().unwrap();
-    assert!(output.status.success(), "{}or set PAPRSEK_SKIP_INTRO=1", String::from_utf8_lossy(&output.stderr));
-    Some(target.join("intro/paprsek"))
+    pack().then(|| target().join("intro/paprsek"))
 }
 
 /// What a capture to stdout gives.
@@ -32,6 +19,7 @@ fn capture(mut program: Command, words: &[&str]) -> Vec<u8> {
 }
 
 #[test]
+#[ignore = "long: run by .ci/run"]
 fn it_shows_the_plain_build_s_pictures() {
     let Some(intro) = intro() else { return };
     let show = ["--from", "1", "--to", "154", "--fps", "0.1", "--size", "160x90"];
@@ -46,13 +34,17 @@ fn it_shows_the_plain_build_s_pictures() {
 }
 
 #[test]
+#[ignore = "long: run by .ci/run"]
 fn it_needs_the_c_library_and_no_new_one() {
+    if !needs(&[Tool::Readelf]) {
+        return;
+    }
     let Some(intro) = intro() else { return };
     // As it was linked: the packer leaves out what the loader does not ask for, versions and the length of names.
     let linked = intro.with_file_name("build/x86_64-unknown-linux-gnu/release/paprsek.ordered");
     let readelf = |what: &str| {
         let mut readelf = Command::new("readelf");
-        let output = readelf.args(["--wide", "--use-dynamic", what]).arg(&linked).output().expect("install binutils");
+        let output = readelf.args(["--wide", "--use-dynamic", what]).arg(&linked).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     };
     let dynamic = readelf("--dynamic");
@@ -70,6 +62,7 @@ fn it_needs_the_c_library_and_no_new_one() {
 }
 
 #[test]
+#[ignore = "long: run by .ci/run"]
 fn a_damaged_file_says_so() {
     let Some(intro) = intro() else { return };
     let whole = fs::read(&intro).unwrap();

@@ -3,11 +3,13 @@
 pub mod drawn;
 mod levels;
 pub mod metrics;
+mod needs;
 pub mod picture;
 pub mod random;
 pub mod run;
 
 pub use levels::levels;
+pub use needs::{Tool, left_out, needs};
 
 /// Rounding of one f32 operation, relative: 2^-24.
 pub const ULP: f64 = 1.0 / 16_777_216.0;
