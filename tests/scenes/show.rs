@@ -27,15 +27,14 @@ fn it_comes_first_and_its_parts_are_scenes() {
     }
 }
 
-#[test]
-fn a_part_is_shown_as_it_is() {
+/// Every so many seconds, up to the very fades.
+fn parts_are_shown_as_they_are(step: usize) {
     let ends: Vec<f64> = PARTS.iter().skip(1).map(|part| part.0).chain([INTRO.duration]).collect();
     for (number, (start, (scene, from))) in PARTS.iter().enumerate() {
-        // Up to the very fades.
         let first = if number == 0 { 0.0 } else { start + FADE };
         let last = ends[number] - FADE;
         let steps = (last - first).floor() as usize;
-        for time in (0..=steps).map(|step| first + step as f64).chain([last]) {
+        for time in (0..=steps).step_by(step).map(|step| first + step as f64).chain([last]) {
             let written = WRITING.iter().any(|([begin, ..], _)| (0.0..READ).contains(&(time - f64::from(*begin))));
             let stereo = (time > 20.0).then_some(Stereo { eye_distance: 0.1, convergence: 4.0 });
             let same = render(&INTRO, time, stereo) == render(scene, from + (time - start), stereo);
@@ -43,6 +42,17 @@ fn a_part_is_shown_as_it_is() {
             assert!(same || written, "{} at {time}", scene.name);
         }
     }
+}
+
+#[test]
+fn a_part_is_shown_as_it_is() {
+    parts_are_shown_as_they_are(9);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn every_second_of_a_part_is_shown_as_it_is() {
+    parts_are_shown_as_they_are(1);
 }
 
 #[test]

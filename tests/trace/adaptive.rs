@@ -76,6 +76,7 @@ fn antialiased_pictures_meet_their_target() {
 }
 
 #[test]
+#[ignore = "long: run by .ci/run"]
 fn antialiased_textures_meet_their_target() {
     // The floor's grain towards the horizon is finer than a pixel, and one lookup a pixel aliases: 33.2 dB at 320x180,
     // 36.3 at 640x360. The target is for the size that is played.
