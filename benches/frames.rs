@@ -11,7 +11,7 @@ use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::hint::black_box;
 
-#[path = "../examples/common/maps.rs"]
+#[path = "../tools/report/src/maps.rs"]
 mod maps;
 
 const SIZE: (usize, usize) = (640, 360);

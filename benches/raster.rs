@@ -25,7 +25,7 @@ use std::time::Instant;
 
 #[path = "../tests/common/mod.rs"]
 mod common;
-#[path = "../examples/common/maps.rs"]
+#[path = "../tools/report/src/maps.rs"]
 mod maps;
 
 /// Triangles of the set.

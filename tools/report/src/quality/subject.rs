@@ -1,0 +1,98 @@
+//! What is drawn: scenes at a few instants, and the sky alone at a few heights of the sun.
+
+use super::sweep::{Group, Point};
+use glam::{Mat3, Vec3, vec3};
+use paprsek::frame::encode::Transfer;
+use paprsek::frame::{FrameSpec, Scene};
+use paprsek::frame::{Picture, Workers};
+use paprsek::scenes;
+use paprsek::sky::air::Air;
+use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::view::{Camera, Eye};
+
+/// Something to draw.
+pub struct Subject {
+    /// Its name in tables and curves.
+    pub name: &'static str,
+    /// The sweeps that it takes part in.
+    pub groups: &'static [Group],
+    /// None is the sky alone.
+    scene: Option<Scene>,
+    /// Seconds; of the sky alone, degrees of the sun above the horizon.
+    times: [f64; 3],
+}
+
+/// Instants, as shares of a scene's length.
+pub const SHARES: [f64; 3] = [0.1, 0.4, 0.7];
+
+/// The first summer's day of `day`, by the hour: the sun at 6 to 8 degrees, and at 55 to 64.
+const LOW: [f64; 3] = [4.9, 19.4, 5.0];
+const HIGH: [f64; 3] = [12.0, 10.5, 13.5];
+
+/// Everything that is drawn.
+pub fn all() -> Vec<Subject> {
+    let scene = |name: &str| scenes::named(name).expect("a scene of the list");
+    let shares = |name: &'static str, groups| {
+        let scene = scene(name);
+        Subject { name, groups, scene: Some(scene), times: SHARES.map(|share| share * scene.duration) }
+    };
+    // A day begins at four.
+    let seconds = |hours: [f64; 3]| hours.map(|hour| (hour - 4.0) * scenes::show::day::LENGTH / 24.0);
+    let day =
+        |name, hours| Subject { name, groups: &[Group::Shadows], scene: Some(scene("day")), times: seconds(hours) };
+    let sky = |name, times| Subject { name, groups: &[Group::Sky], scene: None, times };
+    vec![
+        shares("spheres", &[Group::Tracer]),
+        shares("spheres-glass", &[Group::Tracer]),
+        shares("lumen", &[Group::Tracer]),
+        shares("shadow", &[Group::Raster]),
+        shares("day", &[Group::Raster]),
+        day("day, low sun", LOW),
+        day("day, high sun", HIGH),
+        shares("cumulus", &[Group::CloudLayer]),
+        shares("sky-of-clouds", &[Group::CloudLayer]),
+        shares("clouds", &[Group::CloudLayer]),
+        shares("torches", &[Group::Fires]),
+        sky("sky by day", [30.0, 10.0, 60.0]),
+        sky("sky at sunset", [0.0, 2.0, -1.0]),
+        sky("sky at dusk", [-6.0, -4.0, -9.0]),
+    ]
+}
+
+impl Subject {
+    /// Is it of that scene, or of that name?
+    pub fn answers_to(&self, name: &str) -> bool {
+        self.name == name
+            || self.scene.is_some_and(|scene| scene.name == name)
+            || (self.scene.is_none() && name == "dome")
+    }
+
+    /// Ready to be drawn.
+    pub fn picture(
+        &self,
+        instant: usize,
+        point: &Point,
+        (width, height): (usize, usize),
+        workers: &Workers,
+    ) -> Picture {
+        let (time, quality) = (self.times[instant], point.quality);
+        if let Some(scene) = self.scene {
+            return scene.picture(&FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, workers });
+        }
+        let (sin, cos) = (time as f32).to_radians().sin_cos();
+        let sky = Sky {
+            sun: vec3(0.0, sin, -cos),
+            moon: Vec3::NEG_Y,
+            moon_to_sun: Vec3::X,
+            lit: 0.0,
+            moon_radius: 0.0045,
+            turn: Mat3::IDENTITY,
+            air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
+        };
+        let dome = Dome::new(sky, point.dome.unwrap_or_else(|| DomeQuality::new(&quality)));
+        let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
+        let layer = SkyLayer::new(dome, camera, width, height, Look::default());
+        Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
+    }
+}
