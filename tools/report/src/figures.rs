@@ -45,7 +45,7 @@ pub fn run(options: &Options) -> Result {
     // The show's parts are scenes of their own.
     let scenes: Vec<_> = scenes::all().iter().filter(|scene| scene.name != scenes::INTRO.name).copied().collect();
     let times = time(&mut renderer, &scenes, &effort);
-    println!("| scene | quality | fps | samples a pixel | {} | against |", likeness::head());
+    println!("| scene | quality | fps | samples per pixel | {} | against |", likeness::head());
     println!("|---|---|---|---|---|---|---|");
     for (scene, [fast, default]) in scenes.iter().zip(times) {
         let mut compare = |at| {

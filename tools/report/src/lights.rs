@@ -245,7 +245,7 @@ fn plot(path: &Path, all: &[Series]) -> Result {
             .build_cartesian_2d((1.0..1.1 * last).log_scale(), 0.0..1.1)?;
         let mut mesh = chart.configure_mesh();
         mesh.x_label_formatter(&|count| format!("{count:.0}"));
-        mesh.x_desc(series.what).y_desc("frames a second over those with one").max_light_lines(0);
+        mesh.x_desc(series.what).y_desc("frames per second, relative to one").max_light_lines(0);
         mesh.bold_line_style(BLACK.mix(0.12)).draw()?;
         for ((name, line), colour) in NAMES.iter().zip(series.lines()).zip(colours) {
             let points = || series.counts.iter().zip(line).map(|(count, fps)| (*count as f64, fps / line[0]));
@@ -286,10 +286,10 @@ pub fn run(options: &Common) -> Result {
     let mut text = format!(
         "# Objects and lights\n\n\
          Written by `{}`; not edited by hand.\n\n\
-         {width}x{height}, {THREADS} threads, {}; medians of {rounds} rounds in which all of a table take turns. Cubes on \
-         a plane under suns from all around, each with a shadow map of {MAP}² that is drawn in every frame. The thesis \
-         (Pilsen 2007) measured its own scene on a graphics card: what compares is how fast the speed falls. At rest are \
-         lights that do not move, whose maps are kept.\n",
+         {width}x{height}, {THREADS} threads, {}. Times are medians of {rounds} rounds in which all rows of a table take \
+         turns. The scene is cubes on a plane under suns from all around, each with a shadow map of {MAP}² texels that is \
+         drawn in every frame. The thesis (Pilsen 2007) measured its own scene on a graphics card: what can be compared is \
+         how the speed falls. Lights at rest do not move, so their maps are kept.\n",
         options.command("lights"),
         stage.renderer.simd()
     );
@@ -305,9 +305,9 @@ pub fn run(options: &Common) -> Result {
 
     write!(
         text,
-        "\n## One pass over the visible pixels, against the whole scene once a light\n\n\
-         Milliseconds of a frame of 80 cubes at `default`; the passes are frames of one light each, added.\n\n\
-         | lights | one pass | a pass a light | gain |\n|--:|--:|--:|--:|\n"
+        "\n## One pass over the visible pixels, against one pass over the scene per light\n\n\
+         Milliseconds per frame of 80 cubes at `default`. Passes per light are frames of one light each, added.\n\n\
+         | lights | one pass | pass per light | gain |\n|--:|--:|--:|--:|\n"
     )?;
     let case =
         |kind, lights, apart| Case { objects: UNDER, kind, lights, apart, rest: false, quality: Quality::DEFAULT };
@@ -320,9 +320,9 @@ pub fn run(options: &Common) -> Result {
     write!(
         text,
         "\n## Lamps spread over the plane\n\n\
-         The same scene, milliseconds of a frame. Bounded lamps reach {REACH} metres of the plane's {FIELD}; a pass a light \
-         draws the scene once for each. With maps: a cube of 256² each.\n\n\
-         | lamps | bounded | unbounded | a pass a light | gain | bounded, maps | unbounded, maps |\n\
+         Milliseconds per frame of the same scene. Bounded lamps reach {REACH} metres of the plane's {FIELD}. A pass per \
+         light draws the scene once for each lamp. With maps: a cube of six maps of 256² texels per lamp.\n\n\
+         | lamps | bounded | unbounded | pass per light | gain | bounded, maps | unbounded, maps |\n\
          |--:|--:|--:|--:|--:|--:|--:|\n"
     )?;
     let counts = [1, 2, 4, 8, 16, 32];

@@ -147,7 +147,7 @@ pub fn report(text: &mut String, out: &Path, quick: bool) -> Result<(), Box<dyn 
     writeln!(text, "\n## Number of clouds\n")?;
     writeln!(
         text,
-        "Frames a second at `fast`, medians of {rounds} frames in which all take turns: the clouds of `sky-of-clouds`, and more of them, over nothing. Light towards the eye is computed for every ray; without it there is no picture, so what is switched is baking.\n"
+        "Frames per second at `fast`, medians of {rounds} frames in which all rows take turns: the clouds of `sky-of-clouds`, and more of them, with nothing behind. Light towards the eye is computed for every ray and cannot be left out, so what is switched on and off is baking.\n"
     )?;
     table(text, "clouds", &COUNTS, &rows)?;
     let counts = &COUNTS[..if quick { 3 } else { 6 }];
@@ -168,10 +168,13 @@ pub fn report(text: &mut String, out: &Path, quick: bool) -> Result<(), Box<dyn 
     let sum = loads[0].1.iter().zip(&loads[1].1).map(|(a, b)| a + b).collect::<Vec<_>>();
     let each = sum.iter().zip(counts).map(|(sum, count)| sum / *count as f64).collect();
     loads.push(("both".into(), sum));
-    loads.push(("both, a cloud".into(), each));
-    writeln!(text, "\n## Loading\n\nMilliseconds for shapes of {EDGE}³ voxels that all differ, on one thread.\n")?;
+    loads.push(("both, per cloud".into(), each));
+    writeln!(
+        text,
+        "\n## Loading\n\nMilliseconds for shapes of {EDGE}³ voxels, all of them different, on one thread.\n"
+    )?;
     table(text, "shapes", counts, &loads)?;
-    let axes = [Axis { name: "clouds" }, Axis { name: "frames a second" }];
+    let axes = [Axis { name: "clouds" }, Axis { name: "frames per second" }];
     plot::draw(&out.join("imposters-count.svg"), &["number of clouds"], &[curves(&COUNTS, &rows)], axes)?;
     let axes = [Axis { name: "shapes" }, Axis { name: "milliseconds" }];
     plot::draw(&out.join("imposters-load.svg"), &["loading"], &[curves(counts, &loads)], axes)?;

@@ -90,7 +90,7 @@ fn report(text: &mut String, scene: &Scene, quality: (&str, Quality), start: f64
     let slow = fly(scene, quality.1, start, 1.0 / 600.0, frames[1])?;
     let mut curve = Curve { name: format!("{}, {}", scene.name, quality.0), points: Vec::new() };
     writeln!(text, "\n## `{}` at `{}`\n", scene.name, quality.0)?;
-    writeln!(text, "{} frames at 60 a second; slow: {} at a tenth of the speed.\n", frames[0], frames[1])?;
+    writeln!(text, "{} frames at 60 per second; slow: {} frames at a tenth of the speed.\n", frames[0], frames[1])?;
     writeln!(
         text,
         "| bound, pixels | fps, mean | of direct | ms, median | ms, slowest hundredth | ms, worst | first frame, ms | PSNR, mean | worst | change, worst rms | 99.9 % of pixels | slow: change, worst rms | 99.9 % of pixels |"
@@ -150,7 +150,7 @@ pub fn run(Options { common, frames }: &Options) -> Result {
     let level = Renderer::new(THREADS)?.simd();
     writeln!(
         text,
-        "{}x{}, {THREADS} threads, {level}. Direct: rays are cast in every frame. With a bound, pictures stand for clouds while the eye moves by so little that nothing in them is off by more, and are kept from frame to frame; all bounds take turns in every frame, so what compares is the ratio to direct. PSNR is to the direct frame. The change is that from one frame to the next, codes of 255.",
+        "{}x{}, {THREADS} threads, {level}. Direct: rays are cast in every frame. With a bound, pictures stand for clouds and are kept from frame to frame, as long as the eye has moved by so little that nothing in them is off by more than the bound. All bounds take turns in every frame, so compare the ratios to direct. PSNR is against the direct frame. The change is that from one frame to the next, in codes of 255.",
         SIZE.0, SIZE.1
     )?;
     let sets = [
@@ -164,7 +164,7 @@ pub fn run(Options { common, frames }: &Options) -> Result {
         curves.push(report(&mut text, &scene, (name, quality), start, frames)?);
         println!("{text}");
     }
-    let axes = [Axis { name: "mean PSNR to rays, dB" }, Axis { name: "frames a second, of direct" }];
+    let axes = [Axis { name: "mean PSNR to rays, dB" }, Axis { name: "frames per second, relative to direct" }];
     plot::draw(&out.join("imposters-bound.svg"), &["speed against error, by the bound"], &[curves], axes)?;
     writeln!(text, "\n![by bound](imposters-bound.svg)")?;
     count::report(&mut text, out, quick)?;

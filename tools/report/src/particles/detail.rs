@@ -90,7 +90,7 @@ fn light(frame: &Frame) -> f64 {
 pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Box<dyn Error>> {
     writeln!(
         text,
-        "\n## Level of detail\n\nA torch alone, at `fast`. `particle_detail` is the share of its particles that is drawn for each pixel of its height; the default is **bold**. Milliseconds are of that fire alone, moved and drawn on one thread, without the picture behind. PSNR is against all particles, of the whole frame and of the pixels that the fire changes; of the latter those off by more than 8 codes; FLIP is the whole frame's, 99th percentile. Light: root of the mean square by which the sum of its light is off. Means over {INSTANTS} instants.\n"
+        "\n## Level of detail\n\nA torch alone, at `fast`. `particle_detail` is the share of its particles that is drawn per pixel of its height; the default is **bold**. Milliseconds are of that fire alone, moved and drawn on one thread, without the picture behind it. PSNR is against all particles, over the whole frame and over the pixels that the fire changes; \"off by more than 8\" is the share of the latter that are off by more than 8 codes in a channel. FLIP is of the whole frame, 99th percentile. Light: root mean square error of the sum of its light. All are means over {INSTANTS} instants.\n"
     )?;
     writeln!(
         text,

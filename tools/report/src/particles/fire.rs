@@ -53,7 +53,7 @@ fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
 pub fn report(text: &mut String, stage: &mut Stage) -> Result<(), Box<dyn Error>> {
     writeln!(
         text,
-        "\n## Fire\n\nTorches of the bench scene `fire`, 2000 sprites each, over its background, at `fast`: near, 2.2 m away, a fire fills most of the height; in the hand is 0.6 m away, at the house 8 m. All: every sprite of each; level of detail: as `particle_detail` has it at `fast`; sprites are those that the screen shows. The thesis (Pilsen 2008) drew a level of its game at 1680x1050 on a GeForce 7600. Milliseconds more are beside none.\n"
+        "\n## Fire\n\nTorches of the bench scene `fire`, 2000 sprites each, over its background, at `fast`. Near: 2.2 m away, where a fire fills most of the height. In the hand: 0.6 m away. At the house: 8 m away. All: every sprite of each fire. Level of detail: as `particle_detail` has it at `fast`. Sprites are those that are visible on the screen. The thesis (Pilsen 2008) drew a level of its game at 1680x1050 on a GeForce 7600. \"ms more\" is the time beyond a frame without fires.\n"
     )?;
     writeln!(
         text,

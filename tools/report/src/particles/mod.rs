@@ -68,7 +68,7 @@ pub fn run(options: &Common) -> Result {
     let mut text = format!("# Particles\n\nWritten by `{}`; not edited by hand.\n\n", options.command("particles"));
     writeln!(
         text,
-        "{}x{}, {THREADS} threads and {} unless said otherwise; frames are medians of {rounds} rounds in which all of a table take turns. A frame is all from the time to the picture; nothing is kept from one to the next.",
+        "{}x{}, {THREADS} threads and {} unless said otherwise. Times are medians of {rounds} rounds in which all rows of a table take turns. A frame is everything from the time to the finished picture; nothing is kept from one frame to the next.",
         SIZE.0,
         SIZE.1,
         stage.renderer.simd()

@@ -76,16 +76,16 @@ pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dy
     };
     writeln!(
         text,
-        "\n## Motion alone\n\nMillion particles a second, of {COUNT}, in the quickest of {rounds} rounds: all that a frame does before its tiles. None seen: places, sizes and what is seen of them, which is nothing. Seen: {:.0} % of the flakes and {:.0} % of the flames become sprites, which are listed by tile. Arithmetic: what this machine would do of the vector instructions that the compiler made for a particle ({}), if each took as long as a sum or a product that waits for nothing (moves take less); of it: the share that is reached where none is seen.\n",
+        "\n## Motion alone\n\nMillion particles per second, of {COUNT}, in the quickest of {rounds} rounds: everything that a frame does before its tiles. None seen: places, sizes and visibility are computed, but nothing is visible. Seen: {:.0} % of the flakes and {:.0} % of the flames become sprites, which are listed by tile. Arithmetic: the rate at which this machine would execute the vector instructions that the compiler made for a particle ({}) if each took as long as an independent sum or product (moves take less). Of it: the share of that rate that is reached where none is seen.\n",
         100.0 * seen(0)?,
         100.0 * seen(1)?,
         INSTRUCTIONS
-            .map(|(name, [flake, flame])| format!("{name}: {flake} a vector of flakes, {flame} of flames"))
+            .map(|(name, [flake, flame])| format!("{name}: {flake} per vector of flakes, {flame} of flames"))
             .join("; ")
     )?;
     writeln!(
         text,
-        "| threads | level | sums and products, thousand million vectors a second | flakes, none seen | seen | arithmetic | of it | flames, none seen | seen | arithmetic | of it |\n|--:|---|{}",
+        "| threads | level | sums and products, thousand million vectors per second | flakes, none seen | seen | arithmetic | of it | flames, none seen | seen | arithmetic | of it |\n|--:|---|{}",
         "--:|".repeat(9)
     )?;
     let mut curves = Vec::new();
@@ -118,13 +118,13 @@ pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dy
     }
     writeln!(
         text,
-        "\nIf they were stored, {NUMBERS} numbers each (place and speed), reading them alone would allow, without any other work than a sum or a step:\n\n| threads | GB a second read | million a second read | read, moved and written back |\n|--:|--:|--:|--:|"
+        "\nIf particles were stored, {NUMBERS} numbers each (place and speed), memory alone would allow the following rates, with no other work than a sum or a step:\n\n| threads | GB read per second | million read per second | million read, moved and written back |\n|--:|--:|--:|--:|"
     )?;
     for (threads, read, both) in stored {
         let bytes = read * (4 * NUMBERS) as f64 * 1e-9;
         writeln!(text, "| {threads} | {bytes:.1} | {:.1} | {:.1} |", read * 1e-6, both * 1e-6)?;
     }
-    let axes = [Axis { name: "lanes" }, Axis { name: "million a second, none seen" }];
+    let axes = [Axis { name: "lanes" }, Axis { name: "million per second, none seen" }];
     plot::draw(&out.join("particles-motion.svg"), &["motion alone"], &[curves], axes)?;
     writeln!(text, "\n![motion alone](particles-motion.svg)")?;
     Ok(())

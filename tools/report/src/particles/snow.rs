@@ -42,11 +42,11 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
     let fps = stage.fps(&counts, |count, shot| over(shot, SNOW_SKY, snowfall(shot, &flakes(*count))));
     writeln!(
         text,
-        "\n## Snow\n\nThe bench scene `snow` with other numbers of flakes around the eye, at `fast`. The thesis (Pilsen 2007) measured on a Pentium M with 1.7 GHz and its graphics card, one texture a flake.\n"
+        "\n## Snow\n\nThe bench scene `snow` with other numbers of flakes around the eye, at `fast`. The thesis (Pilsen 2007) measured on a Pentium M at 1.7 GHz and its graphics card, with one texture per flake.\n"
     )?;
     writeln!(
         text,
-        "| flakes around the eye | thesis: drawn | fps | million drawn a second | ours: drawn | fps | million drawn a second | ns a flake around the eye |\n|--:|--:|--:|--:|--:|--:|--:|--:|"
+        "| flakes around the eye | thesis: drawn | fps | million drawn per second | ours: drawn | fps | million drawn per second | ns per flake around the eye |\n|--:|--:|--:|--:|--:|--:|--:|--:|"
     )?;
     for (index, count) in counts.iter().enumerate() {
         let theirs = THEIRS.get(index).map_or(" |  | ".into(), |(_, drawn, fps)| {
@@ -68,7 +68,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
         curve("thesis, 2007", THEIRS.iter().map(|row| (row.0 as f64, row.2)).collect()),
         curve("fast", counts.iter().zip(&fps).map(|(count, fps)| (*count as f64, *fps)).collect()),
     ];
-    let axes = [Axis { name: "flakes around the eye" }, Axis { name: "frames a second" }];
+    let axes = [Axis { name: "flakes around the eye" }, Axis { name: "frames per second" }];
     plot::draw(&out.join("particles-snow.svg"), &["snow"], &[curves], axes)?;
     writeln!(text, "\n![snow](particles-snow.svg)")?;
     Ok(())

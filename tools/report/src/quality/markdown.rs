@@ -5,8 +5,8 @@ use super::subject::SHARES;
 use super::sweep::{Sweep, Truth};
 use std::fmt::Write;
 
-/// What the theses got: eye rays cut 7 times; Akimoto and others 2.6 to 8.2 times.
-const OTHERS: &str = "the thesis drew with up to 7 times fewer, Akimoto et al. with 2.6 to 8.2 times fewer";
+/// What others saved of eye rays: the thesis that the tracer comes from, and Akimoto et al.
+const OTHERS: &str = "the thesis traced up to 7 times fewer, Akimoto et al. 2.6 to 8.2 times fewer";
 
 /// What every figure depends on.
 pub struct Setting<'a> {
@@ -29,19 +29,22 @@ pub fn report(setting: &Setting, results: &[(Sweep, Vec<(&'static str, Table)>)]
         "# Speed against error\n\n\
          Written by `{command}`; not edited by hand.\n\n\
          {machine}; {width}x{height}, {threads} threads, SIMD level {simd} unless said otherwise. \
-         Instants of each scene, as shares of its length: {}. One knob moves at a time, from the quality named. \
-         The default is **bold** here and ringed in the curves.\n\n\
-         * **ms**: median frame of {rounds}. Every point of a sweep is drawn once a round, so that whatever else the \
-         machine does hits all alike. **x exact**: how many times as fast as `exact` on {threads} threads, median over \
-         the rounds: trust this before the milliseconds.\n\
-         * **samples**: eye rays a pixel, or shaded fragments of triangles. **fewer**: how many times fewer than one a \
-         pixel; {OTHERS}.\n\
-         * Every frame draws the first light's shadow map, as in a show where sun and torch move. `day` with a low sun is \
-         at 4:54, 19:24 and 5:00, with a high one at 12:00, 10:30 and 13:30; the sky by day has the sun at 30, 10 and 60 \
-         degrees, at sunset at 0, 2 and -1, at dusk at -6, -4 and -9, of which the quick report takes the first.\n\
-         * **RMSE** of 255, **PSNR** in dB: over all channels. **SSIM**: blocks of 8x8, worst channel. **FLIP**: mean \
-         and 99th percentile, 67 pixels a degree. **bad**: pixels off by more than 8 of 255 in a channel.\n\
-         * Targets against `exact`: PSNR 40, SSIM 0.98, FLIP 0.02 and 0.2, bad 0.5 %.\n",
+         Each scene is drawn at these shares of its length: {}. One knob moves at a time; the others stay where the named \
+         quality has them. The default is **bold** in the tables and ringed in the curves.\n\n\
+         * **ms**: median time of {rounds} frames. Each round draws every point of a sweep once, so that other load on the \
+         machine affects all points alike. **x exact**: how many times as fast as `exact` on {threads} threads, median over \
+         the rounds. Trust this ratio before the milliseconds.\n\
+         * **samples**: eye rays per pixel or, for triangles, shaded fragments per pixel. **fewer**: how many times fewer \
+         than one per pixel; {OTHERS}.\n\
+         * Every frame draws the first light's shadow map anew, as in a show where sun and torch move. `day` with a low sun \
+         is at 4:54, 19:24 and 5:00, with a high sun at 12:00, 10:30 and 13:30. The sky by day has the sun 30, 10 and 60 \
+         degrees above the horizon, at sunset 0, 2 and -1, at dusk -6, -4 and -9. The quick report takes the first of \
+         each.\n\
+         * **RMSE**, in codes of 255, and **PSNR**, in dB, are over all channels. **SSIM**: blocks of 8x8 pixels, the worst \
+         channel. **FLIP**: mean and 99th percentile, at 67 pixels per degree. **bad**: share of the pixels that are off by \
+         more than 8 codes in a channel.\n\
+         * Targets against `exact`: PSNR 40 dB, SSIM 0.98, FLIP 0.02 in the mean and 0.2 at the 99th percentile, bad 0.5 \
+         %.\n",
         shares.join(", "),
         threads = effort.threads,
         rounds = effort.rounds,

@@ -39,7 +39,7 @@ impl Truth {
         match self {
             Truth::Exact => "exact",
             Truth::Reference => "reference",
-            Truth::Samples => "64 samples a pixel",
+            Truth::Samples => "64 samples per pixel",
             Truth::ParticleLayer => "all particles",
             Truth::Dome => "every pixel from 100 points",
         }

@@ -284,12 +284,14 @@ pub fn run(options: &Common) -> Result {
     let mut text = format!(
         "# Shadow maps against traced shadows\n\n\
          Written by `{}`; not edited by hand.\n\n\
-         {width}x{height}, one sample a pixel, {THREADS} threads; times are medians of {} rounds in which all that is \
-         compared takes turns, and hold for a machine at rest. Everything is white, so that a pixel shows its light.\n\n\
-         * **wrong**: pixels whose light is on the other side of a half than the traced one, in percent of those that face \
-         the sun (by more than 0.02 of its light). **acne**: lit ones found dark. **leaks**: dark ones found lit.\n\
-         * **far**: light lost and won at pixels from which all shadow edges are more than 1.5 texels away, in percent of \
-         the same: there a map has no excuse. **light off**: mean difference of the light, the softness of edges \
+         {width}x{height}, one sample per pixel, {THREADS} threads. Times are medians of {} rounds in which all candidates \
+         take turns; they hold for an idle machine. Every surface is white, so that a pixel shows the light that reaches \
+         it.\n\n\
+         * **wrong**: share of the pixels that face the sun (by more than 0.02 of its light) whose light lies on the other \
+         side of one half than the traced light, in percent. **acne**: lit pixels found dark. **leaks**: dark pixels found \
+         lit.\n\
+         * **far**: light lost and light won at pixels more than 1.5 texels away from any shadow edge, in percent of the \
+         same pixels: there a map has no excuse. **light off**: mean difference of the light, the softness of edges \
          included.\n",
         options.command("shadows"),
         effort.rounds

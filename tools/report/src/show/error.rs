@@ -12,8 +12,9 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     let (width, height) = effort.compared;
     let mut text = format!(
         "## Error\n\n\
-         `default` against `reference`, 64 traced samples a pixel, at {width}x{height}: in the middle of each shot, or of \
-         equal pieces of it where it is longer than {} s. PSNR over 8-bit RGB of all of these instants, and of the worst.\n\n\
+         `default` against `reference`, 64 traced samples per pixel, at {width}x{height}. Pictures are taken in the middle of \
+         each shot; shots longer than {} s are cut into equal pieces. PSNR over 8-bit RGB is that of all these pictures \
+         together, and in brackets that of the worst.\n\n\
          | part | instants | {} | worst at, s |\n|---|--:|--:|--:|--:|\n",
         effort.piece,
         likeness::head(),

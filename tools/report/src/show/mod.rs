@@ -65,7 +65,7 @@ pub fn run(options: &Common) -> Result {
     let mut text = format!(
         "# The show\n\n\
          Written by `{}`; not edited by hand.\n\n\
-         {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are the show's.\n",
+         {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are those of the show.\n",
         options.command("show"),
     );
     for report in [speed::report, error::report, pops::report] {

@@ -24,11 +24,11 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     let (width, height) = effort.changing;
     let mut text = format!(
         "## Popping\n\n\
-         How much a frame at `default` and {width}x{height} differs from the one before it at {FPS} frames a second: the \
-         root of the mean square over 8-bit RGB, codes of 255. Frames on two sides of a cut are not compared, nor any \
-         while the show fades. The **largest** change of each part comes first. A pan makes all of a shot's changes large, \
-         so what pops is looked for where one exceeds the mean of those before and after it: that is beside it, and the \
-         {} that exceed it by most follow. What the reference does too is no shortcut's fault, but may still pop.\n\n\
+         The difference between a frame at `default` and {width}x{height} and the frame before it, at {FPS} frames per \
+         second: root mean square over 8-bit RGB, in codes of 255. Frames on two sides of a cut are not compared, nor any \
+         while the show fades. The **largest** change of each part comes first. A pan makes all changes of a shot large, so \
+         pops are sought where a change exceeds the mean of those before and after it, which stands beside it; the {} that \
+         exceed it most follow. What the reference does too is not the fault of a shortcut, but may still pop.\n\n\
          | part | pairs | at, s | change | beside it | reference | ours - reference |\n|---|{}\n",
         effort.candidates,
         "--:|".repeat(6),

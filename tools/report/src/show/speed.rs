@@ -26,11 +26,12 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     let [median, slow] = GOALS;
     let mut text = format!(
         "## Speed\n\n\
-         Each part is played from its start to its end, every frame of a film of {FPS} a second, first at `default`, then \
-         at `fast`: what is kept from frame to frame, and made when a part comes first, is so here too. The slowest \
-         hundredth: slower than 99 % of the frames. Goals are {median} frames a second and {slow} in the slowest \
-         hundredth; what falls short is **bold**. Samples are eye rays, of triangles shaded fragments.\n\n\
-         | part | quality | frames | fps, median | fps, slowest hundredth | slowest frame, ms | at, s | samples a pixel |\n\
+         Each part is played from its start to its end, every frame of a film at {FPS} frames per second, first at \
+         `default`, then at `fast`. What is kept from frame to frame is kept here too, and what is made when a part first \
+         comes is part of its first frame. The slowest hundredth is slower than 99 % of the frames. Goals are {median} frames \
+         per second in the median and {slow} in the slowest hundredth; what falls short is **bold**. Samples are eye rays \
+         or, for triangles, shaded fragments.\n\n\
+         | part | quality | frames | fps, median | fps, slowest hundredth | slowest frame, ms | at, s | samples per pixel |\n\
          |---|---|--:|--:|--:|--:|--:|--:|\n"
     );
     for part in parts {
