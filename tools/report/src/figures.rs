@@ -4,15 +4,15 @@
 //! that what else the machine does hits all alike. Samples are eye rays; of the rasterizer's scenes, fragments; `sky`
 //! counts none.
 
-use crate::difference::Difference;
 use crate::options::Result;
-use crate::statistics::median;
 use crate::{likeness, maps};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::time::Instant;
+use testkit::median;
+use testkit::metrics::Difference;
 
 /// How much is measured.
 struct Effort {

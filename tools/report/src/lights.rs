@@ -4,7 +4,6 @@
 //! The scene: cubes on a plane under suns that move, each with a shadow map of 1024^2.
 
 use crate::options::{Common, Result};
-use crate::statistics::median;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
@@ -21,6 +20,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use testkit::median;
 
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;

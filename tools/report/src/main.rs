@@ -5,7 +5,6 @@
 
 mod cloud_light;
 mod depth_maps;
-mod difference;
 mod dome;
 mod figures;
 mod imposters;
@@ -18,11 +17,11 @@ mod options;
 mod particles;
 mod picture;
 mod plot;
+mod program;
 mod quality;
 mod samples;
 mod shadows;
 mod show;
-mod statistics;
 mod stills;
 
 #[path = "../../../tests/common/mod.rs"]
@@ -30,6 +29,7 @@ mod common;
 
 use clap::{Parser, Subcommand};
 use options::{Common, Result};
+use program::{intro_speed, opt_level, pace, start};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -67,7 +67,15 @@ enum Measurement {
     Samples(samples::Options),
     /// The stills of the README.
     Stills(stills::Options),
-    /// Everything above, one after another.
+    /// What the release profile costs: speed beside a build at `opt-level = 3` throughout.
+    OptLevel(opt_level::Options),
+    /// What packing costs: the intro's speed beside the plain build's, and its time to unpack.
+    IntroSpeed(intro_speed::Options),
+    /// Frames per second of the packed intro as it plays in a window.
+    Pace(pace::Options),
+    /// Time and memory from the start to the first frame, to a pipe and in a window.
+    Start(start::Options),
+    /// Everything that draws by itself: all but the four that build and play programs.
     All(Common),
 }
 
@@ -95,11 +103,15 @@ fn run(measurement: Measurement) -> Result {
         Measurement::DepthMaps(options) => depth_maps::run(&options),
         Measurement::Samples(options) => samples::run(&options),
         Measurement::Stills(options) => stills::run(&options),
+        Measurement::OptLevel(options) => opt_level::run(&options),
+        Measurement::IntroSpeed(options) => intro_speed::run(&options),
+        Measurement::Pace(options) => pace::run(&options),
+        Measurement::Start(options) => start::run(&options),
         Measurement::All(options) => all(&options),
     }
 }
 
-/// Every measurement, at its usual options.
+/// Every measurement that draws by itself, at its usual options.
 fn all(common: &Common) -> Result {
     let Common { quick, out } = common.clone();
     let file = |name: &str| -> Box<Path> { out.join(name).into() };

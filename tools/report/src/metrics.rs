@@ -1,11 +1,11 @@
 //! How far a picture is from the true one: several numbers, since no single one is a judge.
 
-use crate::difference::{Difference, psnr};
 use crate::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
 use paprsek::frame::Frame;
+use testkit::metrics::{Difference, psnr};
 
 /// The error of a picture, or the mean over several pictures.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,7 +25,7 @@ pub struct Error {
 impl Error {
     /// Of `picture` against `truth`, which have the same size.
     pub fn between(picture: &Frame, truth: &Frame) -> Error {
-        let Difference { square, off: bad } = Difference::between(picture, truth);
+        let Difference { mean_square: square, bad, .. } = Difference::between(picture, truth);
         let (picture, truth) = (rgb(picture), rgb(truth));
         let ssim = rgb_similarity_structure(&Algorithm::MSSIMSimple, &truth, &picture).expect("equal sizes").score;
         let image = |from: &RgbImage| FlipImageRgb8::with_data(from.width(), from.height(), from.as_raw());

@@ -2,7 +2,6 @@
 
 use super::{SIZE, THREADS};
 use crate::plot::{self, Axis, Curve};
-use crate::statistics::median;
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
 use paprsek::cloud::march::{Cloud, Look};
@@ -21,6 +20,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
+use testkit::median;
 
 const COUNTS: [usize; 9] = [1, 2, 4, 8, 16, 32, 64, 128, 256];
 const EDGE: usize = 64;

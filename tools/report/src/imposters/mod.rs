@@ -12,11 +12,15 @@ use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::fmt::Write;
 use std::time::Instant;
+use testkit::metrics::{Difference, gaps};
 
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;
 /// Pixels; 0 casts rays.
 const BOUNDS: [f32; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
+
+/// Equal pictures have no PSNR: in means they count as this, decibels.
+const EQUAL: f64 = 100.0;
 
 /// A flight with a bound: a number for each frame.
 struct Flight {
@@ -26,7 +30,7 @@ struct Flight {
     /// Against rays, decibels.
     psnr: Vec<f64>,
     /// Of the frame before: root of the mean square, and what one pixel in a thousand exceeds; codes of 255.
-    changes: Vec<(f64, u32)>,
+    changes: Vec<(f64, u8)>,
 }
 
 impl Flight {
@@ -36,20 +40,11 @@ impl Flight {
     }
 }
 
-/// Mean square of the differences, and the difference of a channel that one pixel in a thousand exceeds; codes of 255.
-fn difference(a: &Frame, b: &Frame) -> (f64, u32) {
-    let (mut square, mut counts) = (0u64, [0usize; 256]);
-    for (a, b) in a.pixels.iter().zip(&b.pixels) {
-        let off = [0, 8, 16].map(|shift| (a >> shift & 255).abs_diff(b >> shift & 255));
-        square += off.iter().map(|d| u64::from(d * d)).sum::<u64>();
-        counts[off[0].max(off[1]).max(off[2]) as usize] += 1;
-    }
-    let mut more = 0;
-    let most = (0..256).rev().find(|code| {
-        more += counts[*code];
-        more * 1000 > a.pixels.len()
-    });
-    (square as f64 / (3 * a.pixels.len()) as f64, most.unwrap_or(0) as u32)
+/// The difference of a channel, in codes of 255, that one pixel in a thousand exceeds.
+fn thousandth(a: &Frame, b: &Frame) -> u8 {
+    let mut gaps = gaps(a, b);
+    gaps.sort_unstable();
+    gaps[gaps.len() - 1 - gaps.len() / 1000]
 }
 
 /// Frames of a scene from `start` on, each with all bounds in turn.
@@ -65,11 +60,10 @@ fn fly(scene: &Scene, quality: Quality, start: f64, step: f64, frames: usize) ->
             renderer.render(scene, start + step * number as f64, &quality, &mut flight.frame);
             flight.ms.push(began.elapsed().as_secs_f64() * 1e3);
             let truth = truth.get_or_insert_with(|| flight.frame.clone());
-            let (square, _) = difference(&flight.frame, truth);
-            flight.psnr.push(10.0 * (255.0 * 255.0 / square.max(1e-6)).log10());
+            flight.psnr.push(Difference::between(&flight.frame, truth).psnr().min(EQUAL));
             if number > 0 {
-                let (square, most) = difference(&flight.frame, &flight.last);
-                flight.changes.push((square.sqrt(), most));
+                let rms = Difference::between(&flight.frame, &flight.last).rmse();
+                flight.changes.push((rms, thousandth(&flight.frame, &flight.last)));
             }
         }
     }

@@ -4,7 +4,6 @@ use super::fire::{MIDDLE, torch};
 use super::{SIZE, START, Stage, camera};
 use crate::metrics::Error as Off;
 use crate::plot::{self, Axis, Curve};
-use crate::statistics::median;
 use glam::{Vec3, vec3};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::particles::ParticleLayer;
@@ -16,6 +15,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
+use testkit::median;
 
 /// Metres from the eye to the fire, of the table and of the curve of times.
 const DISTANCES: [f32; 6] = [0.3, 0.8, 3.0, 8.0, 20.0, 60.0];

@@ -9,13 +9,13 @@ mod motion;
 mod snow;
 
 use crate::options::{Common, Result};
-use crate::statistics::median;
 use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::Quality;
 use paprsek::view::{Camera, Eye};
 use std::fmt::Write;
 use std::time::Instant;
+use testkit::median;
 
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;

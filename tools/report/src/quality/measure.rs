@@ -4,11 +4,11 @@ use super::subject::Subject;
 use super::sweep::{Point, Sweep, Truth};
 use crate::maps;
 use crate::metrics::Error;
-use crate::statistics::median;
 use fearless_simd::Level;
 use paprsek::frame::{Frame, Renderer};
 use std::collections::HashMap;
 use std::time::Instant;
+use testkit::median;
 
 /// How much is measured.
 pub struct Effort {

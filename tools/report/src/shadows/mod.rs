@@ -8,13 +8,13 @@ mod warp;
 
 use crate::options::{Common, Result};
 use crate::plot::{self, Axis, Curve};
-use crate::statistics::median;
 use glam::Vec3;
 use paprsek::frame::Renderer;
 use paprsek::raster::shadow::{Bias, ShadowViews};
 use set::{Set, sun};
 use std::fmt::Write;
 use std::time::Instant;
+use testkit::median;
 use truth::Pixel;
 
 /// Degrees of the sun above the horizon.

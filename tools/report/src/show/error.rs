@@ -2,10 +2,10 @@
 
 use super::parts::Part;
 use super::{Effort, render};
-use crate::difference::Difference;
 use crate::likeness;
 use paprsek::frame::Renderer;
 use paprsek::settings::Quality;
+use testkit::metrics::Difference;
 
 /// The table of all parts, Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
@@ -28,7 +28,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
         };
         let differences: Vec<_> = instants.iter().map(&mut compare).collect();
         let pairs = differences.iter().zip(&instants);
-        let worst = pairs.max_by(|a, b| a.0.square.total_cmp(&b.0.square)).map_or(0.0, |(_, at)| *at);
+        let worst = pairs.max_by(|a, b| a.0.mean_square.total_cmp(&b.0.mean_square)).map_or(0.0, |(_, at)| *at);
         let columns = likeness::columns(&differences);
         text += &format!("| {} | {} | {columns} | {worst:.2} |\n", part.name(), instants.len());
         eprintln!("{}: compared", part.name());

@@ -2,9 +2,9 @@
 
 use super::parts::{Part, is_lit};
 use super::{Effort, render};
-use crate::difference::Difference;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::settings::Quality;
+use testkit::metrics::Difference;
 
 /// Frames a second.
 const FPS: f64 = 60.0;
@@ -39,7 +39,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
         for (number, (change, beside)) in judged.into_iter().enumerate() {
             let [before, after] = [change.frame, change.frame + 1]
                 .map(|frame| render(renderer, effort.changing, frame as f64 / FPS, &Quality::REFERENCE));
-            let truth = Difference::between(&before, &after).square.sqrt();
+            let truth = Difference::between(&before, &after).rmse();
             let (rms, bold) = (change.rms, if number == 0 { "**" } else { "" });
             text += &format!(
                 "| {} | {} | {:.2} | {bold}{rms:.2}{bold} | {beside:.2} | {truth:.2} | {:+.2} |\n",
@@ -69,7 +69,7 @@ fn changes(renderer: &mut Renderer, part: &Part, effort: &Effort) -> Vec<Change>
         }
         let picture = render(renderer, effort.changing, time, &Quality::DEFAULT);
         if let Some((_, before)) = last.filter(|_| same) {
-            changes.push(Change { frame: frame - 1, shot, rms: Difference::between(&before, &picture).square.sqrt() });
+            changes.push(Change { frame: frame - 1, shot, rms: Difference::between(&before, &picture).rmse() });
         }
         last = Some((shot, picture));
     }

@@ -2,11 +2,11 @@
 
 use super::Effort;
 use super::parts::Part;
-use crate::statistics::median;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::INTRO;
 use paprsek::settings::Quality;
 use std::time::Instant;
+use testkit::median;
 
 /// Frames a second of the film: what plays.
 const FPS: f64 = 30.0;
