@@ -1,10 +1,10 @@
-//! What lights a cloud, compared: baked into voxels, an O(1) term of the distance to the cube's wall, and both, against
-//! rays from every sample to the sun.
+//! Sunlight within a cloud, by four methods: baked into voxels, by the distance to the wall of the cube (a term of constant
+//! cost), by both, and not at all; each against rays from every sample to the sun.
 //!
-//! The term of the distance and how it is combined are those of the thesis that the clouds come from (volumetric clouds for
-//! games, Pilsen 2010): `1 - distance / 70` of 64 voxels; what is baked is then multiplied by 1.5 more than that where it
-//! is lighter than what is baked less 0.1, else by 0.3 more. The error is that of the sunlight that comes to the eye, which
-//! is first scaled to fit best, since a scale is for the artist to choose.
+//! The term of the distance and its combination with baked light are those of `[Clouds10]`: `1 - distance / 70` in a cube of
+//! 64 voxels; baked light is multiplied by that term plus 1.5 where the term exceeds baked light less 0.1, else by that term
+//! plus 0.3. The error is that of the sunlight that reaches the eye, scaled to fit best, since the scale is an artist's
+//! choice.
 
 use crate::options::Result;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -20,15 +20,15 @@ use std::f32::consts::LOG2_E;
 use std::time::Instant;
 
 const EXTINCTION: f32 = 26.0;
-/// Edge of the picture, pixels.
+/// Width and height of the picture, pixels.
 const SIDE: usize = 128;
-/// Steps through the cloud, and from a sample to the sun.
+/// The number of steps through the cloud, and from a sample to the sun.
 const STEPS: u32 = 100;
 const SUN_STEPS: u32 = 64;
 
 const MODES: [&str; 5] = ["rays to the sun", "baked", "real time", "both", "no sun"];
 
-/// The sun's light from a cloud along parallel rays, and what of it is lit in that mode.
+/// The sunlight that a cloud sends along parallel rays, with its inner light by one of the [`MODES`].
 #[simd]
 fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3, d: Vec3, mode: usize) -> Vec<f32> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
@@ -66,7 +66,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3, d: Vec3, mode: usiz
                 if hides.simd_le(1e-4).all_true() {
                     continue;
                 }
-                // Halves of the cube's edge to its wall.
+                // The distance to the wall of the cube, in halves of its edge.
                 let wall = |p: F<S>, s: f32| (one - p * s.signum()) * (1.0 / s.abs().max(1e-6));
                 let way = wall(p.x, towards.x).min(wall(p.y, towards.y)).min(wall(p.z, towards.z)).max(zero);
                 let baked = baked * (1.0 / 255.0);
@@ -94,11 +94,11 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3, d: Vec3, mode: usiz
     picture
 }
 
-/// The root of the mean square of what is left when `a` is scaled to fit `b`, and that scale.
+/// The root mean square of the residual when `a` is scaled to fit `b`, and that scale.
 fn error(a: &[f32], b: &[f32]) -> (f32, f32) {
     let dot = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| (a * b) as f64).sum::<f64>();
     let scale = (dot(a, b) / dot(a, a)) as f32;
-    // Of what shows a cloud.
+    // Over the pixels that show the cloud.
     let seen = b.iter().filter(|b| **b > 0.0).count() as f32;
     let sum: f32 = a.iter().zip(b).map(|(a, b)| (a * scale - b).powi(2)).sum();
     ((sum / seen).sqrt(), scale)

@@ -1,7 +1,8 @@
 //! What lights see: every map of a scene's lights as a grey picture, the nearer the lighter, one row per light.
 //!
-//! The README's picture has `day 35`, where the sun is low, and `shadow-cube 2`. From the finest map to the coarsest, or the cube's faces +x -x +y -y +z -z. Black is
-//! where nothing is; each map's grey goes from its farthest texel to its nearest.
+//! The README's picture has `day 35`, where the sun is low, and `shadow-cube 2`. A row goes from the finest map to the
+//! coarsest, or through the faces of a cube: +x -x +y -y +z -z. Texels without a surface are black; the grey of each map goes
+//! from its farthest texel to its nearest.
 
 use crate::options::Result;
 use image::{GrayImage, Luma, imageops};
@@ -12,7 +13,7 @@ use paprsek::settings::Quality;
 use std::path::PathBuf;
 
 const SIZE: (usize, usize) = (1280, 720);
-/// Pixels of a map's picture along an edge, and between two.
+/// Edge of a map's picture, and the gap between two, pixels.
 const EDGE: usize = 256;
 const GAP: usize = 4;
 /// Grey of the farthest texel.
@@ -65,13 +66,13 @@ pub fn run(Options { shots, out }: &Options) -> Result {
     Ok(sheet.save(out)?)
 }
 
-/// A view of a map; of several texels in a pixel the mean.
+/// A view of a map; a pixel shows the mean of its texels.
 fn grey(map: &DepthMap, view: usize) -> GrayImage {
     let texels = || (0..map.size * map.size).map(|i| map.at(view, i % map.size, i / map.size));
     let there = || texels().filter(|&near| near > NOTHING);
     let (far, near) = (there().fold(f32::MAX, f32::min), there().fold(f32::MIN, f32::max));
     let scale = (255.0 - DARKEST) / (near - far).max(1e-9);
-    // Of maps that are smaller than their picture, a texel is several pixels.
+    // A texel of a map that is smaller than its picture covers several pixels.
     let step = (map.size / EDGE).max(1);
     GrayImage::from_fn(EDGE as u32, EDGE as u32, |x, y| {
         let [left, top] = [x, y].map(|n| n as usize * map.size / EDGE);

@@ -1,4 +1,4 @@
-//! The dome of the sky: contact sheets through the day, and error against milliseconds.
+//! The computed dome of the sky: contact sheets to look at, and its error against its time.
 
 use crate::options::Result;
 use crate::picture::rgb;
@@ -39,15 +39,15 @@ fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize), look: Look) 
     rgb(&frame)
 }
 
-/// Root mean square and largest difference, codes.
+/// The root mean square and the largest difference of two pictures, codes of 255.
 fn difference(a: &RgbImage, b: &RgbImage) -> (f64, u8) {
     let off = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b));
     let squares: f64 = off.clone().map(|d| d as f64 * d as f64).sum();
     ((squares / a.as_raw().len() as f64).sqrt(), off.max().unwrap())
 }
 
-/// The sky towards the sun and away from it, and the fastest of some times that one takes, milliseconds of one thread
-/// without what encodes it.
+/// The sky towards the sun and away from it; and the milliseconds of one such picture on one thread, without encoding: the
+/// fastest of `repeat` runs.
 fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
     let mut best = f64::MAX;
     for _ in 0..repeat {
@@ -100,7 +100,7 @@ fn time_views(quick: bool) {
     }
 }
 
-/// Pictures in rows, all of the same size.
+/// A contact sheet of pictures that have the same size.
 fn sheet(pictures: &[RgbImage], columns: usize) -> RgbImage {
     let (width, height) = pictures[0].dimensions();
     let mut sheet = RgbImage::new(width * columns as u32, height * pictures.len().div_ceil(columns) as u32);
@@ -122,7 +122,7 @@ fn heights(quality: DomeQuality, haze: f32) -> RgbImage {
     sheet(&pictures, 4)
 }
 
-/// Plzen through 2026-06-29 and the night after, with a full moon; each hour towards the sun, the moon and the north.
+/// Plzen on 2026-06-29 and in the night after, with a full moon: towards the sun, the moon and the north at each hour.
 fn day(quality: DomeQuality) -> RgbImage {
     let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
     let mut pictures = Vec::new();
@@ -137,7 +137,7 @@ fn day(quality: DomeQuality) -> RgbImage {
     sheet(&pictures, 3)
 }
 
-/// Every third day of a month at the moon's highest, ten times its size, up on a night's sky and on a day's.
+/// The moon on every third day of a month when it is highest, at ten times its size, against the sky of night or day.
 fn moon(quality: DomeQuality) -> RgbImage {
     let mut pictures = Vec::new();
     for i in 0..10 {
@@ -155,7 +155,7 @@ fn moon(quality: DomeQuality) -> RgbImage {
 /// Haze of the sky in tables and sheets.
 pub const HAZE: f32 = 1.3;
 
-/// What is to be known of the sky.
+/// What to measure or draw of the sky.
 #[derive(clap::Subcommand)]
 pub enum What {
     /// Error against milliseconds, by cell and steps.

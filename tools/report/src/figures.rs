@@ -1,8 +1,7 @@
 //! Prints the README's table of scenes: speed, samples and error of every scene, in Markdown.
 //!
-//! About two minutes on two cores. The qualities take turns frame by frame, so
-//! that what else the machine does hits all alike. Samples are eye rays; of the rasterizer's scenes, fragments; `sky`
-//! counts none.
+//! It takes about two minutes on two cores. The qualities take turns frame by frame, so that other load on the machine
+//! affects them alike. Samples are eye rays, in the rasterizer's scenes shaded fragments; `sky` has none.
 
 use crate::options::Result;
 use crate::{likeness, maps};
@@ -27,7 +26,7 @@ struct Effort {
 const FULL: Effort = Effort { timed: (1280, 720), compared: (640, 360), rounds: 9 };
 const QUICK: Effort = Effort { timed: (320, 180), compared: (64, 36), rounds: 1 };
 const THREADS: usize = 2;
-/// Instants of a scene, in the middle of equal parts: in `lumen` one in every shot.
+/// The number of instants of a scene, in the middle of equal parts: in `lumen` one in every shot.
 const INSTANTS: usize = 5;
 
 /// What the table takes.
@@ -84,7 +83,7 @@ fn time(renderer: &mut Renderer, scenes: &[Scene], effort: &Effort) -> Vec<[Cost
         for (s, scene) in scenes.iter().enumerate() {
             for (i, at) in instants(scene).into_iter().enumerate() {
                 for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
-                    // The sun has moved as far as it does while the scene plays.
+                    // The frame before, so that the sun has moved by as much as it does while the scene plays.
                     renderer.render(scene, at - 1.0 / 60.0, quality, &mut frame);
                     maps::forget();
                     let began = Instant::now();

@@ -1,7 +1,8 @@
-//! Frames a second against objects and against lights, beside the tables of a thesis of 2007 on a graphics card; and what
-//! one pass over the visible pixels saves of drawing the scene once a light. Writes `lights.md` and `lights.svg`.
+//! Frames per second against the number of objects and the number of lights, beside the tables that `[Sun07]` measured on a
+//! graphics card; and what one pass over the visible pixels saves of drawing the scene once per light. Writes `lights.md`
+//! and `lights.svg`.
 //!
-//! The scene: cubes on a plane under suns that move, each with a shadow map of 1024^2.
+//! The scene is cubes on a plane under suns that move, each with a shadow map of 1024^2 texels.
 
 use crate::options::{Common, Result};
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
@@ -25,27 +26,27 @@ use testkit::median;
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;
 const MAP: u32 = 1024;
-/// Metres along an edge of the plane, on which there is room for 32 x 32 cubes.
+/// Edge of the plane, metres. It has room for 32 x 32 cubes.
 const FIELD: f32 = 64.0;
 const ROW: usize = 32;
 
-/// Frames a second that the thesis gives: against shadowed objects under one light, against lights over 80 objects.
+/// Frames per second of the thesis by the number of objects under one light, and by the number of lights over 80 objects.
 const OBJECTS: [(usize, f64); 5] = [(1, 32.1), (12, 26.4), (32, 23.0), (64, 20.0), (128, 10.7)];
 const LIGHTS: [(usize, f64); 6] = [(1, 17.3), (2, 15.2), (3, 14.5), (4, 13.2), (5, 11.9), (6, 11.0)];
-/// Objects under its lights.
+/// Number of objects under several lights.
 const UNDER: usize = 80;
-/// How far ours goes.
+/// Numbers beyond those of the thesis.
 const MORE_OBJECTS: [usize; 3] = [256, 512, 1024];
 const MORE_LIGHTS: [usize; 2] = [7, 8];
 
 /// How a frame is lit.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
-    /// Suns from all around, a map each.
+    /// Suns from all around, with one map each.
     Suns,
-    /// Lamps spread over the plane, without shadows, that reach so far.
+    /// Lamps spread over the plane, without shadows, with this reach in metres.
     Lamps(f32),
-    /// The same with a cube of maps of 256^2.
+    /// The same, each with a cube of six maps of 256^2 texels.
     CubeLamps(f32),
 }
 
@@ -55,9 +56,9 @@ struct Case {
     objects: usize,
     kind: Kind,
     lights: usize,
-    /// Is the scene drawn once a light, as on a card of those days, instead of once?
+    /// Whether the scene is drawn once per light, as on a graphics card of 2007, instead of once.
     apart: bool,
-    /// Do lights rest, so that their maps are kept from the frame before?
+    /// Whether the lights rest, so that their maps are kept from the frame before.
     rest: bool,
     quality: Quality,
 }
@@ -67,7 +68,7 @@ struct Stage {
     bodies: Vec<Body>,
     renderer: Renderer,
     frame: Frame,
-    /// Frames so far: lights move in each.
+    /// Number of frames so far, by which the lights move.
     count: usize,
 }
 
@@ -83,7 +84,7 @@ impl Stage {
         cube.block(&Mat3::IDENTITY, Vec3::ZERO, 0);
         let cube = Arc::new(cube);
         let place = |i: usize| {
-            // Spread over the field from the first on: 389 has no factor in common with 1024.
+            // 389 and 1024 have no common factor, so every cell is used once, and even few cubes are spread over the plane.
             let cell = (i * 389 + ROW * ROW / 2 + ROW / 2) % (ROW * ROW);
             let [x, z] = [cell % ROW, cell / ROW].map(|n| (n as f32 + 0.5 - 0.5 * ROW as f32) * FIELD / ROW as f32);
             let turn = Mat3::from_rotation_y(i as f32) * 0.6;
@@ -119,11 +120,11 @@ impl Stage {
         Light { source, color: vec3(1.5, 1.2, 0.8), shadow }
     }
 
-    /// Milliseconds of a frame.
+    /// Draws a frame, and returns its milliseconds.
     fn draw(&mut self, case: &Case) -> f64 {
         self.count += 1;
         if case.rest {
-            // Others had their turn since the last frame of this case.
+            // Other cases have had their turn since, and the maps with them: this frame draws this case's anew.
             self.timed(case);
         }
         self.timed(case)
@@ -157,13 +158,13 @@ impl Stage {
         ms
     }
 
-    /// Median milliseconds of each case, which take turns.
+    /// The median milliseconds of each case; cases take turns.
     fn time(&mut self, cases: &[Case], rounds: usize) -> Vec<f64> {
         let mut times = vec![Vec::new(); cases.len()];
         for round in 0..=rounds {
             for (case, times) in cases.iter().zip(&mut times) {
                 let ms = self.draw(case);
-                // The first round fetches memory.
+                // The first round warms up: memory is allocated and touched.
                 if round > 0 {
                     times.push(ms);
                 }
@@ -173,12 +174,12 @@ impl Stage {
     }
 }
 
-/// Frames a second of the thesis and ours, by a count; shares are of the first.
+/// Frames per second of the thesis and ours, by a count of objects or lights.
 struct Series {
     what: &'static str,
     counts: Vec<usize>,
     theirs: Vec<f64>,
-    /// At `fast` and at `default`, and the latter where lights rest.
+    /// At `fast`, at `default`, and at `default` where lights rest.
     ours: [Vec<f64>; 3],
 }
 
@@ -189,7 +190,8 @@ impl Series {
         [&self.theirs, &self.ours[0], &self.ours[1], &self.ours[2]]
     }
 
-    /// Rows of cells: counts; then of each frames a second, shares, and milliseconds more than the first.
+    /// Rows of cells: the counts; then for each series its frames per second, their ratio to the first column, and the
+    /// milliseconds beyond the first column.
     fn cells(&self) -> Vec<Vec<String>> {
         let mut rows =
             vec![std::iter::once(self.what.to_string()).chain(self.counts.iter().map(usize::to_string)).collect()];
@@ -217,7 +219,7 @@ impl Series {
     }
 }
 
-/// The tables as tables, and below them what is left of the first column's speed.
+/// Draws the tables, and below them curves of the speed relative to the first column.
 fn plot(path: &Path, all: &[Series]) -> Result {
     let area = SVGBackend::new(path, (1160, 660)).into_drawing_area();
     area.fill(&WHITE)?;
@@ -262,7 +264,7 @@ fn plot(path: &Path, all: &[Series]) -> Result {
     Ok(area.present()?)
 }
 
-/// Frames a second against a count.
+/// Measures frames per second against a count.
 fn series(stage: &mut Stage, rounds: usize, what: &'static str, theirs: &[(usize, f64)], more: &[usize]) -> Series {
     let counts: Vec<usize> = theirs.iter().map(|row| row.0).chain(more.iter().copied()).collect();
     let case = |&count: &usize, quality, rest| match what {
@@ -277,7 +279,7 @@ fn series(stage: &mut Stage, rounds: usize, what: &'static str, theirs: &[(usize
     Series { what, counts, theirs: theirs.iter().map(|row| row.1).collect(), ours }
 }
 
-/// Measures, and writes the tables and their curves.
+/// Measures everything, and writes the tables and their curves.
 pub fn run(options: &Common) -> Result {
     let (rounds, out) = (if options.quick { 3 } else { 25 }, &options.out);
     std::fs::create_dir_all(out)?;

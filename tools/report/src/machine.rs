@@ -1,4 +1,4 @@
-//! What measures.
+//! The machine that measures.
 
 /// The processor's name and number of threads.
 pub fn machine() -> String {

@@ -1,4 +1,5 @@
-//! How far a picture is from the true one: several numbers, since no single one is a judge.
+//! The error of a picture against the truth, by several metrics, since none of them is a judge by itself: PSNR, SSIM
+//! `[Wang04]`, FLIP `[Andersson20]`, and the share of bad pixels.
 
 use crate::picture::rgb;
 use image::RgbImage;
@@ -10,20 +11,20 @@ use testkit::metrics::{Difference, psnr};
 /// The error of a picture, or the mean over several pictures.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Error {
-    /// Mean square over pixels and channels, codes of 255: what RMSE and PSNR are made of.
+    /// Mean square over pixels and channels, codes of 255, from which RMSE and PSNR follow.
     pub square: f64,
-    /// Mean structural similarity of blocks of 8x8 pixels; of the worst channel.
+    /// Mean structural similarity of blocks of 8x8 pixels, of the worst channel.
     pub ssim: f64,
-    /// FLIP at the default viewing distance, mean over the pixels.
+    /// FLIP at the default viewing distance, the mean over the pixels.
     pub flip: f64,
-    /// FLIP, 99th percentile of the pixels.
+    /// FLIP, the 99th percentile of the pixels.
     pub flip99: f64,
     /// Share of the pixels that are off by more than 8 codes of 255 in a channel.
     pub bad: f64,
 }
 
 impl Error {
-    /// Of `picture` against `truth`, which have the same size.
+    /// The error of `picture` against `truth`, which have the same size.
     pub fn between(picture: &Frame, truth: &Frame) -> Error {
         let Difference { mean_square: square, bad, .. } = Difference::between(picture, truth);
         let (picture, truth) = (rgb(picture), rgb(truth));
@@ -34,7 +35,7 @@ impl Error {
         Error { square, ssim, flip: f64::from(pool.mean()), flip99, bad }
     }
 
-    /// The mean of several pictures' errors; of squares before the root, so that PSNR is that of all pixels together.
+    /// The mean of several pictures' errors. Squares are averaged before the root, so that PSNR is that of all pixels together.
     pub fn mean(errors: &[Error]) -> Error {
         let mean = |of: fn(&Error) -> f64| errors.iter().map(of).sum::<f64>() / errors.len() as f64;
         Error {
@@ -51,7 +52,7 @@ impl Error {
         self.square.sqrt()
     }
 
-    /// Peak signal to noise, decibels; infinite for equal pictures.
+    /// Peak signal-to-noise ratio, decibels; infinite for equal pictures.
     pub fn psnr(&self) -> f64 {
         psnr(self.square)
     }

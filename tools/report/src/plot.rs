@@ -1,4 +1,4 @@
-//! Curves, a panel a set.
+//! Curves of the smaller measurements, in panels side by side.
 
 use plotters::coord::combinators::IntoLogRange;
 use plotters::prelude::*;
@@ -26,10 +26,10 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(200, 60, 140),
     RGBColor(20, 20, 20),
 ];
-/// Nothing at all has no logarithm: it is drawn here.
+/// Zero has no logarithm: it is drawn here.
 const LEAST: f64 = 1e-3;
 
-/// Writes panels side by side as SVG. Text is the viewer's: no fonts are needed here.
+/// Writes panels side by side as SVG. The viewer sets the text, so no fonts are needed here.
 pub fn draw(path: &Path, names: &[&str], panels: &[Vec<Curve>], [x, y]: [Axis; 2]) -> Result<(), Box<dyn Error>> {
     let area = SVGBackend::new(path, (1160, 460)).into_drawing_area();
     area.fill(&WHITE)?;
@@ -47,7 +47,7 @@ pub fn draw(path: &Path, names: &[&str], panels: &[Vec<Curve>], [x, y]: [Axis; 2
             .y_label_area_size(56)
             .build_cartesian_2d(range(|point| point.0), range(|point| point.1))?;
         let mut mesh = chart.configure_mesh();
-        // Sums of tenths are not tenths.
+        // Sums of tenths are not tenths in binary: they would be printed with all their digits.
         let short = |value: &f64| ((value * 1e4).round() / 1e4).to_string();
         mesh.x_label_formatter(&short).y_label_formatter(&short);
         mesh.x_desc(x.name).y_desc(y.name).max_light_lines(0).bold_line_style(BLACK.mix(0.12)).draw()?;

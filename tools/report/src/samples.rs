@@ -1,5 +1,4 @@
-//! Writes a frame with a white dot wherever an eye ray was traced, as in the thesis, and says what share of the pixels
-//! that is.
+//! A frame with a white dot wherever an eye ray was traced, as `[Intro07]` shows it, and the share of the pixels that were.
 
 use crate::options::Result;
 use crate::picture;

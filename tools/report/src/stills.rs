@@ -1,8 +1,8 @@
 //! Makes the stills of the README: a contact sheet of the show, and the pictures of each part.
 //!
-//! 15 seconds on two cores. Frames are
-//! those that `--capture` writes, of 1280x720 and `default`, scaled down where a picture has smaller ones. The same
-//! revision makes the same bytes, so whoever changes a scene sees in `git status` which pictures are old.
+//! It takes 15 seconds on two cores. Frames are those that `--capture` writes at 1280x720 and `default`, scaled down where a
+//! picture has smaller stills. The same revision makes the same bytes, so after a change to a scene `git status` shows which
+//! pictures are outdated.
 
 use crate::options::Result;
 use crate::picture;
@@ -18,11 +18,12 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 const SIZE: (usize, usize) = (1280, 720);
-/// Pixels between two stills of a picture, and their colour.
+/// The gap between two stills, pixels, and its colour.
 const GAP: u32 = 4;
 const DARK: Rgb<u8> = Rgb([16, 16, 16]);
 
-/// A picture: its name in the directory, the scene, instants in reading order, the size of a still, stills in a row.
+/// A picture: its file name, the scene, the instants in reading order (seconds), the size of a still (pixels), and the number
+/// of stills per row.
 type Sheet<'a> = (&'a str, Scene, &'a [f64], (u32, u32), u32);
 
 const DAY: &[f64] = &[2.5, 6.25, 20.0, 36.25, 40.0, 47.5, 122.5, 126.25, 140.0, 156.25, 160.0, 167.5];
@@ -37,7 +38,7 @@ const SHEETS: [Sheet; 8] = [
     ("torches.png", scenes::show::torches::TORCHES, &[3.0, 10.0, 15.0, 22.0], (640, 360), 2),
 ];
 
-/// Seconds from still to still of the contact sheet, and from a still to a cut, where the show is dark.
+/// Seconds from one still of the contact sheet to the next, and the least distance to a cut, where the show is dark.
 const STEP: f64 = 5.0;
 const MARGIN: f64 = 1.0;
 
@@ -66,7 +67,7 @@ pub fn run(options: &Options) -> Result {
     Ok(())
 }
 
-/// Instants of the contact sheet: even steps, but away from cuts and from the end. At 5 s the title is whole.
+/// The instants of the contact sheet, seconds: even steps, moved away from cuts and from the end. At 5 s the title is whole.
 fn show() -> Vec<f64> {
     let end = scenes::INTRO.duration;
     let cuts: Vec<f64> = intro::PARTS[1..].iter().map(|&(start, _)| start).chain([end]).collect();
@@ -94,7 +95,8 @@ fn draw(
     sheet
 }
 
-/// As small as the crate makes it, since pictures are in the repository. Not buffered: a buffer loses its last error.
+/// Writes a picture, compressed as well as the crate can, since pictures are in the repository. It is not buffered, since a
+/// buffer loses the last error when it is dropped.
 fn save(picture: &RgbImage, file: &Path) -> Result {
     let encoder = PngEncoder::new_with_quality(File::create(file)?, CompressionType::Best, RowFilter::Adaptive);
     Ok(picture.write_with_encoder(encoder)?)

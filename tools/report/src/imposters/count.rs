@@ -1,4 +1,4 @@
-//! Frames a second and loading time against the number of clouds.
+//! Frames per second and loading time against the number of clouds.
 
 use super::{SIZE, THREADS};
 use crate::plot::{self, Axis, Curve};
@@ -26,7 +26,7 @@ const COUNTS: [usize; 9] = [1, 2, 4, 8, 16, 32, 64, 128, 256];
 const EDGE: usize = 64;
 const EXTINCTION: f32 = 30.0;
 
-/// Clouds over nothing.
+/// Clouds with nothing behind them.
 struct Alone(CloudLayer);
 
 impl Layer for Alone {
@@ -45,9 +45,9 @@ impl Layer for Alone {
 struct Way {
     name: &'static str,
     quality: CloudQuality,
-    /// Is the sunlight of all shapes baked anew in every frame?
+    /// Whether the sunlight of all shapes is baked anew in every frame.
     bakes: bool,
-    /// Are clouds outside of the view handed on, too?
+    /// Whether clouds outside of the view are handed on, too.
     all: bool,
 }
 
@@ -59,7 +59,7 @@ fn bake(voxels: &mut Voxels) {
     dispatch!(Level::new(), simd => sunlight::bake(simd, voxels, set::sun(), EXTINCTION));
 }
 
-/// Milliseconds of a frame of `count` clouds as in `sky-of-clouds`, whose eye flies on.
+/// Draws a frame of `count` clouds as in `sky-of-clouds`, seen along its flight, and returns its milliseconds.
 fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], count: usize, way: &Way, time: f64) -> f64 {
     let began = Instant::now();
     let mut shapes = shapes.to_vec();
@@ -94,7 +94,7 @@ fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], coun
     began.elapsed().as_secs_f64() * 1e3
 }
 
-/// A table with a row for each name and a column for each count.
+/// Appends a table with one row per name and one column per count.
 fn table(text: &mut String, head: &str, counts: &[usize], rows: &[(String, Vec<f64>)]) -> Result<(), Box<dyn Error>> {
     let numbers: Vec<_> = counts.iter().map(usize::to_string).collect();
     writeln!(text, "| {head} | {} |\n|---|{}", numbers.join(" | "), "--:|".repeat(counts.len()))?;

@@ -1,6 +1,6 @@
 //! Clouds as pictures that are kept, against rays cast in every frame: speed, error and the largest change from frame to
-//! frame, by the bound in pixels; and frames a second and loading time against the number of clouds, as in a thesis of
-//! 2010. Writes `imposters.md` and `imposters-*.svg`.
+//! frame, by the bound in pixels; and frames per second and loading time against the number of clouds, as in `[Clouds10]`.
+//! Writes `imposters.md` and `imposters-*.svg`.
 
 mod count;
 
@@ -16,20 +16,20 @@ use testkit::metrics::{Difference, gaps};
 
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;
-/// Pixels; 0 casts rays.
+/// Bounds of the error of a kept picture, pixels; 0 casts rays.
 const BOUNDS: [f32; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
 
-/// Equal pictures have no PSNR: in means they count as this, decibels.
+/// The PSNR of equal pictures is infinite: in means they count as this, decibels.
 const EQUAL: f64 = 100.0;
 
-/// A flight with a bound: a number for each frame.
+/// A flight with one bound, with one number per frame.
 struct Flight {
     frame: Frame,
     last: Frame,
     ms: Vec<f64>,
-    /// Against rays, decibels.
+    /// PSNR against rays, decibels.
     psnr: Vec<f64>,
-    /// Of the frame before: root of the mean square, and what one pixel in a thousand exceeds; codes of 255.
+    /// The change from the frame before: root mean square, and the change that one pixel in a thousand exceeds; codes of 255.
     changes: Vec<(f64, u8)>,
 }
 
@@ -47,7 +47,7 @@ fn thousandth(a: &Frame, b: &Frame) -> u8 {
     gaps[gaps.len() - 1 - gaps.len() / 1000]
 }
 
-/// Frames of a scene from `start` on, each with all bounds in turn.
+/// Draws frames of a scene from `start` on, seconds, each with all bounds in turn.
 fn fly(scene: &Scene, quality: Quality, start: f64, step: f64, frames: usize) -> Result<Vec<Flight>> {
     let mut renderer = Renderer::new(THREADS)?;
     let mut flights: Vec<_> = BOUNDS.iter().map(|_| Flight::new()).collect();
@@ -78,7 +78,7 @@ fn most(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, f64::max)
 }
 
-/// The table of a flight and of a slow one, and a curve: frames a second against error.
+/// Appends the table of a flight and of a slow one, and returns the curve of frames per second against error.
 fn report(text: &mut String, scene: &Scene, quality: (&str, Quality), start: f64, frames: [usize; 2]) -> Result<Curve> {
     let flights = fly(scene, quality.1, start, 1.0 / 60.0, frames[0])?;
     let slow = fly(scene, quality.1, start, 1.0 / 600.0, frames[1])?;

@@ -1,4 +1,4 @@
-//! What fewer particles of a small fire save, and how far the picture is off.
+//! What drawing fewer particles of a small fire saves, and the error of its picture.
 
 use super::fire::{MIDDLE, torch};
 use super::{SIZE, START, Stage, camera};
@@ -17,22 +17,22 @@ use std::path::Path;
 use std::time::Instant;
 use testkit::median;
 
-/// Metres from the eye to the fire, of the table and of the curve of times.
+/// Distances from the eye to the fire, metres: those of the table, and those of the curve of times.
 const DISTANCES: [f32; 6] = [0.3, 0.8, 3.0, 8.0, 20.0, 60.0];
 const MORE: [f32; 10] = [0.15, 0.3, 0.6, 1.2, 2.4, 4.8, 9.6, 20.0, 40.0, 80.0];
-/// Shares of the particles for each pixel of height.
+/// Shares of the particles that are drawn per pixel of height.
 const DETAILS: [f32; 6] = [f32::INFINITY, 1.0 / 64.0, 1.0 / 128.0, 1.0 / 256.0, 1.0 / 512.0, 1.0 / 1024.0];
-/// Instants that errors are the mean of, and the seconds between them.
+/// Number of instants that errors are averaged over, and the time between them, seconds.
 const INSTANTS: usize = 5;
 const APART: f64 = 0.37;
 
-/// The view of an eye so far away.
+/// The view of an eye at this distance, metres.
 fn view(away: f32) -> View {
     let eye = vec3(0.0, MIDDLE, away);
     View::new(camera(eye, eye + Vec3::NEG_Z), SIZE.0, SIZE.1)
 }
 
-/// A fire so far away, with as many particles as it has there.
+/// A fire at this distance, with as many particles as it has there.
 fn burning(time: f64, away: f32, detail: f32) -> Fire {
     torch(time).detailed(&view(away), detail)
 }
@@ -41,8 +41,8 @@ fn particles(fires: Vec<Fire>, away: f32) -> ParticleLayer {
     ParticleLayer::fire(fires, 1.6, &view(away), SIZE.0, SIZE.1)
 }
 
-/// Median milliseconds that a fire takes alone, on one thread, to be moved, listed and drawn, for each detail; and how
-/// many times faster than the first that is, the median of the rounds. All take turns.
+/// The median milliseconds in which a fire is moved, listed and drawn alone on one thread, for each level of detail; and
+/// the speed relative to the first level, the median over the rounds. All levels take turns.
 fn times(renderer: &Renderer, rounds: usize, away: f32, details: &[f32]) -> Vec<(f64, f64)> {
     let (columns, rows) = (SIZE.0.div_ceil(Tile::SIZE), SIZE.1.div_ceil(Tile::SIZE));
     let mut tiles: Vec<_> = (0..columns * rows).map(|n| Tile::at(n % columns, n / columns, SIZE.0, SIZE.1)).collect();
@@ -59,7 +59,7 @@ fn times(renderer: &Renderer, rounds: usize, away: f32, details: &[f32]) -> Vec<
     for round in 0..=rounds {
         for (detail, times) in details.iter().zip(&mut all) {
             let ms = time(START + round as f64 * APART, *detail);
-            // The first round fetches memory.
+            // The first round warms up: memory is allocated and touched.
             if round > 0 {
                 times.push(ms);
             }
@@ -69,7 +69,7 @@ fn times(renderer: &Renderer, rounds: usize, away: f32, details: &[f32]) -> Vec<
     all.iter().map(|times| (median(times.clone()), ratio(times))).collect()
 }
 
-/// A fire's pictures, one for each instant.
+/// The pictures of a fire, one per instant.
 fn pictures(stage: &mut Stage, away: f32, detail: f32) -> Vec<Frame> {
     let mut draw = |index: usize| {
         let time = START + index as f64 * APART;
@@ -81,12 +81,12 @@ fn pictures(stage: &mut Stage, away: f32, detail: f32) -> Vec<Frame> {
     (0..INSTANTS).map(&mut draw).collect()
 }
 
-/// The light of a frame, sum of codes.
+/// The light of a frame: the sum of its codes.
 fn light(frame: &Frame) -> f64 {
     frame.pixels.iter().map(|p| f64::from((p >> 16 & 255) + (p >> 8 & 255) + (p & 255))).sum()
 }
 
-/// Appends a table, and writes its curves.
+/// Appends the table, and writes its curves.
 pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Box<dyn Error>> {
     writeln!(
         text,

@@ -1,4 +1,4 @@
-//! Frames a second against fires, as in a thesis of 2008.
+//! Frames per second against fires, as in `[Fire08]`.
 
 use super::{SIZE, Stage, camera};
 use glam::{Vec3, vec3};
@@ -12,12 +12,12 @@ use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
 
-/// Where the fires of a case burn.
+/// Fires before the eye.
 pub struct Case {
     name: &'static str,
-    /// Frames a second of the thesis.
+    /// Frames per second of the thesis.
     theirs: f64,
-    /// Metres before the eye, and to the right.
+    /// Places of the fires: metres before the eye, and metres to its right.
     places: &'static [(f32, f32)],
 }
 
@@ -30,15 +30,15 @@ const CASES: [Case; 6] = [
     Case { name: "three at the house", theirs: 48.0, places: &[(8.0, -1.5), (8.0, 0.0), (8.0, 1.5)] },
 ];
 
-/// Metres from where a fire burns to its middle.
+/// Height of a fire's middle above its place, metres.
 pub const MIDDLE: f32 = 0.7;
 
-/// One of the bench scene's torches, with its 2000 sprites, in the origin.
+/// One of the bench scene's torches with its 2000 sprites, at the origin.
 pub fn torch(time: f64) -> Fire {
     Fire { place: Vec3::ZERO, ..fires(time)[0] }
 }
 
-/// The fires of a case before an eye that looks at them; particles for each pixel of height.
+/// The fires of a case, with a level of detail in shares of the particles per pixel of height.
 fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
     let middle = Vec3::Y * MIDDLE;
     let view = View::new(camera(middle, middle + Vec3::NEG_Z), SIZE.0, SIZE.1);

@@ -6,18 +6,18 @@ use paprsek::simd::lanes::F;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Numbers of a stored particle: position and speed, and one left over for each.
+/// The number of floats of a stored particle: place and speed, each padded to four.
 pub const NUMBERS: usize = 8;
-/// Numbers of a job, 256 kB, and jobs: 512 MB, far more than any cache.
+/// The number of floats in a piece (256 kB), and the number of pieces: 512 MB, far more than any cache.
 const PIECE: usize = 1 << 16;
 const PIECES: usize = 2048;
-/// Chains of sums and of products: enough that none waits for its own last result.
+/// The number of independent chains of sums and of products: enough to hide the latency of each.
 const CHAINS: usize = 6;
-/// Steps of each chain in a job, and jobs.
+/// The number of steps of each chain in a job, and the number of jobs.
 const STEPS: usize = 1 << 18;
 const JOBS: usize = 64;
 
-/// The sum of a piece.
+/// The sum of a piece, which reads it once.
 #[inline(always)]
 fn sum<S: Simd>(simd: S, piece: &[f32]) -> f32 {
     let mut sums = [F::<S>::splat(simd, 0.0); 4];
@@ -29,7 +29,7 @@ fn sum<S: Simd>(simd: S, piece: &[f32]) -> f32 {
     (sums[0] + sums[1] + (sums[2] + sums[3]))[0]
 }
 
-/// Moves the particles of a piece: blocks of sixteen numbers of places, then of as many of speeds.
+/// Moves the particles of a piece. Blocks of 16 floats of places and of 16 floats of speeds alternate.
 #[inline(always)]
 fn step<S: Simd>(simd: S, piece: &mut [f32], time: f32) {
     for block in piece.chunks_exact_mut(32) {
@@ -40,7 +40,7 @@ fn step<S: Simd>(simd: S, piece: &mut [f32], time: f32) {
     }
 }
 
-/// Sums and products that wait for nothing but their own last one.
+/// Chains of sums and products, each of which depends on its own last result alone.
 #[inline(always)]
 fn chains<S: Simd>(simd: S, factor: f32) -> f32 {
     let (factor, mut sums) = (F::<S>::splat(simd, factor), [F::<S>::splat(simd, 1.0); CHAINS]);
@@ -60,7 +60,7 @@ fn chains<S: Simd>(simd: S, factor: f32) -> f32 {
     all[0]
 }
 
-/// Seconds of the quickest of `rounds`: nothing is faster than it can be.
+/// Seconds of the quickest round: a limit is not slowed down by other load.
 fn best(rounds: usize, mut work: impl FnMut()) -> f64 {
     let time = |_| {
         let began = Instant::now();
@@ -70,7 +70,7 @@ fn best(rounds: usize, mut work: impl FnMut()) -> f64 {
     (0..rounds).map(time).fold(f64::MAX, f64::min)
 }
 
-/// Particles a second that could be read from memory on a renderer's threads; and read, moved and written back.
+/// Particles per second that a renderer's threads can read from memory; and that they can read, move and write back.
 pub fn memory(renderer: &Renderer, rounds: usize) -> [f64; 2] {
     let level = renderer.level();
     let mut numbers = vec![1.0f32; PIECE * PIECES];
@@ -88,7 +88,7 @@ pub fn memory(renderer: &Renderer, rounds: usize) -> [f64; 2] {
     [particles / read, particles / both]
 }
 
-/// Vectors a second that a renderer's threads add or multiply at a level.
+/// Vectors per second that a renderer's threads add or multiply at a level.
 pub fn arithmetic(renderer: &Renderer, level: Level, rounds: usize) -> f64 {
     let seconds = best(rounds, || {
         renderer.workers().each(0..JOBS, |_| {

@@ -1,6 +1,6 @@
-//! Particles: frames a second against flakes and against fires, beside the tables of two theses; how many a second move,
-//! beside what memory and arithmetic would allow; and what fewer particles of a small fire save and cost. Writes
-//! `particles.md` and `particles-*.svg`.
+//! Particles: frames per second against flakes and against fires, beside the tables of `[Snow07]` and `[Fire08]`; the number
+//! of particles that move per second, beside what memory and arithmetic would allow; and what drawing fewer particles of a
+//! small fire saves and costs. Writes `particles.md` and `particles-*.svg`.
 
 mod detail;
 mod fire;
@@ -19,11 +19,11 @@ use testkit::median;
 
 const SIZE: (usize, usize) = (1280, 720);
 const THREADS: usize = 2;
-/// Seconds of the first frame, and between frames: those of the bench scenes.
+/// Time of the first frame and time between frames, seconds: those of the bench scenes.
 const START: f64 = 2.0;
 const STEP: f64 = 0.05;
 
-/// Who draws, and into what.
+/// What draws, and what it draws into.
 struct Stage {
     renderer: Renderer,
     frame: Frame,
@@ -31,13 +31,14 @@ struct Stage {
 }
 
 impl Stage {
-    /// An instant of a scene at `fast`.
+    /// The frame of an instant at `fast`.
     fn shot(&self, time: f64) -> FrameSpec<'_> {
         let (width, height) = SIZE;
         FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: self.renderer.workers() }
     }
 
-    /// Median frames a second of each case from time to finished picture; all take turns at each instant.
+    /// The median frames per second of each case, from the time to the finished picture. All cases take turns at each
+    /// instant.
     fn fps<C>(&mut self, cases: &[C], picture: impl Fn(&C, &FrameSpec) -> Picture) -> Vec<f64> {
         let mut times = vec![Vec::new(); cases.len()];
         for round in 0..=self.rounds {
@@ -45,7 +46,7 @@ impl Stage {
                 let began = Instant::now();
                 let picture = picture(case, &self.shot(START + round as f64 * STEP));
                 self.renderer.draw(picture, &mut self.frame);
-                // The first round fetches memory.
+                // The first round warms up: memory is allocated and touched.
                 if round > 0 {
                     times.push(began.elapsed().as_secs_f64());
                 }
@@ -60,7 +61,7 @@ fn camera(eye: glam::Vec3, target: glam::Vec3) -> Camera {
     Camera::look_at(eye, target, 50f32.to_radians(), 0.0)
 }
 
-/// Measures, and writes the tables and their curves.
+/// Measures everything, and writes the tables and their curves.
 pub fn run(options: &Common) -> Result {
     let (rounds, out) = (if options.quick { 3 } else { 41 }, &options.out);
     std::fs::create_dir_all(out)?;

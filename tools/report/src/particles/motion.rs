@@ -1,4 +1,4 @@
-//! Particles a second for motion alone, beside what memory and arithmetic allow.
+//! Particles per second of motion alone, beside what memory and arithmetic allow.
 
 use super::limits::{self, NUMBERS};
 use super::{SIZE, START, STEP, THREADS, camera};
@@ -18,22 +18,22 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
-/// Particles that move.
+/// Number of particles.
 const COUNT: u32 = 1_000_000;
-/// What moves.
+/// Kinds of particles.
 const KINDS: [&str; 2] = ["flakes", "flames"];
-/// Vector instructions that the compiler made for a vector of flakes and for one of flames, from their numbers to what is
-/// seen of them, by SIMD level: counted by hand in its assembly (`cargo rustc --release --lib -- --emit asm`). SSE2 calls
-/// functions for its floors.
+/// The number of vector instructions for a vector of flakes and for one of flames, from the particle's index to what is
+/// seen of it, by SIMD level. Counted by hand in the compiler's assembly (`cargo rustc --release --lib -- --emit asm`).
+/// SSE2 is missing, as it calls functions for `floor`.
 const INSTRUCTIONS: [(&str, [u32; 2]); 3] = [("avx512", [309, 438]), ("avx2", [352, 498]), ("sse4.2", [513, 665])];
-/// Metres along the view axis between which nothing comes into sight.
+/// A range along the view axis in which there is nothing, metres.
 const NOWHERE: [f32; 2] = [1e30, 2e30];
 
-/// Particles of a kind at an instant, some to be seen or none.
+/// Particles of a kind at an instant, of which some are visible or none.
 fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     let eye = if kind == 0 { Vec3::ZERO } else { vec3(0.0, 2.0, 8.0) };
     let view = View::new(camera(eye, eye + Vec3::NEG_Z), SIZE.0, SIZE.1);
-    // What is to come into sight nowhere is not, at the end of the same computation.
+    // With an empty range the computation is the same, but nothing is visible at its end.
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
@@ -45,7 +45,7 @@ fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     }
 }
 
-/// Particles a second from the time to sprites, listed by tile: the quickest, as limits are.
+/// Particles per second from the time to sprites that are listed by tile. The quickest round counts, as it does for limits.
 fn speed(renderer: &Renderer, kind: usize, seen: bool, rounds: usize) -> f64 {
     let time = |round: usize| {
         let mut particles = particles(kind, START + round as f64 * STEP, seen);
@@ -59,7 +59,7 @@ fn speed(renderer: &Renderer, kind: usize, seen: bool, rounds: usize) -> f64 {
     f64::from(COUNT) / (1..=rounds).map(time).fold(f64::MAX, f64::min)
 }
 
-/// Lanes of a level.
+/// The number of lanes of a level.
 fn lanes(level: Level) -> f64 {
     fn count<S: Simd>(_: S) -> usize {
         <S::f32s as SimdBase<S>>::LEN
@@ -67,7 +67,7 @@ fn lanes(level: Level) -> f64 {
     dispatch!(level, simd => count(simd)) as f64
 }
 
-/// Appends tables, and writes their curves.
+/// Appends the tables, and writes their curves.
 pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dyn Error>> {
     let seen = |kind: usize| {
         let mut particles = particles(kind, START, true);

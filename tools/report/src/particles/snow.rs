@@ -1,4 +1,4 @@
-//! Frames a second against flakes, as in a thesis of 2007.
+//! Frames per second against flakes, as in `[Snow07]`.
 
 use super::{START, STEP, Stage};
 use crate::plot::{self, Axis, Curve};
@@ -9,7 +9,7 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Flakes of the thesis, those of them that it drew, frames a second.
+/// The thesis: flakes around the eye, flakes drawn, frames per second.
 const THEIRS: [(u32, u32, f64); 6] = [
     (50_000, 10_000, 160.0),
     (100_000, 21_500, 80.0),
@@ -20,9 +20,9 @@ const THEIRS: [(u32, u32, f64); 6] = [
 ];
 const MILLION: u32 = 1_000_000;
 
-/// The bench scene's flakes, as many as that around the eye.
+/// The bench scene's flakes with another number of them around the eye.
 fn flakes(around: u32) -> Flakes {
-    // Those in the corners of the box are never seen.
+    // The count is of the whole box; the flakes in its corners are never seen and do not count as around the eye.
     Flakes { count: (around as f64 * FLAKES.count as f64 / 200_000.0) as u32, ..FLAKES }
 }
 

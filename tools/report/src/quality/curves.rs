@@ -1,4 +1,4 @@
-//! Curves: how much faster than `exact`, against how far off; one line a scene, the default ringed.
+//! Curves of the error against the speed relative to `exact`: one line per scene, with the default ringed.
 
 use super::measure::{Row, Table};
 use super::sweep::{Sweep, Truth};
@@ -7,11 +7,11 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
 
-/// A panel: the error's name, what it is, its target, up to where the axis goes if need be, and the empty corner.
+/// A panel: the name of the error, the error itself, its target, the limit of its axis, and the corner for the legend.
 type Panel = (&'static str, fn(&Error) -> f64, f64, f64, SeriesLabelPosition);
 
 const PANELS: [Panel; 2] = [
-    // Equal pictures have no PSNR: they are drawn at the top.
+    // The PSNR of equal pictures is infinite: they are drawn at the top.
     ("PSNR, dB (higher is better; target 40)", |e| e.psnr().min(80.0), 40.0, 80.0, SeriesLabelPosition::LowerLeft),
     ("FLIP, 99th percentile (lower is better; target 0.2)", |e| e.flip99, 0.2, 1.0, SeriesLabelPosition::UpperLeft),
 ];
@@ -24,7 +24,7 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(90, 90, 90),
 ];
 
-/// Writes the curve of a sweep as SVG. Text is the viewer's: no fonts are needed here.
+/// Writes the curve of a sweep as SVG. The viewer sets the text, so no fonts are needed here.
 pub fn draw(path: &Path, sweep: &Sweep, tables: &[(&'static str, Table)]) -> Result<(), Box<dyn std::error::Error>> {
     let area = SVGBackend::new(path, (1080, 420)).into_drawing_area();
     area.fill(&WHITE)?;
@@ -82,7 +82,7 @@ fn draw_panel(
     Ok(legend.draw()?)
 }
 
-/// The points that have room for a label: first the default, then the ends, then those far from all labels so far.
+/// The points that get a label: the default first, then the ends, then those that are far from all labels so far.
 fn legible(rows: &[Row], apart: impl Fn(&Row, &Row) -> bool) -> Vec<&Row> {
     let mut order: Vec<_> = rows.iter().enumerate().collect();
     order.sort_by_key(|(index, row)| (!row.point.default, index % (rows.len() - 1).max(1) != 0));

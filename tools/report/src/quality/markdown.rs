@@ -1,14 +1,14 @@
-//! The report's text.
+//! The text of the report.
 
 use super::measure::{Effort, Row, Table};
 use super::subject::SHARES;
 use super::sweep::{Sweep, Truth};
 use std::fmt::Write;
 
-/// What others saved of eye rays: the thesis that the tracer comes from, and Akimoto et al.
+/// What others saved of eye rays: `[Intro07]`, which the tracer follows, and `[Akimoto91]`.
 const OTHERS: &str = "the thesis traced up to 7 times fewer, Akimoto et al. 2.6 to 8.2 times fewer";
 
-/// What every figure depends on.
+/// The circumstances of every figure.
 pub struct Setting<'a> {
     /// Name of the processor.
     pub machine: String,
@@ -96,7 +96,7 @@ fn head(first: &str) -> String {
 
 fn row(label: &str, Row { ms, ratio, samples, error, .. }: &Row) -> String {
     let psnr = if error.square > 0.0 { format!("{:.1}", error.psnr()) } else { "equal".into() };
-    // The sky counts no samples.
+    // The sky has no samples to count.
     let samples = if *samples > 0.0 { format!("{samples:.3} | {:.1}", 1.0 / samples) } else { "| ".into() };
     format!(
         "| {label} | {ms:.1} | {ratio:.2} | {samples} | {:.2} | {psnr} | {:.4} | {:.4} | {:.3} | {:.2} % |\n",

@@ -1,4 +1,4 @@
-//! What each point of a sweep takes, and how far its picture is from the true one.
+//! The time of each point of a sweep, and the error of its pictures.
 
 use super::subject::Subject;
 use super::sweep::{Point, Sweep, Truth};
@@ -12,13 +12,13 @@ use testkit::median;
 
 /// How much is measured.
 pub struct Effort {
-    /// Pixels in a row, and rows.
+    /// Width and height, pixels.
     pub size: (usize, usize),
-    /// Instants of each scene.
+    /// Number of instants of each scene.
     pub instants: usize,
-    /// Frames of a point that are timed; a multiple of the instants gives each as many.
+    /// Number of timed frames of a point. A multiple of the instants treats them alike.
     pub rounds: usize,
-    /// Threads of all but the sweep of threads.
+    /// Number of threads of all but the sweep of threads.
     pub threads: usize,
 }
 
@@ -28,24 +28,25 @@ pub struct Row {
     pub point: Point,
     /// Median milliseconds of a frame.
     pub ms: f64,
-    /// How many times faster than the truth's cheapest form, `exact` or the dome at every pixel, on all threads: the median of the ratios within each round.
+    /// Speed relative to `exact`, or to the dome at every pixel, on all threads: the median of the ratios within each
+    /// round.
     pub ratio: f64,
-    /// Eye rays a pixel, or fragments.
+    /// Eye rays per pixel, or shaded fragments.
     pub samples: f64,
     /// Mean over the instants.
     pub error: Error,
 }
 
-/// Median milliseconds of `exact`, of the dome at every pixel in its own sweeps, and every point.
+/// All points of a sweep in one scene.
 pub struct Table {
-    /// Of the same rounds as the rows.
+    /// Median milliseconds of `exact`, or of the dome at every pixel, in the same rounds as the rows.
     pub exact_ms: f64,
     /// In the sweep's order.
     pub rows: Vec<Row>,
 }
 
 impl Table {
-    /// Does the knob change anything in this scene?
+    /// Whether the knob changes anything in this scene.
     pub fn matters(&self) -> bool {
         let first = &self.rows[0];
         let same = |row: &Row| row.samples == first.samples && row.error.square == first.error.square;
@@ -60,17 +61,17 @@ pub struct Bench<'a> {
     /// By number of threads.
     renderers: &'a mut Renderers,
     truths: HashMap<(Truth, usize), Frame>,
-    /// What a picture was off, and the samples it took: the same setting comes in several sweeps.
+    /// Error and samples by setting, as the same setting is a point of several sweeps.
     errors: HashMap<String, (Error, f64)>,
 }
 
 impl<'a> Bench<'a> {
-    /// Nothing is known of the scene yet.
+    /// Starts without a measurement.
     pub fn new(effort: &'a Effort, subject: &'a Subject, renderers: &'a mut Renderers) -> Bench<'a> {
         Bench { effort, subject, renderers, truths: HashMap::new(), errors: HashMap::new() }
     }
 
-    /// All points of a sweep.
+    /// Measures all points of a sweep.
     pub fn measure(&mut self, sweep: &Sweep) -> Table {
         let (exact_ms, times) = self.time(sweep);
         let rows = sweep.points.iter().zip(times).map(|(point, (ms, ratio))| {
@@ -80,9 +81,9 @@ impl<'a> Bench<'a> {
         Table { exact_ms, rows: rows.collect() }
     }
 
-    /// Milliseconds of `exact`; then of each point, and how many times faster that is.
+    /// Returns the milliseconds of `exact`; then the milliseconds of each point, and its speed relative to `exact`.
     ///
-    /// A round draws `exact` and every point once, so that whatever else the machine does hits all alike.
+    /// Each round draws `exact` and every point once, so that other load on the machine affects all of them alike.
     fn time(&mut self, sweep: &Sweep) -> (f64, Vec<(f64, f64)>) {
         let mut exact = Vec::new();
         let mut times = vec![Vec::new(); sweep.points.len()];
@@ -97,7 +98,7 @@ impl<'a> Bench<'a> {
                 began.elapsed().as_secs_f64() * 1000.0
             };
             if round == 0 {
-                // Memory is fetched and kernels are read before the clock counts.
+                // Warms up: memory is touched and kernels are in the cache before the clock counts.
                 timed(&truth);
             }
             exact.push(timed(&truth));
@@ -112,9 +113,9 @@ impl<'a> Bench<'a> {
         (median(exact.clone()), times.iter().map(summary).collect())
     }
 
-    /// How far the point's pictures are off, and the samples a pixel that they take.
+    /// The error of the point's pictures, and their samples per pixel.
     fn error(&mut self, point: &Point, truth: Truth) -> (Error, f64) {
-        // The number of threads changes no byte; tests see to that.
+        // The number of threads changes no byte, which tests hold, so it is not part of the key.
         let key = format!("{truth:?} {:?} {:?} {:?}", point.quality, point.dome, point.level);
         if let Some(known) = self.errors.get(&key) {
             return *known;
@@ -142,7 +143,7 @@ impl<'a> Bench<'a> {
         known
     }
 
-    /// Draws a point at an instant; returns its samples.
+    /// Draws a point at an instant, and returns the number of its samples.
     fn render(&mut self, point: &Point, instant: usize, frame: &mut Frame) -> u64 {
         let renderer = self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level);
         let picture = self.subject.picture(instant, point, self.effort.size, renderer.workers());
@@ -155,7 +156,7 @@ impl<'a> Bench<'a> {
 pub struct Renderers(HashMap<usize, Renderer>);
 
 impl Renderers {
-    /// The renderer on that many threads, at that SIMD level or the machine's best.
+    /// The renderer with that number of threads, at that SIMD level or the machine's best.
     pub fn with(&mut self, threads: usize, level: Option<Level>) -> &mut Renderer {
         let level = level.unwrap_or_else(Level::new);
         let renderer = match self.0.remove(&threads) {

@@ -1,6 +1,7 @@
-//! Speed against error: moves every knob of the quality, and writes tables and curves to `docs/report/`.
+//! Speed against error. One knob of the quality moves at a time; every point of its sweep is timed against `exact`, and its
+//! pictures are compared with those of the truth.
 //!
-//! Figures of a renderer join by their knobs in `sweep.rs` and their scenes in `subject.rs`.
+//! A new renderer joins with its knobs in `sweep.rs` and its scenes in `subject.rs`.
 
 mod curves;
 mod markdown;
@@ -16,9 +17,9 @@ use std::time::Instant;
 use subject::Subject;
 use sweep::Group;
 
-/// Minutes.
+/// The whole report, which takes minutes.
 const FULL: Effort = Effort { size: (1280, 720), instants: 3, rounds: 9, threads: 2 };
-/// Seconds: shows that the report works; its figures are rough.
+/// A report that takes seconds, with rough figures.
 const QUICK: Effort = Effort { size: (480, 270), instants: 1, rounds: 3, threads: 2 };
 
 /// What the sweeps take.
@@ -62,7 +63,7 @@ pub fn run(options: &Options) -> Result {
     let mut results: Vec<_> = sweeps.into_iter().map(|sweep| (sweep, Vec::new())).collect();
     let mut subjects = choose(names)?;
     if effort.instants == QUICK.instants && names.is_empty() {
-        // One of each kind of sweep.
+        // One subject of each group of sweeps is enough.
         subjects.retain(|subject| {
             !["day, high sun", "cumulus", "clouds", "sky at sunset", "sky at dusk"].contains(&subject.name)
         });
@@ -85,7 +86,7 @@ pub fn run(options: &Options) -> Result {
     Ok(())
 }
 
-/// The subjects of these names; without any all of them.
+/// The subjects of these names, or all if there are no names.
 fn choose(names: &[String]) -> Result<Vec<Subject>> {
     let all = subject::all();
     if let Some(name) = names.iter().find(|name| !all.iter().any(|subject| subject.answers_to(name))) {

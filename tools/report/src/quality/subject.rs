@@ -17,16 +17,16 @@ pub struct Subject {
     pub name: &'static str,
     /// The sweeps that it takes part in.
     pub groups: &'static [Group],
-    /// None is the sky alone.
+    /// The scene; none is the sky alone.
     scene: Option<Scene>,
-    /// Seconds; of the sky alone, degrees of the sun above the horizon.
+    /// Instants, seconds; for the sky alone, heights of the sun above the horizon, degrees.
     times: [f64; 3],
 }
 
 /// Instants, as shares of a scene's length.
 pub const SHARES: [f64; 3] = [0.1, 0.4, 0.7];
 
-/// The first summer's day of `day`, by the hour: the sun at 6 to 8 degrees, and at 55 to 64.
+/// Hours of the first day of `day`, in summer: the sun is 6 to 8 degrees high, and 55 to 64.
 const LOW: [f64; 3] = [4.9, 19.4, 5.0];
 const HIGH: [f64; 3] = [12.0, 10.5, 13.5];
 
@@ -37,7 +37,7 @@ pub fn all() -> Vec<Subject> {
         let scene = scene(name);
         Subject { name, groups, scene: Some(scene), times: SHARES.map(|share| share * scene.duration) }
     };
-    // A day begins at four.
+    // The day of the scene begins at four o'clock.
     let seconds = |hours: [f64; 3]| hours.map(|hour| (hour - 4.0) * scenes::show::day::LENGTH / 24.0);
     let day =
         |name, hours| Subject { name, groups: &[Group::Shadows], scene: Some(scene("day")), times: seconds(hours) };
@@ -61,14 +61,14 @@ pub fn all() -> Vec<Subject> {
 }
 
 impl Subject {
-    /// Is it of that scene, or of that name?
+    /// Whether it has that name, or is of that scene.
     pub fn answers_to(&self, name: &str) -> bool {
         self.name == name
             || self.scene.is_some_and(|scene| scene.name == name)
             || (self.scene.is_none() && name == "dome")
     }
 
-    /// Ready to be drawn.
+    /// The picture at an instant, ready to be drawn.
     pub fn picture(
         &self,
         instant: usize,

@@ -1,26 +1,26 @@
-//! Which knob goes through which values, from which quality: a new renderer's knobs are added here.
+//! Which knob goes through which values, and from which quality. The knobs of a new renderer are added here.
 
 use fearless_simd::Level;
 use paprsek::settings::Quality;
 use paprsek::sky::dome::DomeQuality;
 
-/// What is right, where a sweep is judged.
+/// The truth that a sweep is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Truth {
     /// One sample at each pixel centre.
     Exact,
-    /// 64 samples a pixel.
+    /// 64 samples per pixel.
     Reference,
-    /// 64 samples a pixel, and all else as the point has it: the limit of coverage alone.
+    /// 64 samples per pixel, and everything else as in the point: the limit of coverage alone.
     Samples,
-    /// All particles, and all else as the point has it: the limit of their level of detail alone.
+    /// All particles, and everything else as in the point: the limit of their level of detail alone.
     ParticleLayer,
-    /// The dome at every pixel, from 100 points a direction.
+    /// The dome at every pixel, from 100 points along each direction.
     Dome,
 }
 
 impl Truth {
-    /// The setting that renders it for a point.
+    /// The setting that renders the truth of a point.
     pub fn of(self, point: &Point) -> Point {
         let (quality, dome) = match self {
             Truth::Exact => (Quality::EXACT, None),
@@ -34,7 +34,7 @@ impl Truth {
         Point { quality, dome, level: None, threads: None, ..point.clone() }
     }
 
-    /// Its name; that of the command line if it has one.
+    /// Its name, which is that of the command line if it has one.
     pub fn name(self) -> &'static str {
         match self {
             Truth::Exact => "exact",
@@ -49,17 +49,17 @@ impl Truth {
 /// Which scenes a sweep is drawn in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What rays are traced in.
+    /// Scenes of the ray tracer.
     Tracer,
-    /// What triangles are drawn in.
+    /// Scenes of the rasterizer.
     Raster,
-    /// `day` where shadows are long, and where they are short.
+    /// `day` with long shadows, and with short ones.
     Shadows,
     /// The computed sky alone.
     Sky,
-    /// What rays are cast through clouds in.
+    /// Scenes with clouds.
     CloudLayer,
-    /// What burns.
+    /// Scenes with fires.
     Fires,
 }
 
@@ -70,13 +70,13 @@ pub struct Point {
     pub label: String,
     /// Everything else as the sweep's base has it.
     pub quality: Quality,
-    /// How the sky alone is computed; in scenes the quality says that.
+    /// How the sky alone is computed; in scenes the quality decides.
     pub dome: Option<DomeQuality>,
-    /// SIMD level; the machine's best where none is named.
+    /// SIMD level; none is the machine's best.
     pub level: Option<Level>,
-    /// Threads; as many as the report runs on where none is named.
+    /// Number of threads; none is that of the whole report.
     pub threads: Option<usize>,
-    /// Is this where the base stands?
+    /// Whether the knob stands here in the base.
     pub default: bool,
 }
 
@@ -91,7 +91,7 @@ pub struct Sweep {
     pub base: &'static str,
     /// What the pictures are compared with.
     pub truth: Truth,
-    /// Where it matters.
+    /// The scenes that it matters in.
     pub group: Group,
     /// From slow to fast, or in the knob's order.
     pub points: Vec<Point>,
@@ -152,13 +152,13 @@ pub fn knobs() -> Vec<Sweep> {
     sweeps
 }
 
-/// The dome with another cell, or another number of points at every pixel; else as `fast` has it.
+/// A sweep of the dome's cell, or of its number of points at every pixel. The rest is as in `fast`.
 fn dome<const N: usize>(file: &'static str, knob: &'static str, values: [(f32, Option<u32>); N]) -> Sweep {
     let from = DomeQuality::new(&Quality::FAST);
     let point = |(cell, steps): (f32, Option<u32>)| {
         let dome = match steps {
             None => DomeQuality { cell, ..from },
-            // Beside interpolation its error would not be seen.
+            // At every pixel: beside the error of interpolation, that of few points would not show.
             Some(steps) => DomeQuality { steps, cell, ..from },
         };
         let default = steps.map_or(dome == from, |steps| steps == from.steps);
@@ -200,11 +200,11 @@ pub fn threads(all: usize, group: Group) -> Sweep {
 /// A field of [`Quality`]: its name, how it is read, how it is set.
 type Knob = (&'static str, fn(&Quality) -> f32, fn(&mut Quality, f32));
 
-/// In the tracer's scenes.
+/// A sweep of a knob in the tracer's scenes.
 fn sweep(file: &'static str, (base, truth): (&'static str, Truth), (knob, get, set): Knob, values: &[f32]) -> Sweep {
     let from = Quality::named(base).expect("a quality of the command line");
     let mut values = values.to_vec();
-    // Wherever the base moves to, it is a point of its own curve.
+    // The base's own value is a point of the curve, even if it is none of the values.
     values.push(get(&from));
     values.sort_by(f32::total_cmp);
     values.dedup();
@@ -217,7 +217,7 @@ fn sweep(file: &'static str, (base, truth): (&'static str, Truth), (knob, get, s
     Sweep { file, knob, base, truth, group: Group::Tracer, points }
 }
 
-/// Small powers of two as fractions: that is how the code writes them.
+/// A value as the code writes it: small powers of two are fractions.
 fn label(value: f32) -> String {
     let inverse = 1.0 / value;
     if value < 1.0 && inverse.fract() == 0.0 && (inverse as u64).is_power_of_two() {

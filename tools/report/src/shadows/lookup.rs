@@ -1,4 +1,4 @@
-//! Maps of any projection, and the lookup of one point at a time in f64: the renderer's own, without its lanes.
+//! Shadow maps of any projection, and lookups of one point at a time in f64: the renderer's method without its lanes.
 
 use super::set::Set;
 use super::truth::Pixel;
@@ -11,7 +11,7 @@ use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{self, Bias};
 use paprsek::raster::triangle::{SetupMesh, TriangleSetup};
 
-/// A map.
+/// A shadow map.
 pub struct Map {
     matrix: DMat4,
     size: usize,
@@ -19,13 +19,13 @@ pub struct Map {
 }
 
 impl Map {
-    /// Memory for a map, which is filled anew by [`Map::draw`].
+    /// An empty map, which [`Map::draw`] fills.
     pub fn new(projection: Projection) -> Map {
         let size = projection.size[0] as usize;
         Map { matrix: projection.matrix().as_dmat4(), size, texels: vec![0.0; size * size] }
     }
 
-    /// Draws what a set shows in it, on this thread.
+    /// Draws a set into the map on this thread.
     pub fn draw(&mut self, set: &Set, projection: Projection) {
         let setup = TriangleSetup { projection, back_faces: false, shaded: false };
         let pieces: Vec<SetupMesh> = set.meshes.iter().map(|mesh| setup.piece(mesh, &Affine3A::IDENTITY)).collect();
@@ -42,7 +42,7 @@ impl Map {
         }
     }
 
-    /// The share of the sun that a pixel gets; none where the map does not reach it.
+    /// The share of the sun that reaches a pixel, or none if the pixel lies outside of the map.
     fn light(&self, pixel: &Pixel, towards: DVec3, bias: &Bias, smooth: bool) -> Option<f64> {
         let rows = self.matrix.transpose();
         let (size, p) = (self.size as f64, pixel.point.as_dvec3());
@@ -54,7 +54,7 @@ impl Map {
         if w <= 0.0 {
             return None;
         }
-        // Metres of the longer side of a texel here, and nearness of a metre towards the sun.
+        // The longer side of a texel here in metres, and the inverse depth of one metre towards the sun.
         let step = |row: glam::DVec4, value: f64| ((row - rows.w_axis * value).truncate() / w).length();
         let texel = (1.0 / step(rows.x_axis, x)).max(1.0 / step(rows.y_axis, y));
         let rise = (rows.z_axis - rows.w_axis * near).truncate().dot(towards) / w;
@@ -82,7 +82,7 @@ impl Map {
     }
 }
 
-/// The share of the sun that a pixel gets by the first map that reaches it.
+/// The share of the sun that reaches a pixel, by the first map that contains it.
 pub fn light(maps: &[Map], pixel: &Pixel, towards: Vec3, bias: &Bias, smooth: bool) -> f32 {
     maps.iter().find_map(|map| map.light(pixel, towards.as_dvec3(), bias, smooth)).unwrap_or(1.0) as f32
 }

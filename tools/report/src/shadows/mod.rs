@@ -1,5 +1,5 @@
-//! How wrong shadow maps are: against traced shadows, by the map's size, the sun's height, the number of cascades beside
-//! one warped map, and by the bias. Writes `shadows.md` and `shadows-*.svg`.
+//! The error of shadow maps against traced shadows: by the size of the map and the height of the sun, by the number of
+//! cascades beside one warped map, and by the bias. Writes `shadows.md` and `shadows-*.svg`.
 
 mod lookup;
 mod set;
@@ -17,9 +17,9 @@ use std::time::Instant;
 use testkit::median;
 use truth::Pixel;
 
-/// Degrees of the sun above the horizon.
+/// Heights of the sun above the horizon, degrees.
 const ELEVATIONS: [f32; 5] = [1.0, 5.0, 30.0, 60.0, 90.0];
-/// Those over which means are taken.
+/// The heights over which means are taken, degrees.
 const USUAL: [f32; 3] = [5.0, 30.0, 60.0];
 const THREADS: usize = 2;
 
@@ -33,17 +33,17 @@ struct Effort {
 const FULL: Effort = Effort { size: (640, 360), maps: &[256, 512, 1024, 2048, 4096], rounds: 7 };
 const QUICK: Effort = Effort { size: (320, 180), maps: &[512, 1024], rounds: 1 };
 
-/// Shares of the pixels that face the sun.
+/// The errors of a map, as sums over the pixels that face the sun.
 #[derive(Clone, Copy, Default)]
 struct Score {
     count: f64,
-    /// On the wrong side of a half: lit ones found dark, and dark ones found lit.
+    /// The number of pixels on the wrong side of a half: lit ones found dark, and dark ones found lit.
     acne: f64,
     leaks: f64,
-    /// Light lost and won where no shadow's edge is within 1.5 texels.
+    /// Light lost and won where no shadow edge is within 1.5 texels.
     far_lost: f64,
     far_won: f64,
-    /// Mean difference of the light.
+    /// Absolute difference of the light.
     error: f64,
 }
 
@@ -96,13 +96,13 @@ impl Score {
 const COLUMNS: &str = "wrong, % | acne | leaks | far, lost | far, won | light off";
 const LINE: &str = "--:|--:|--:|--:|--:|--:|";
 
-/// What a plan shows of the sun.
+/// The errors of shadow views of the sun.
 fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, plan: ShadowViews) -> Score {
     let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan))]);
     Score::of(pixels, |pixel| shot.pixels[pixel.index][0] / pixel.cosine)
 }
 
-/// By the sun's height and the map's size.
+/// Errors by the height of the sun and the size of the map.
 fn heights(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut String) -> Vec<Vec<Curve>> {
     let mut panels = Vec::new();
     for set in sets {
@@ -143,7 +143,7 @@ fn heights(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut St
     panels
 }
 
-/// Cascades beside one map through a perspective.
+/// Errors of cascades beside those of one map through a perspective.
 fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut String) -> Vec<Vec<Curve>> {
     let mut panels = Vec::new();
     let edge = if effort.rounds > 1 { 1024 } else { 512 };
@@ -155,7 +155,7 @@ fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut Stri
         )
         .unwrap();
         writeln!(text, "|---|--:|{LINE}--:|---|--:|").unwrap();
-        // Edges of one warped map with at least as many texels as 1 to 4 cascades, and more.
+        // One warped map with at least as many texels as 1 to 4 cascades, and with more.
         let kinds: Vec<(Option<usize>, u32)> = (1..=4)
             .map(|n| (Some(n), edge))
             .chain(
@@ -167,7 +167,7 @@ fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut Stri
         for elevation in USUAL {
             let towards = sun(set, elevation);
             let (mut pixels, tracer) = truth::pixels(set, renderer, towards);
-            // Judged far from edges by the texels of the scene's own maps, alike for all.
+            // What is far from edges is judged by the texels of the scene's own maps, which is the same for all.
             truth::mark(&mut pixels, &tracer, towards, &set.views(towards, None, edge));
             let views: Vec<_> = kinds
                 .iter()
@@ -213,10 +213,10 @@ fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut Stri
     panels
 }
 
-/// A kind of bias; its strengths by name, and whether back faces are drawn.
+/// A kind of bias, with its strengths by name and whether back faces are drawn.
 type Family = (&'static str, Vec<(String, Bias, bool)>);
 
-/// Kinds of bias: constants in metres, the others in texels.
+/// Kinds of bias. Constants are in metres, the others in texels.
 fn families() -> Vec<Family> {
     let bias = |constant, slope, normal| Bias { constant, slope, normal };
     let row = |of: fn(f32) -> Bias, back: bool, values: &[f32]| {
@@ -243,7 +243,7 @@ fn families() -> Vec<Family> {
     ]
 }
 
-/// By the bias.
+/// Errors by the bias.
 fn biases(effort: &Effort, set: &Set, renderer: &mut Renderer, text: &mut String) -> Vec<Curve> {
     let edge = if effort.rounds > 1 { 1024 } else { 512 };
     let families = families();

@@ -1,4 +1,4 @@
-//! What shadows are judged in: everything white and matt, under one sun, so that a pixel is its light.
+//! The scenes in which shadows are judged: everything is white and matt under one sun, so that a pixel shows its light.
 
 use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
@@ -17,17 +17,17 @@ use paprsek::view::View;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-/// Bodies before a camera, and how their scene plans the sun's map.
+/// Bodies before a camera, and the sun's maps of their scene.
 pub struct Set {
     pub name: &'static str,
     pub meshes: Vec<Arc<Mesh>>,
     bodies: Vec<Body>,
     pub camera: Camera,
-    /// Pixels in a row, and rows.
+    /// Width and height, pixels.
     pub size: (usize, usize),
-    /// Nearest and farthest end of its cascades, metres along the view's axis.
+    /// The ends of the nearest and of the farthest cascade, metres along the view axis.
     pub range: (f32, f32),
-    /// Its own cascades; none is one map of 72 metres.
+    /// The ends of its own cascades, metres; if there are none, it has one map of 72 metres.
     pub ends: &'static [f32],
     pub bias: Bias,
     pub smooth: bool,
@@ -41,7 +41,7 @@ fn set(meshes: Vec<Mesh>) -> (Vec<Arc<Mesh>>, Vec<Body>) {
     (meshes, bodies)
 }
 
-/// The set that rasterizers are compared by, and the land of `day` in the afternoon.
+/// The set by which rasterizers are compared, and the land of `day` in the afternoon.
 pub fn both(size: (usize, usize)) -> [Set; 2] {
     let (meshes, bodies) = set(shadow_set::meshes());
     let camera = Camera::look_at(shadow_set::eye(2.0).as_vec3(), vec3(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
@@ -76,7 +76,7 @@ pub fn both(size: (usize, usize)) -> [Set; 2] {
     [bench, day]
 }
 
-/// The sun at a height above the horizon, degrees, from the camera's left and a little behind it.
+/// The direction of a sun this high above the horizon, degrees: from the left of the camera and a little behind it.
 pub fn sun(set: &Set, elevation: f32) -> Vec3 {
     let (sin, cos) = elevation.to_radians().sin_cos();
     let side = vec3(-set.camera.right.x, 0.0, -set.camera.right.z).normalize();
@@ -84,15 +84,15 @@ pub fn sun(set: &Set, elevation: f32) -> Vec3 {
     (side * 0.9 + back * 0.436).normalize() * cos + Vec3::Y * sin
 }
 
-/// Light of every pixel and 1 / distance along the axis, 0 where there is nothing; milliseconds before the tiles, and of
-/// all.
+/// A picture: red, green, blue and inverse depth of every pixel (0 without a surface), the milliseconds before the tiles, and
+/// those of the whole frame.
 pub struct Shot {
     pub pixels: Vec<[f32; 4]>,
     pub maps: f64,
     pub all: f64,
 }
 
-/// Keeps the light that a layer draws.
+/// A layer that keeps the light that another one draws.
 struct Probe {
     drawn: RasterLayer,
     width: usize,
@@ -127,7 +127,7 @@ impl Set {
         self.size.0 as f32 / self.size.1 as f32
     }
 
-    /// The sun's maps of `size` texels as the scene has them, or that many cascades whose ends grow evenly.
+    /// The sun's maps of `size` texels as the scene has them, or a number of cascades whose ends grow by equal ratios.
     pub fn views(&self, towards: Vec3, cascades: Option<usize>, size: u32) -> Vec<Projection> {
         let (near, far) = self.range;
         let grown = |n: usize| (1..=n).map(|i| near * (far / near).powf(i as f32 / n as f32)).collect::<Vec<_>>();
@@ -138,12 +138,12 @@ impl Set {
         }
     }
 
-    /// A plan with the scene's bias.
+    /// Shadow views with the scene's bias.
     pub fn plan(&self, views: Vec<Projection>) -> ShadowViews {
         ShadowViews { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
     }
 
-    /// What is seen under suns, each of its own colour.
+    /// Draws the set under suns, given by direction, colour and shadow views.
     pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3, Vec3, Option<ShadowViews>)]) -> Shot {
         let light = |(towards, color, shadow): &(Vec3, Vec3, Option<ShadowViews>)| Light {
             source: Source::Sun(*towards),

@@ -1,4 +1,4 @@
-//! What is really in shadow: rays towards the sun in f64, and how far a pixel is from a shadow's edge.
+//! The truth about shadows: rays towards the sun in f64, and whether a pixel is far from any shadow edge.
 
 use super::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3};
@@ -8,9 +8,9 @@ use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{Bias, ShadowViews};
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
 
-/// Texels along the edge of the rasters that sort triangles: their corners lie on its 256ths.
+/// Edge of the rasters that sort triangles, texels. Corners are snapped to 1/256 texel.
 const SIZE: u32 = 4096;
-/// A pixel that the sun grazes is not judged.
+/// The least cosine between normal and sun of the pixels that are judged.
 const LEAST: f32 = 0.02;
 
 /// A pixel that faces the sun.
@@ -18,11 +18,11 @@ pub struct Pixel {
     pub point: Vec3,
     pub normal: Vec3,
     pub cosine: f32,
-    /// Does the sun shine on it?
+    /// Whether the sun shines on it.
     pub lit: bool,
-    /// Is it farther than 1.5 texels from a shadow's edge?
+    /// Whether it is farther than 1.5 texels from any shadow edge.
     pub far: bool,
-    /// Its place in the picture.
+    /// Its index in the picture.
     pub index: usize,
 }
 
@@ -42,7 +42,7 @@ impl Tracer {
         Tracer { views: views.into_iter().map(view).collect() }
     }
 
-    /// Is something between the point, some millimetres up, and the sun?
+    /// Whether something stands between the sun and the point, which is lifted towards it by `lift` metres.
     fn hidden(&self, point: DVec3, lift: f64) -> bool {
         let end = SIZE as f64 - 1.0;
         for (matrix, pieces, bins) in &self.views {
@@ -70,7 +70,8 @@ impl Tracer {
 pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>, Tracer) {
     let axes = |sign: f32| Vec3::AXES.map(|axis| (axis * sign, axis, None));
     let (plus, minus) = (set.draw(renderer, &axes(1.0)), set.draw(renderer, &axes(-1.0)));
-    // Of which a 32nd is left, a centimetre: some kilometres away f32 rounds to less than that, to more than a millimetre.
+    // Traced shadows keep a 32nd of the bias, here a centimetre. That is more than the rounding of f32 some kilometres away,
+    // while a millimetre would be less.
     let bias = Bias { constant: 0.32, slope: 1.0, normal: 1.0 };
     let plan = ShadowViews { bias, traced: true, ..set.plan(set.views(towards, None, SIZE)) };
     let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan.clone()))]);
@@ -98,7 +99,7 @@ pub fn mark(pixels: &mut [Pixel], tracer: &Tracer, towards: Vec3, views: &[Proje
     });
 }
 
-/// Metres a texel of the map that a point is looked up in.
+/// The size of a texel of the map that a point is looked up in, metres.
 fn texel(views: &[Projection], point: Vec3) -> Option<f32> {
     let inside = |view: &&Projection| {
         let h = view.matrix() * point.extend(1.0);
@@ -107,13 +108,13 @@ fn texel(views: &[Projection], point: Vec3) -> Option<f32> {
     views.iter().find(inside).map(|view| 1.0 / view.rows[0].truncate().length())
 }
 
-/// Do the points around, 1.5 texels away on the pixel's own plane, all see the sun as it does?
+/// Whether the points 1.5 texels around on the pixel's own plane all see the sun as the pixel does.
 fn far(tracer: &Tracer, pixel: &Pixel, towards: Vec3, views: &[Projection]) -> bool {
     let Some(texel) = texel(views, pixel.point) else { return false };
     let (n, t) = (pixel.normal.as_dvec3(), towards.as_dvec3());
     let right = t.any_orthonormal_vector();
     let up = t.cross(right);
-    // Enough for rounding and for a curved surface, whose plane is a little off it.
+    // Enough for rounding, and for curved surfaces, which leave their tangent plane.
     let lift = 0.002 + 0.05 * texel as f64;
     (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))).all(|(i, j)| {
         let across = (right * i as f64 + up * j as f64) * (1.5 * texel as f64);

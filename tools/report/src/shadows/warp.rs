@@ -1,11 +1,12 @@
-//! One map through a perspective: M. Wimmer, D. Scherzer, W. Purgathofer, "Light space perspective shadow maps", 2004.
+//! One shadow map through a perspective: a light-space perspective shadow map `[Wimmer04]`.
 
 use super::set::Set;
 use glam::{Vec3, Vec4};
 use paprsek::raster::project::Projection;
 
-/// A warped map of `size` texels for what a set's camera sees between the ends of its range. In it w is the distance from a
-/// point behind the eye, along the view's axis as the sun sees it: then heights over it are affine in the map.
+/// A warped map of `size` texels for what a set's camera sees between the ends of its range. Its w is the distance from a
+/// point behind the eye, along the view axis as the sun sees it; so heights towards the sun divided by w are affine in the
+/// map.
 pub fn warped(set: &Set, towards: Vec3, size: u32) -> Projection {
     let (camera, (near, far)) = (&set.camera, set.range);
     let view = camera.forward;
@@ -27,13 +28,13 @@ pub fn warped(set: &Set, towards: Vec3, size: u32) -> Projection {
     let middle = camera.eye.dot(right);
     let distance = |p: Vec3| p.dot(along) - first + start;
     let (left, rest) = bounds(corners.iter().map(|p| (p.dot(right) - middle) / distance(*p)));
-    // Lookups keep off the border.
+    // Lookups need some texels around them, so a border is left free.
     let (edge, size_f) = (4.0, size as f32);
     let inner = size_f - 2.0 * edge;
     let w = along.extend(start - first);
     let x = right.extend(-middle) * (inner / (rest - left)) + w * (edge - left * inner / (rest - left));
     let share = inner / (1.0 / start - 1.0 / (start + depth));
-    // From the first end, at 1 / start, to the last: affine in 1 / w.
+    // y is affine in 1 / w, from the first end at 1 / start to the last.
     let y = w * (share / start + edge) - Vec4::W * share;
     Projection { rows: [x, y, towards.extend(0.0), w], size: [size; 2], texel: 1.0 / x.truncate().length() }
 }

@@ -1,4 +1,4 @@
-//! How far frames are from the reference's.
+//! The error of frames against the reference.
 
 use super::parts::Part;
 use super::{Effort, render};
@@ -7,7 +7,7 @@ use paprsek::frame::Renderer;
 use paprsek::settings::Quality;
 use testkit::metrics::Difference;
 
-/// The table of all parts, Markdown.
+/// The table of all parts, as Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
     let (width, height) = effort.compared;
     let mut text = format!(
@@ -36,7 +36,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     text
 }
 
-/// The middles of a part's shots; longer shots are cut into equal pieces of at most `piece` seconds.
+/// The middles of a part's shots, seconds. Longer shots are cut into equal pieces of at most `piece` seconds.
 fn instants(part: &Part, piece: f64) -> Vec<f64> {
     let mut instants = Vec::new();
     for shot in part.shots() {

@@ -1,6 +1,4 @@
-//! The show, part by part: speed, error, and whether anything pops. Writes `show.md`.
-//!
-//! Some twelve minutes on two cores.
+//! The show, part by part: speed, error, and whether anything pops. Writes `show.md`, in about twelve minutes on two cores.
 
 mod error;
 mod parts;
@@ -15,18 +13,21 @@ use paprsek::settings::Quality;
 
 const THREADS: usize = 2;
 
-/// How much is measured. Sizes are pixels in a row, and rows.
+/// How much is measured. Sizes are width and height, pixels.
 struct Effort {
-    /// Of frames that are timed; every how many frames of the film one is.
+    /// Size of frames that are timed.
     timed: (usize, usize),
+    /// Every how many frames of the film one is timed.
     every: usize,
-    /// Of frames that are compared with the reference, which takes up to a minute; seconds of a shot for each of them.
+    /// Size of frames that are compared with the reference, which takes up to a minute each.
     compared: (usize, usize),
+    /// Seconds of a shot per compared frame, at most.
     piece: f64,
-    /// Of frames whose change is measured; at most how many pairs of a shot; how many of a part's pairs beside the
-    /// largest are held against the reference's.
+    /// Size of frames whose change is measured.
     changing: (usize, usize),
+    /// The most pairs of frames of a shot.
     pairs: usize,
+    /// The number of a part's pairs, beside the largest change, that are held against the reference.
     candidates: usize,
 }
 
@@ -49,7 +50,7 @@ const QUICK: Effort = Effort {
     candidates: 1,
 };
 
-/// The show at a second.
+/// The show at a time, seconds.
 fn render(renderer: &mut Renderer, (width, height): (usize, usize), time: f64, quality: &Quality) -> Frame {
     let mut frame = Frame::new(width, height);
     renderer.render(&INTRO, time, quality, &mut frame);

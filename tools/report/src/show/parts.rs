@@ -6,14 +6,14 @@ use paprsek::scenes::show::intro::{PARTS, light};
 use paprsek::scenes::show::{clouds, day, lumen, torches};
 use std::ops::Range;
 
-/// A part of the show; seconds are those of the show where nothing else is said.
+/// A part of the show. Seconds are those of the show unless said otherwise.
 pub struct Part {
     scene: Scene,
-    /// When it starts, and when the next one does.
+    /// When it starts, and when the next part does, seconds.
     pub seconds: Range<f64>,
-    /// Where it starts in the scene's own seconds.
+    /// Where it starts, in seconds of the scene.
     from: f64,
-    /// Where the scene's shots start, in its own seconds; the first at 0.
+    /// Where the scene's shots start, in seconds of the scene; the first at 0.
     cuts: Vec<f64>,
 }
 
@@ -28,11 +28,11 @@ pub fn all() -> Result<Vec<Part>, String> {
 
 /// Where a scene's shots start, seconds.
 fn cuts(scene: &Scene) -> Result<Vec<f64>, String> {
-    // Days start at four.
+    // The days of the scene begin at four o'clock.
     let leap = day::LENGTH * (f64::from(day::LEAP) - 4.0) / 24.0;
     Ok(match scene.name {
         "lumen" => lumen::CUTS.iter().map(|shot| shot.0).collect(),
-        // The next day is of another season.
+        // The next day is in another season.
         "day" => (0..4).flat_map(|day| [0.0, leap].map(|since| day::LENGTH * f64::from(day) + since)).collect(),
         "clouds" => clouds::SHOTS.iter().map(|shot| shot.0).collect(),
         "snowfall" => vec![0.0],
@@ -42,17 +42,17 @@ fn cuts(scene: &Scene) -> Result<Vec<f64>, String> {
 }
 
 impl Part {
-    /// Its scene and when it plays: a scene may come twice.
+    /// Its scene and when it plays, since a scene may come twice.
     pub fn name(&self) -> String {
         format!("`{}`, {} to {} s", self.scene.name, self.seconds.start, self.seconds.end)
     }
 
-    /// Numbers of its frames in a film of the show at `fps` frames a second.
+    /// The numbers of its frames in a film of the show at `fps` frames per second.
     pub fn frames(&self, fps: f64) -> Range<usize> {
         (self.seconds.start * fps).ceil() as usize..(self.seconds.end * fps).ceil() as usize
     }
 
-    /// Number of the shot that runs at a second, by the arithmetic of the show itself.
+    /// The number of the shot that runs at a time, by the show's own arithmetic.
     pub fn shot(&self, time: f64) -> Option<usize> {
         let own = self.from + (time - self.seconds.start);
         self.cuts.iter().rposition(|cut| *cut <= own)
@@ -67,7 +67,7 @@ impl Part {
     }
 }
 
-/// Is all of the light there, or does the show fade to a cut or from it?
+/// Whether the show has its full light, and does not fade to a cut or from it.
 pub fn is_lit(time: f64) -> bool {
     light(PARTS, INTRO.duration, time) == 1.0
 }

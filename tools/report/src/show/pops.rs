@@ -1,4 +1,4 @@
-//! Whether anything pops: how much frames differ from the ones before them.
+//! Whether anything pops: the differences between frames and those before them.
 
 use super::parts::{Part, is_lit};
 use super::{Effort, render};
@@ -6,20 +6,20 @@ use paprsek::frame::{Frame, Renderer};
 use paprsek::settings::Quality;
 use testkit::metrics::Difference;
 
-/// Frames a second.
+/// Frames per second.
 const FPS: f64 = 60.0;
 
 /// The change from one frame to the next.
 #[derive(Clone, Copy)]
 struct Change {
-    /// Number of the first of the two, and of the shot that both are in.
+    /// The number of the first frame, and of the shot that both frames are in.
     frame: usize,
     shot: Option<usize>,
-    /// Root of the mean square of the difference, codes of 255.
+    /// Root mean square of the difference, codes of 255.
     rms: f64,
 }
 
-/// The table of all parts, Markdown.
+/// The table of all parts, as Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
     let (width, height) = effort.changing;
     let mut text = format!(
@@ -54,7 +54,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     text
 }
 
-/// The changes within a part's shots, in the order of time.
+/// The changes within a part's shots, in order of time.
 fn changes(renderer: &mut Renderer, part: &Part, effort: &Effort) -> Vec<Change> {
     let mut changes = Vec::new();
     let mut last: Option<(Option<usize>, Frame)> = None;
@@ -76,7 +76,7 @@ fn changes(renderer: &mut Renderer, part: &Part, effort: &Effort) -> Vec<Change>
     changes
 }
 
-/// The largest change, then those that exceed the mean of their neighbours in the shot by most; each with that mean.
+/// The largest change, then those that exceed the mean of their neighbours in the shot by the most; each with that mean.
 fn judged(changes: &[Change], candidates: usize) -> Vec<(Change, f64)> {
     let inside = changes.windows(3).filter(|three| three[0].shot == three[2].shot);
     let mut peaks: Vec<_> = inside.map(|three| (three[1], 0.5 * (three[0].rms + three[2].rms))).collect();

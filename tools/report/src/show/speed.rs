@@ -1,4 +1,4 @@
-//! What frames take.
+//! The time of frames.
 
 use super::Effort;
 use super::parts::Part;
@@ -8,20 +8,20 @@ use paprsek::settings::Quality;
 use std::time::Instant;
 use testkit::median;
 
-/// Frames a second of the film: what plays.
+/// Frames per second of the film.
 const FPS: f64 = 30.0;
-/// Frames a second: the median frame's, and the slowest hundredth's.
+/// Goals in frames per second: for the median frame, and for the slowest hundredth.
 const GOALS: [f64; 2] = [60.0, 30.0];
 
-/// What a part's frames took.
+/// The cost of a part's frames.
 struct Cost {
-    /// Milliseconds of each frame, and the second that it shows.
+    /// Milliseconds of each frame, and the time that it shows, seconds.
     frames: Vec<(f64, f64)>,
-    /// Eye rays and fragments of all frames.
+    /// The number of eye rays and fragments of all frames.
     samples: u64,
 }
 
-/// The table of all parts, Markdown.
+/// The table of all parts, as Markdown.
 pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
     let [median, slow] = GOALS;
     let mut text = format!(
@@ -43,7 +43,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
     text
 }
 
-/// Renders a part frame after frame.
+/// Renders a part, frame after frame.
 fn play(renderer: &mut Renderer, part: &Part, quality: &Quality, effort: &Effort) -> Cost {
     let mut frame = Frame::new(effort.timed.0, effort.timed.1);
     let mut cost = Cost { frames: Vec::new(), samples: 0 };
