@@ -20,7 +20,14 @@ use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
-pub const SNOWFALL: Scene = Scene::part("snowfall", "a walk through the first snow, into the dusk", LENGTH, picture);
+pub const SNOWFALL: Scene = Scene {
+    name: "snowfall",
+    about: "a walk through the first snow, into the dusk",
+    duration: LENGTH,
+    parameters: &[],
+    picture,
+}
+.part();
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 32.0;

@@ -7,9 +7,9 @@ use glam::{Mat3, Vec3, vec3};
 use image::{RgbImage, imageops};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::dome::{Dome, Sky};
 use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::sky::place::Place;
 use paprsek::sky::time;
@@ -48,7 +48,7 @@ fn difference(a: &RgbImage, b: &RgbImage) -> (f64, u8) {
 
 /// The sky towards the sun and away from it; and the milliseconds of one such picture on one thread, without encoding: the
 /// fastest of `repeat` runs.
-fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
+fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
     let mut best = f64::MAX;
     for _ in 0..repeat {
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
@@ -72,11 +72,11 @@ fn table(quick: bool) {
     println!("| cell, rad | steps | ms by day | ms at -6 | rms, worst codes by day | at 0 | at -6 | at -12 |");
     println!("|---|---|---|---|---|---|---|---|");
     let altitudes = [30.0, 0.0, -6.0, -12.0];
-    let truth = altitudes.map(|a| views(DomeQuality { steps: 50, cell: 0.0, grid: 1 }, a, size, 1).0);
+    let truth = altitudes.map(|a| views(SkySettings { steps: 50, cell: 0.0, grid: 1 }, a, size, 1).0);
     for (cell, steps) in
         [(0.0, 24), (0.0, 10), (0.011, 24), (0.011, 16), (0.011, 10), (0.011, 8), (0.011, 6), (0.022, 10), (0.044, 10)]
     {
-        let quality = DomeQuality { steps, cell, grid: 1 };
+        let quality = SkySettings { steps, cell, grid: 1 };
         let repeat = if cell > 0.0 { 5 } else { 1 };
         print!("| {cell} | {steps} |");
         let mut errors = String::new();
@@ -96,7 +96,7 @@ fn table(quick: bool) {
 fn time_views(quick: bool) {
     let (size, repeat) = if quick { ((320, 180), 3) } else { ((1280, 720), 20) };
     for altitude in [30.0, -6.0] {
-        println!("{altitude}: {:.2} ms", views(DomeQuality::new(&Quality::DEFAULT), altitude, size, repeat).1);
+        println!("{altitude}: {:.2} ms", views(Quality::DEFAULT.sky, altitude, size, repeat).1);
     }
 }
 
@@ -112,7 +112,7 @@ fn sheet(pictures: &[RgbImage], columns: usize) -> RgbImage {
 }
 
 /// The sky at twelve heights of the sun, each towards the sun and away from it.
-fn heights(quality: DomeQuality, haze: f32) -> RgbImage {
+fn heights(quality: SkySettings, haze: f32) -> RgbImage {
     let mut pictures = Vec::new();
     for altitude in ALTITUDES {
         let dome = Dome::new(sky(altitude, haze), quality);
@@ -123,7 +123,7 @@ fn heights(quality: DomeQuality, haze: f32) -> RgbImage {
 }
 
 /// Plzen on 2026-06-29 and in the night after, with a full moon: towards the sun, the moon and the north at each hour.
-fn day(quality: DomeQuality) -> RgbImage {
+fn day(quality: SkySettings) -> RgbImage {
     let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
     let mut pictures = Vec::new();
     for hour in [11.0, 18.0, 18.9, 19.4, 19.8, 20.5, 21.5, 23.5] {
@@ -138,7 +138,7 @@ fn day(quality: DomeQuality) -> RgbImage {
 }
 
 /// The moon on every third day of a month when it is highest, at ten times its size, against the sky of night or day.
-fn moon(quality: DomeQuality) -> RgbImage {
+fn moon(quality: SkySettings) -> RgbImage {
     let mut pictures = Vec::new();
     for i in 0..10 {
         let days = 9662.0 + f64::from(i) * 2.9;
@@ -198,12 +198,12 @@ pub enum What {
 
 /// Prints a table, or writes a sheet.
 pub fn run(what: &What) -> Result {
-    let quality = DomeQuality::new(&Quality::DEFAULT);
+    let quality = Quality::DEFAULT.sky;
     match what {
         What::Table { quick } => table(*quick),
         What::Time { quick } => time_views(*quick),
         What::Sheet { out, haze, steps } => {
-            heights(DomeQuality { steps: steps.unwrap_or(quality.steps), ..quality }, *haze).save(out)?;
+            heights(SkySettings { steps: steps.unwrap_or(quality.steps), ..quality }, *haze).save(out)?;
         }
         What::Day { out } => day(quality).save(out)?,
         What::Moon { out } => moon(quality).save(out)?,

@@ -12,7 +12,7 @@ use crate::options::{Common, Result};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::Quality;
-use paprsek::view::{Camera, Eye};
+use paprsek::view::Camera;
 use std::fmt::Write;
 use std::time::Instant;
 use testkit::median;
@@ -33,8 +33,7 @@ struct Stage {
 impl Stage {
     /// The frame of an instant at `fast`.
     fn shot(&self, time: f64) -> FrameSpec<'_> {
-        let (width, height) = SIZE;
-        FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: self.renderer.workers() }
+        self.renderer.spec(time, Quality::FAST, SIZE)
     }
 
     /// The median frames per second of each case, from the time to the finished picture. All cases take turns at each
