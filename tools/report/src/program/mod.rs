@@ -42,5 +42,5 @@ fn pack() -> Result<PathBuf> {
 fn status(process: u32, field: &str) -> Result<u64> {
     let text = std::fs::read_to_string(format!("/proc/{process}/status"))?;
     let line = text.lines().find_map(|line| line.strip_prefix(field)).ok_or("the process is gone")?;
-    Ok(line.split_whitespace().nth(1).ok_or("no number")?.parse()?)
+    Ok(line.split_whitespace().next().ok_or("no number")?.parse()?)
 }
