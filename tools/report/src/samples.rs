@@ -38,7 +38,7 @@ pub fn run(Options { scene, time, quality, out }: &Options) -> Result {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let picture = (scene.picture)(&renderer.spec(time, quality, (*width, *height)));
+    let picture = (scene.picture)(&renderer.spec(time, &quality, (*width, *height)));
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {
         *pixel = (*pixel >> 1) & 0x7f7f7f;

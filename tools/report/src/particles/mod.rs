@@ -33,7 +33,7 @@ struct Stage {
 impl Stage {
     /// The frame of an instant at `fast`.
     fn shot(&self, time: f64) -> FrameSpec<'_> {
-        self.renderer.spec(time, Quality::FAST, SIZE)
+        self.renderer.spec(time, &Quality::FAST, SIZE)
     }
 
     /// The median frames per second of each case, from the time to the finished picture. All cases take turns at each
