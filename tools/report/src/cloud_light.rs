@@ -6,7 +6,7 @@
 //! plus 0.3. The error is that of the sunlight that reaches the eye, scaled to fit best, since the scale is an artist's
 //! choice.
 
-use crate::options::Result;
+use crate::options::{Quick, Result};
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
@@ -104,16 +104,8 @@ fn error(a: &[f32], b: &[f32]) -> (f32, f32) {
     ((sum / seen).sqrt(), scale)
 }
 
-/// What the comparison takes.
-#[derive(clap::Args)]
-pub struct Options {
-    /// Take seconds instead of minutes, with rough figures: to see that the report works.
-    #[arg(long)]
-    pub quick: bool,
-}
-
 /// Prints the table.
-pub fn run(options: &Options) -> Result {
+pub fn run(options: &Quick) -> Result {
     let level = Level::new();
     println!("| light | ms a picture | error: sun at 8 degrees | 35 | 65 | scale at 35 |\n|---|---|---|---|---|---|");
     let mut rows = vec![(f32::INFINITY, Vec::new(), 0.0f32); MODES.len()];

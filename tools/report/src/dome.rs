@@ -1,6 +1,6 @@
 //! The computed dome of the sky: contact sheets to look at, and its error against its time.
 
-use crate::options::Result;
+use crate::options::{Quick, Result};
 use crate::picture::rgb;
 use fearless_simd::Level;
 use glam::{Mat3, Vec3, vec3};
@@ -159,17 +159,9 @@ pub const HAZE: f32 = 1.3;
 #[derive(clap::Subcommand)]
 pub enum What {
     /// Error against milliseconds, by cell and steps.
-    Table {
-        /// Take small pictures, with rough figures: to see that the report works.
-        #[arg(long)]
-        quick: bool,
-    },
+    Table(Quick),
     /// Milliseconds of the default quality, by day and at dusk.
-    Time {
-        /// Take small pictures, with rough figures: to see that the report works.
-        #[arg(long)]
-        quick: bool,
-    },
+    Time(Quick),
     /// A contact sheet of twelve heights of the sun, towards it and away from it.
     Sheet {
         /// The picture.
@@ -200,8 +192,8 @@ pub enum What {
 pub fn run(what: &What) -> Result {
     let quality = Quality::DEFAULT.sky;
     match what {
-        What::Table { quick } => table(*quick),
-        What::Time { quick } => time_views(*quick),
+        What::Table(options) => table(options.quick),
+        What::Time(options) => time_views(options.quick),
         What::Sheet { out, haze, steps } => {
             heights(SkySettings { steps: steps.unwrap_or(quality.steps), ..quality }, *haze).save(out)?;
         }

@@ -3,7 +3,7 @@
 //! It takes about two minutes on two cores. The qualities take turns frame by frame, so that other load on the machine
 //! affects them alike. Samples are eye rays, in the rasterizer's scenes shaded fragments; `sky` has none.
 
-use crate::options::Result;
+use crate::options::{Quick, Result};
 use crate::{likeness, maps};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
@@ -29,16 +29,8 @@ const THREADS: usize = 2;
 /// The number of instants of a scene, in the middle of equal parts: in `lumen` one in every shot.
 const INSTANTS: usize = 5;
 
-/// What the table takes.
-#[derive(clap::Args)]
-pub struct Options {
-    /// Take seconds instead of minutes, with rough figures: to see that the report works.
-    #[arg(long)]
-    pub quick: bool,
-}
-
 /// Prints the table.
-pub fn run(options: &Options) -> Result {
+pub fn run(options: &Quick) -> Result {
     let effort = if options.quick { QUICK } else { FULL };
     let mut renderer = Renderer::new(THREADS)?;
     // The show's parts are scenes of their own.

@@ -5,6 +5,7 @@
 //! The scene is cubes on a plane under suns that move, each with a shadow map of 1024^2 texels.
 
 use crate::options::{Common, Result};
+use crate::plot;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
@@ -220,10 +221,11 @@ impl Series {
 }
 
 /// Draws the tables, and below them curves of the speed relative to the first column.
-fn plot(path: &Path, all: &[Series]) -> Result {
+fn draw_tables(path: &Path, all: &[Series]) -> Result {
     let area = SVGBackend::new(path, (1160, 660)).into_drawing_area();
     area.fill(&WHITE)?;
-    let colours = [RGBColor(110, 110, 110), RGBColor(31, 119, 180), RGBColor(214, 96, 20), RGBColor(44, 140, 60)];
+    let [blue, orange, green, ..] = plot::COLOURS;
+    let colours = [RGBColor(110, 110, 110), blue, orange, green];
     for (series, half) in all.iter().zip(area.split_evenly((1, all.len()))) {
         let (top, bottom) = half.split_vertically(300);
         let (head, height) = (140, 21);
@@ -250,16 +252,10 @@ fn plot(path: &Path, all: &[Series]) -> Result {
         mesh.x_desc(series.what).y_desc("frames per second, relative to one").max_light_lines(0);
         mesh.bold_line_style(BLACK.mix(0.12)).draw()?;
         for ((name, line), colour) in NAMES.iter().zip(series.lines()).zip(colours) {
-            let points = || series.counts.iter().zip(line).map(|(count, fps)| (*count as f64, fps / line[0]));
-            chart
-                .draw_series(LineSeries::new(points(), colour.stroke_width(2)))?
-                .label(*name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
-            chart.draw_series(points().map(|point| Circle::new(point, 3, colour.filled())))?;
+            let points = series.counts.iter().zip(line).map(|(count, fps)| (*count as f64, fps / line[0]));
+            plot::line(&mut chart, name, &points.collect::<Vec<_>>(), colour, 3)?;
         }
-        let mut legend = chart.configure_series_labels();
-        legend.position(SeriesLabelPosition::LowerLeft).border_style(BLACK.mix(0.3));
-        legend.background_style(WHITE.mix(0.8)).draw()?;
+        plot::legend(&mut chart, SeriesLabelPosition::LowerLeft)?;
     }
     Ok(area.present()?)
 }
@@ -302,7 +298,7 @@ pub fn run(options: &Common) -> Result {
     for (table, head) in tables.iter().zip(["Objects under one light", "Lights over 80 objects"]) {
         write!(text, "\n## {head}\n\n{}", table.markdown())?;
     }
-    plot(&out.join("lights.svg"), &tables)?;
+    draw_tables(&out.join("lights.svg"), &tables)?;
     text += "\n![objects and lights](lights.svg)\n";
 
     write!(

@@ -28,7 +28,7 @@ mod stills;
 mod common;
 
 use clap::{Parser, Subcommand};
-use options::{Common, Result};
+use options::{Common, Quick, Result};
 use program::{intro_speed, opt_level, pace, start};
 use std::path::Path;
 use std::process::ExitCode;
@@ -45,7 +45,7 @@ enum Measurement {
     /// Speed against error: sweeps every knob of the quality, with tables and curves.
     Quality(quality::Options),
     /// Speed, samples and error of every scene: the README's table.
-    Figures(figures::Options),
+    Figures(Quick),
     /// The show, part by part: speed, error, and frames that pop.
     Show(Common),
     /// Shadow maps against traced shadows: by size, height of the sun, cascades and bias.
@@ -60,7 +60,7 @@ enum Measurement {
     #[command(subcommand)]
     Dome(dome::What),
     /// Light within a cloud: baked, or by the distance to its wall, against rays to the sun.
-    CloudLight(cloud_light::Options),
+    CloudLight(Quick),
     /// What lights see: the depth maps of a scene as grey pictures.
     DepthMaps(depth_maps::Options),
     /// A frame with a white dot wherever an eye ray was traced.
@@ -118,15 +118,15 @@ fn all(common: &Common) -> Result {
     std::fs::create_dir_all(&out)?;
     for measurement in [
         Measurement::Quality(quality::Options { common: common.clone(), threads: None, scenes: Vec::new() }),
-        Measurement::Figures(figures::Options { quick }),
+        Measurement::Figures(Quick { quick }),
         Measurement::Show(common.clone()),
         Measurement::Shadows(common.clone()),
         Measurement::Lights(common.clone()),
         Measurement::Particles(common.clone()),
         Measurement::Imposters(imposters::Options { common: common.clone(), frames: None }),
-        Measurement::Dome(dome::What::Table { quick }),
+        Measurement::Dome(dome::What::Table(Quick { quick })),
         Measurement::Dome(dome::What::Sheet { out: file("dome.png").into(), haze: dome::HAZE, steps: None }),
-        Measurement::CloudLight(cloud_light::Options { quick }),
+        Measurement::CloudLight(Quick { quick }),
         Measurement::DepthMaps(depth_maps::Options { out: file("depth.png").into(), ..Default::default() }),
         Measurement::Samples(samples::Options { out: file("samples.png").into(), ..Default::default() }),
         Measurement::Stills(stills::Options { quick, out: out.clone() }),

@@ -17,6 +17,14 @@ pub struct Common {
     pub out: PathBuf,
 }
 
+/// What measurements take that only print.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct Quick {
+    /// Take seconds instead of minutes, with rough figures: to see that the report works.
+    #[arg(long)]
+    pub quick: bool,
+}
+
 impl Common {
     /// The command line of a measurement with these options.
     pub fn command(&self, measurement: &str) -> String {

@@ -12,6 +12,7 @@ use paprsek::scenes;
 use paprsek::settings::{CloudSettings, Quality};
 use std::fmt::Write;
 use std::time::Instant;
+use testkit::median;
 use testkit::metrics::{Difference, gaps};
 
 const SIZE: (usize, usize) = (1280, 720);
@@ -110,7 +111,7 @@ fn report(text: &mut String, scene: &Scene, quality: (&str, Quality), start: f64
             "| {name} | {:.1} | {:.2} | {:.1} | {:.1} | {:.1} | {:.1} | {psnr} | {} | {} |",
             1e3 / mean(&ms),
             direct / mean(&ms),
-            ms[ms.len() / 2],
+            median(ms.clone()),
             ms[ms.len() * 99 / 100],
             ms[ms.len() - 1],
             flight.ms[0],

@@ -3,6 +3,8 @@
 use super::measure::{Row, Table};
 use super::sweep::{Sweep, Truth};
 use crate::metrics::Error;
+use crate::options::Result;
+use crate::plot;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
@@ -15,17 +17,9 @@ const PANELS: [Panel; 2] = [
     ("PSNR, dB (higher is better; target 40)", |e| e.psnr().min(80.0), 40.0, 80.0, SeriesLabelPosition::LowerLeft),
     ("FLIP, 99th percentile (lower is better; target 0.2)", |e| e.flip99, 0.2, 1.0, SeriesLabelPosition::UpperLeft),
 ];
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(31, 119, 180),
-    RGBColor(214, 96, 20),
-    RGBColor(44, 140, 60),
-    RGBColor(148, 103, 189),
-    RGBColor(140, 86, 75),
-    RGBColor(90, 90, 90),
-];
 
 /// Writes the curve of a sweep as SVG. The viewer sets the text, so no fonts are needed here.
-pub fn draw(path: &Path, sweep: &Sweep, tables: &[(&'static str, Table)]) -> Result<(), Box<dyn std::error::Error>> {
+pub fn draw(path: &Path, sweep: &Sweep, tables: &[(&'static str, Table)]) -> Result {
     let area = SVGBackend::new(path, (1080, 420)).into_drawing_area();
     area.fill(&WHITE)?;
     for (panel, area) in PANELS.into_iter().zip(area.split_evenly((1, 2))) {
@@ -39,7 +33,7 @@ fn draw_panel(
     (name, of, target, limit, corner): Panel,
     sweep: &Sweep,
     tables: &[(&'static str, Table)],
-) -> Result<(), Box<dyn std::error::Error>> {
+) -> Result {
     let rows = || tables.iter().flat_map(|(_, table)| &table.rows);
     let fastest = rows().map(|row| row.ratio).fold(1.0, f64::max);
     let errors = || rows().map(|row| of(&row.error)).chain([target]);
@@ -58,13 +52,9 @@ fn draw_panel(
     mesh.draw()?;
     chart.draw_series(LineSeries::new([(0.0, target), (1.25 * fastest, target)], BLACK.mix(0.45)))?;
     for (index, (name, table)) in tables.iter().enumerate() {
-        let colour = COLOURS[index % COLOURS.len()];
+        let colour = plot::COLOURS[index % plot::COLOURS.len()];
         let at = |row: &Row| (row.ratio, of(&row.error));
-        chart
-            .draw_series(LineSeries::new(table.rows.iter().map(at), colour.stroke_width(2)))?
-            .label(*name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(2)));
-        chart.draw_series(table.rows.iter().map(|row| Circle::new(at(row), 3, colour.filled())))?;
+        plot::line(&mut chart, name, &table.rows.iter().map(at).collect::<Vec<_>>(), colour, 3)?;
         let defaults = table.rows.iter().filter(|row| row.point.default);
         chart.draw_series(defaults.map(|row| Circle::new(at(row), 8, colour.stroke_width(2))))?;
         let label = |row: &Row| {
@@ -77,9 +67,7 @@ fn draw_panel(
         };
         chart.draw_series(legible(&table.rows, apart).into_iter().map(label))?;
     }
-    let mut legend = chart.configure_series_labels();
-    legend.position(corner).border_style(BLACK.mix(0.3)).background_style(WHITE.mix(0.8));
-    Ok(legend.draw()?)
+    plot::legend(&mut chart, corner)
 }
 
 /// The points that get a label: the default first, then the ends, then those that are far from all labels so far.
