@@ -10,15 +10,16 @@ use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::sky::layer::SkyLayer;
 use paprsek::sky::place::Place;
 use paprsek::sky::time;
-use paprsek::view::Camera;
+use paprsek::view::{Camera, View};
 use std::path::PathBuf;
 
 const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
 
-fn sky(altitude: f32, haze: f32) -> Sky {
+/// A sky without a moon, whose sun is this high above the horizon, degrees, in the direction of -z.
+pub fn sky(altitude: f32, haze: f32) -> Sky {
     let a = altitude.to_radians();
     Sky {
         sun: vec3(0.0, a.sin(), -a.cos()),
@@ -31,10 +32,10 @@ fn sky(altitude: f32, haze: f32) -> Sky {
     }
 }
 
-fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize), look: Look) -> RgbImage {
+fn render(dome: Dome, settings: &SkySettings, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
-    let layer = SkyLayer::new(dome, camera, size.0, size.1, look);
+    let layer = SkyLayer::new(dome, &View::new(camera, size.0, size.1), settings);
     Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     rgb(&frame)
 }
@@ -53,7 +54,8 @@ fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32)
     for _ in 0..repeat {
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let start = std::time::Instant::now();
-        let layer = SkyLayer::new(Dome::new(sky(altitude, HAZE), quality), camera, size.0, size.1, Look::default());
+        let layer =
+            SkyLayer::new(Dome::new(sky(altitude, HAZE), &quality), &View::new(camera, size.0, size.1), &quality);
         for row in 0..size.1.div_ceil(Tile::SIZE) {
             for column in 0..size.0.div_ceil(Tile::SIZE) {
                 layer.draw(Level::new(), &mut Tile::at(column, row, size.0, size.1));
@@ -61,8 +63,8 @@ fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32)
         }
         best = best.min(start.elapsed().as_secs_f64() * 1000.0);
     }
-    let dome = Dome::new(sky(altitude, HAZE), quality);
-    let views = [-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.35, side), 50.0, size, Look::default()));
+    let dome = Dome::new(sky(altitude, HAZE), &quality);
+    let views = [-1.0, 1.0].map(|side| render(dome, &quality, vec3(0.0, 0.35, side), 50.0, size));
     (views.to_vec(), best)
 }
 
@@ -115,23 +117,23 @@ fn sheet(pictures: &[RgbImage], columns: usize) -> RgbImage {
 fn heights(quality: SkySettings, haze: f32) -> RgbImage {
     let mut pictures = Vec::new();
     for altitude in ALTITUDES {
-        let dome = Dome::new(sky(altitude, haze), quality);
+        let dome = Dome::new(sky(altitude, haze), &quality);
         println!("{altitude}: level {:.3e} exposure {:.3e}", dome.level, dome.exposure);
-        pictures.extend([-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.45, side), 75.0, (320, 200), Look::default())));
+        pictures.extend([-1.0, 1.0].map(|side| render(dome, &quality, vec3(0.0, 0.45, side), 75.0, (320, 200))));
     }
     sheet(&pictures, 4)
 }
 
 /// Plzen on 2026-06-29 and in the night after, with a full moon: towards the sun, the moon and the north at each hour.
 fn day(quality: SkySettings) -> RgbImage {
-    let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
+    let days = time::days(2026, 6, 29);
     let mut pictures = Vec::new();
     for hour in [11.0, 18.0, 18.9, 19.4, 19.8, 20.5, 21.5, 23.5] {
         let sky = Sky::new(days + hour / 24.0, &Place::PLZEN);
-        let dome = Dome::new(sky, quality);
+        let dome = Dome::new(sky, &quality);
         println!("{hour}: sun {:.1} {:.2?}", sky.sun.y.asin().to_degrees(), dome.lighting());
         for d in [sky.sun, sky.moon, vec3(0.1, 0.0, -1.0)] {
-            pictures.push(render(dome, vec3(d.x, d.y.max(0.35), d.z), 50.0, (480, 270), Look::default()));
+            pictures.push(render(dome, &quality, vec3(d.x, d.y.max(0.35), d.z), 50.0, (480, 270)));
         }
     }
     sheet(&pictures, 3)
@@ -141,13 +143,13 @@ fn day(quality: SkySettings) -> RgbImage {
 fn moon(quality: SkySettings) -> RgbImage {
     let mut pictures = Vec::new();
     for i in 0..10 {
-        let days = 9662.0 + f64::from(i) * 2.9;
+        let days = time::days(2026, 6, 15) + 0.5 + f64::from(i) * 2.9;
         let height = |quarter: &i32| Sky::new(days + f64::from(*quarter) / 96.0, &Place::PLZEN).moon.y;
         let highest = (0..96).max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(0);
         let sky = Sky::new(days + f64::from(highest) / 96.0, &Place::PLZEN);
-        let look = Look { moon: 10.0, ..Look::default() };
+        let dome = Dome::new(sky, &quality).with_sizes(2.0, 10.0);
         println!("lit {:.2} sun {:.0}", sky.lit, sky.sun.y.asin().to_degrees());
-        pictures.push(render(Dome::new(sky, quality), sky.moon, 8.0, (200, 200), look));
+        pictures.push(render(dome, &quality, sky.moon, 8.0, (200, 200)));
     }
     sheet(&pictures, 5)
 }

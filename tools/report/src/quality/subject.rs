@@ -1,14 +1,14 @@
 //! What is drawn: scenes at a few instants, and the sky alone at a few heights of the sun.
 
 use super::sweep::{Group, Point};
-use glam::{Mat3, Vec3, vec3};
+use crate::dome;
+use glam::{Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Picture, Renderer, Scene};
 use paprsek::scenes;
-use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
-use paprsek::view::Camera;
+use paprsek::sky::dome::Dome;
+use paprsek::sky::layer::SkyLayer;
+use paprsek::view::{Camera, View};
 
 /// Something to draw.
 pub struct Subject {
@@ -79,19 +79,13 @@ impl Subject {
         if let Some(scene) = self.scene {
             return (scene.picture)(&renderer.spec(time, &quality, (width, height)));
         }
-        let (sin, cos) = (time as f32).to_radians().sin_cos();
-        let sky = Sky {
-            sun: vec3(0.0, sin, -cos),
-            moon: Vec3::NEG_Y,
-            moon_to_sun: Vec3::X,
-            lit: 0.0,
-            moon_radius: 0.0045,
-            turn: Mat3::IDENTITY,
-            air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
-        };
-        let dome = Dome::new(sky, point.dome.unwrap_or(quality.sky));
+        let settings = point.dome.unwrap_or(quality.sky);
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-        let layer = SkyLayer::new(dome, camera, width, height, Look::default());
+        let layer = SkyLayer::new(
+            Dome::new(dome::sky(time as f32, dome::HAZE), &settings),
+            &View::new(camera, width, height),
+            &settings,
+        );
         Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
     }
 }
