@@ -221,6 +221,24 @@ fn leaps_leave_nothing_out() {
     }
 }
 
+/// What empty space is was once measured when voxels were made and never again: a cloud that was written into them later
+/// was leapt over, and its pictures were cut to the size of the old one.
+#[test]
+fn what_is_written_later_is_seen() {
+    let needle = |at: usize| filled(32, |place| if place == [at; 3] { 255 } else { 0 });
+    let (early, late) = (needle(3), needle(25));
+    let mut written = early.clone();
+    written.density = late.density.clone();
+    written.pack();
+    assert_eq!(written.reach(), late.reach());
+    let target = Vec3::splat(25.5 / 16.0 - 1.0);
+    let (eye, d) = (target + Vec3::Y * 4.0, Vec3::NEG_Y);
+    let [early, late, written] = [early, late, written].map(|voxels| cloud(voxels, 50.0));
+    let [early, late, written] = [&early, &late, &written].map(|cloud| ray(cloud, &FURNACE, eye, d, FOREVER, 100.0));
+    assert!(early.1 == 1.0 && late.1 < 0.9, "{early:?} {late:?}");
+    assert_eq!(written, late);
+}
+
 #[test]
 fn cameras_in_awkward_places_see_what_they_should() {
     let solid = cloud(filled(32, |_| 255), 1.0);
