@@ -9,7 +9,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::light::{Haze, Light, Source};
 use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{self, Bias, ShadowViews};
@@ -40,8 +40,8 @@ const SIZE: (usize, usize) = (1280, 720);
 struct DepthOnly(RasterLayer);
 
 impl Layer for DepthOnly {
-    fn prepare(&mut self, workers: &Workers) {
-        self.0.prepare(workers);
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
+        self.0.prepare(workers, _cache);
     }
 
     fn draw(&self, _level: Level, _tile: &mut Tile) -> Stats {

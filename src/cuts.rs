@@ -1,5 +1,21 @@
-//! What the 64 kB build leaves out.
+//! What the 64 kB build leaves out: one constant per cut, false in that build.
+//!
+//! A cut is asked for as a constant, so that both builds are checked by the compiler and the code behind it vanishes.
 
-/// Are the bench scenes there? What they alone ask for, the intro does without: in the rasterizer a background, light
-/// without film, and lookups of depth maps in which each texel counts alike; pictures that stand for clouds.
-pub const BENCH: bool = cfg!(feature = "full");
+/// Whether everything is built: single scenes, the benchmark, qualities without shortcuts. The feature `full`.
+pub const FULL: bool = cfg!(feature = "full");
+
+/// The bench scenes and what they alone ask for.
+pub const BENCH: bool = FULL;
+
+/// Whether scenes have names, so that the parts of the show can be played alone.
+pub const SCENES: bool = FULL;
+
+/// Whether two eyes can be rendered side by side.
+pub const STEREO: bool = FULL;
+
+/// Whether a pixel can have a grid of samples.
+pub const REFERENCE: bool = FULL;
+
+/// Whether scenes can be changed by their parameters.
+pub const PARAMETERS: bool = FULL;

@@ -11,7 +11,7 @@ use paprsek::raster::World;
 use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::Projection;
 use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, RasterSettings};
 use paprsek::view::Camera;
 use paprsek::view::View;
 
@@ -213,7 +213,13 @@ fn shares_of_a_pixel_sum_up_to_one() {
     let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points)]) };
     for (name, level) in common::levels() {
         for (coverage, grid) in [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)] {
-            let planes = draw(&world, camera, [100, 70], Quality { coverage, grid, ..Quality::EXACT }, level);
+            let planes = draw(
+                &world,
+                camera,
+                [100, 70],
+                Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT },
+                level,
+            );
             for (pixel, (share, color)) in planes.coverage.iter().zip(&planes.color).enumerate() {
                 assert!((share - 1.0).abs() <= 1e-6, "{name}, {coverage} samples: {share} at pixel {pixel}");
                 assert!((color.x - share).abs() <= 1e-6, "{name}, {coverage} samples: {color} at pixel {pixel}");
@@ -266,7 +272,7 @@ fn coverage_nears_the_area_with_more_samples() {
         let drawn: Vec<Planes> = qualities
             .iter()
             .map(|&(coverage, grid)| {
-                let quality = Quality { coverage, grid, ..Quality::EXACT };
+                let quality = Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT };
                 draw(&world, camera, SIZE, quality, common::levels()[0].1)
             })
             .collect();

@@ -144,7 +144,7 @@ impl<'a> Bench<'a> {
     /// Draws a point at an instant; returns its samples.
     fn render(&mut self, point: &Point, instant: usize, frame: &mut Frame) -> u64 {
         let renderer = self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level);
-        let picture = self.subject.picture(instant, point, self.effort.size, renderer.workers());
+        let picture = self.subject.picture(instant, point, self.effort.size, renderer);
         renderer.draw(picture, frame).samples
     }
 }

@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::light::{Haze, Light, Source};
 use paprsek::raster::mesh::{Mesh, Paint};
 use paprsek::raster::project::Projection;
@@ -100,9 +100,9 @@ struct Probe {
 }
 
 impl Layer for Probe {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
         let began = Instant::now();
-        self.drawn.prepare(workers);
+        self.drawn.prepare(workers, _cache);
         self.kept.lock().unwrap().1 = began.elapsed().as_secs_f64() * 1e3;
     }
 

@@ -2,7 +2,7 @@
 //!
 //! One flow: [`mesh`] (what there is) -> [`triangle`] (clipped and snapped, in the camera's raster and in each light's) ->
 //! [`bins`] (by tile) -> [`mod@fill`] (which triangle each pixel shows; in a light's raster that is all, a [`shadow`] map) ->
-//! [`shade`] (each visible fragment once, whitened by what [`mod@settle`]s, under all [`light`]s that reach it).
+//! [`shade`] (each visible fragment once, whitened by [`snow_cover`], under all [`light`]s that reach it).
 
 pub mod bins;
 pub mod cloud_shadow;
@@ -19,8 +19,8 @@ pub mod snow_cover;
 pub mod triangle;
 
 use crate::cuts::BENCH;
-use crate::frame::{Layer, Stats, Tile, Workers};
-use crate::settings::Quality;
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
+use crate::settings::{Quality, RasterSettings, samples_per_axis};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::F;
 use crate::texture::Texture;
@@ -114,7 +114,7 @@ pub struct RasterLayer {
     world: World,
     view: View,
     size: [u32; 2],
-    quality: Quality,
+    quality: RasterSettings,
     /// The camera's, then those of lights that have no map from an earlier frame.
     rasters: Vec<Raster>,
     /// What each light sees; last, what snow falls on.
@@ -125,14 +125,14 @@ impl RasterLayer {
     /// Prepares a picture of `width` x `height` pixels.
     pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> RasterLayer {
         let size = [width as u32, height as u32];
-        RasterLayer { world, view, size, quality, rasters: Vec::new(), sights: Vec::new() }
+        RasterLayer { world, view, size, quality: quality.raster, rasters: Vec::new(), sights: Vec::new() }
     }
 
     /// Draws a tile; returns the number of fragments.
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let RasterLayer { world, view, rasters, sights, quality, .. } = self;
-        let grid = quality.grid() as u32;
+        let grid = samples_per_axis(quality.grid) as u32;
         let count = if grid > 1 { 1 } else { quality.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
@@ -234,7 +234,7 @@ fn spare() -> MutexGuard<'static, Vec<Scratch>> {
 }
 
 impl Layer for RasterLayer {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
         let RasterLayer { world, rasters, sights, .. } = self;
         let bodies = &world.bodies;
         add(rasters, &Projection::of_view(&self.view, self.size), false, true, 0, bodies.len());
