@@ -1,7 +1,7 @@
 //! Elementary functions over lanes: polynomials without tables and without fused multiply-add, so that every SIMD level
 //! gives the same bits.
 //!
-//! The polynomials are those of Cephes [Moshier92] and DirectXMath. Errors are against f64, measured by the tests of
+//! The polynomials are those of Cephes `[Cephes]` and DirectXMath. Errors are against f64, measured by the tests of
 //! `color`. Where nothing else is said, an argument out of range and NaN give an unspecified number, which may be any float.
 
 use crate::simd::lanes::V3;

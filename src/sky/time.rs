@@ -53,7 +53,7 @@ const MARCH_0: i64 = 730_425;
 /// Midnight UT at the start of a date, in days since J2000: `days(2026, 6, 25)` is 9671.5. Months out of 1 to 12 run on into
 /// other years, days out of their month into other months.
 ///
-/// By [Hinnant13]: years begin in March, so that the leap day is a year's last. The years' absolute value is to be below
+/// By `[Hinnant13]`: years begin in March, so that the leap day is a year's last. The years' absolute value is to be below
 /// 10^9.
 pub const fn days(year: i64, month: i64, day: i64) -> f64 {
     let months = year * 12 + month - 3;
