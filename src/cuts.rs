@@ -19,3 +19,9 @@ pub const REFERENCE: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
+
+/// Whether imposters can stand for clouds.
+pub const IMPOSTERS: bool = FULL;
+
+/// Whether particles can be drawn as streaks along their way, as rain is.
+pub const STREAKS: bool = FULL;

@@ -6,8 +6,7 @@ use crate::plot::{self, Axis, Curve};
 use crate::{SIZE, START, Stage, camera, median};
 use glam::{Vec3, vec3};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
+use paprsek::particles::{Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::{FIRE_SKY, over};
 use paprsek::settings::Quality;
 use paprsek::view::View;
@@ -37,7 +36,7 @@ fn burning(time: f64, away: f32, detail: f32) -> Fire {
 }
 
 fn particles(fires: Vec<Fire>, away: f32) -> ParticleLayer {
-    ParticleLayer::fire(fires, 1.6, &view(away), SIZE.0, SIZE.1)
+    ParticleLayer::new(fires, &view(away), &Quality::EXACT.particles)
 }
 
 /// Median milliseconds that a fire takes alone, on one thread, to be moved, listed and drawn, for each detail; and how

@@ -193,14 +193,7 @@ fn finish<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut
 
 /// Casts rays through the points that are wanted: as far as the solids there, or without end.
 #[simd]
-fn cast<S: Simd>(
-    simd: S,
-    clouds: &SeenClouds,
-    near: &[&SeenCloud],
-    tile: &Tile,
-    lattice: &mut Lattice,
-    solids: bool,
-) {
+fn cast<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, lattice: &mut Lattice, solids: bool) {
     let grid = samples_per_axis(clouds.settings.grid) as u32;
     let step = 1.0 / grid as f32;
     for points in lattice.wanted.chunks(BLOCK) {

@@ -51,13 +51,7 @@ impl Emitter {
 
 /// Adds the sprites of an emitter's particles from number `first` to before number `end` that are on the screen.
 #[simd]
-pub fn emit<S: Simd>(
-    simd: S,
-    emitter: &Emitter,
-    [first, end]: [u32; 2],
-    screen: &Screen,
-    sprites: &mut Vec<Sprite>,
-) {
+pub fn emit<S: Simd>(simd: S, emitter: &Emitter, [first, end]: [u32; 2], screen: &Screen, sprites: &mut Vec<Sprite>) {
     let lanes = F::<S>::LEN as u32;
     let mut i = first;
     while i < end {

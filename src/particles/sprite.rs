@@ -36,7 +36,9 @@ pub struct Sprite {
 
 impl Sprite {
     /// A sprite of its numbers in the order of the fields.
-    pub fn of([x, y, a, b, c, d, across, down, depth, edge, alpha, none, red, green, blue, crystal]: [f32; 16]) -> Sprite {
+    pub fn of(
+        [x, y, a, b, c, d, across, down, depth, edge, alpha, none, red, green, blue, crystal]: [f32; 16],
+    ) -> Sprite {
         Sprite {
             at: [x, y],
             axes: [a, b, c, d],
