@@ -10,8 +10,8 @@ use fearless_simd_macros::simd;
 use glam::Vec3;
 use std::f32::consts::LOG2_E;
 
-/// Fog of one density everywhere. By the law of Beer and Lambert a share `exp(-density way)` of the light comes through,
-/// and the rest is the light of the fog.
+/// Fog of one density everywhere. By the law of Beer and Lambert a share `exp(-density way)` of the light comes
+/// through, and the rest is the light of the fog.
 #[derive(Clone, Copy, Debug)]
 pub struct Fog {
     /// Its light, linear, where it hides everything.

@@ -1,9 +1,9 @@
 //! Clouds in a tile: which pixels get a ray, and what the others show.
 //!
-//! Clouds are smooth over most of the picture, so rays are cast at the corners of square cells of pixels only. A ray in the
-//! middle of each cell tells how far off bilinear interpolation would be: either the cell is interpolated, or it is cut
-//! into four, down to single pixels. The reference is [`cell`](crate::settings::CloudSettings::cell) at 1, a ray through
-//! every pixel.
+//! Clouds are smooth over most of the picture, so rays are cast at the corners of square cells of pixels only. A ray in
+//! the middle of each cell tells how far off bilinear interpolation would be: either the cell is interpolated, or it is
+//! cut into four, down to single pixels. The reference is [`cell`](crate::settings::CloudSettings::cell) at 1, a ray
+//! through every pixel.
 //!
 //! Solids are in the tile already. A ray is cast once as if there were none; and where a solid may stand in front of
 //! something that clouds hide, once more as far as the solid. The pixel's coverage mixes the two.
@@ -23,8 +23,8 @@ use glam::Vec3;
 /// Points along an edge of a tile's lattice: its pixels, and the first ones of the next tile.
 const SIDE: usize = Tile::SIZE + 1;
 
-/// What a ray gives: premultiplied red, green and blue; transmittance; the distance in metres beyond which no cloud hides
-/// anything.
+/// What a ray gives: premultiplied red, green and blue; transmittance; the distance in metres beyond which no cloud
+/// hides anything.
 type Value = [f32; 5];
 
 /// Indices into a [`Value`].
@@ -164,8 +164,8 @@ impl Lattice {
     }
 }
 
-/// Mixes the lattice into the tile. Where a solid may stand in front of something that clouds hide, a ray is cast as far as
-/// the solid, for every pixel.
+/// Mixes the lattice into the tile. Where a solid may stand in front of something that clouds hide, a ray is cast as
+/// far as the solid, for every pixel.
 #[simd]
 fn finish<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile, lattice: &mut Lattice) {
     let free = lattice.values.clone();
@@ -220,8 +220,8 @@ fn cast<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
     lattice.wanted.clear();
 }
 
-/// Casts rays through the first `count` of a block's points of the picture, in pixels, each as far as the depth there, in
-/// metres along the view axis. Adds light and transmittance to `sum`, and takes the maximum of ends.
+/// Casts rays through the first `count` of a block's points of the picture, in pixels, each as far as the depth there,
+/// in metres along the view axis. Adds light and transmittance to `sum`, and takes the maximum of ends.
 #[simd]
 fn cast_block<S: Simd>(
     simd: S,

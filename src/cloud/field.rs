@@ -1,8 +1,8 @@
 //! A sky full of clouds, placed by a hash and carried by the wind.
 //!
-//! Space over the ground is a lattice of squares that moves with the wind, and the hash of a square's number says whether a
-//! cloud is in it, where, how large and of which shape. So a field has no end and no state: the clouds of an instant
-//! follow from the time and the eye alone.
+//! Space over the ground is a lattice of squares that moves with the wind, and the hash of a square's number says
+//! whether a cloud is in it, where, how large and of which shape. So a field has no end and no state: the clouds of an
+//! instant follow from the time and the eye alone.
 
 use super::voxels::Voxels;
 use super::world::Cloud;

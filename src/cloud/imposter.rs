@@ -1,7 +1,8 @@
-//! An imposter: a picture that stands for a cloud as long as the eye is near the place that it was made for [Clouds10].
+//! An imposter: a picture that stands for a cloud as long as the eye is near the place that it was made for
+//! `[Clouds10]`.
 //!
-//! It holds what rays meet in the cloud, not the colours of the light, so a sun that only changes its colour needs no new
-//! one. It lies in a plane across the way to its eye, and rays look it up where they cross that plane.
+//! It holds what rays meet in the cloud, not the colours of the light, so a sun that only changes its colour needs no
+//! new one. It lies in a plane across the way to its eye, and rays look it up where they cross that plane.
 
 use super::voxels::{Voxels, bilinear};
 use crate::frame::Tile;
@@ -13,7 +14,8 @@ use fearless_simd::prelude::*;
 use glam::Vec3;
 use std::sync::Arc;
 
-/// Where the plane of an imposter is: the share of the way from the cloud's centre to the nearest point that it may reach.
+/// Where the plane of an imposter is: the share of the way from the cloud's centre to the nearest point that it may
+/// reach.
 pub(super) const PLANE: f32 = 0.5;
 
 /// All that an imposter depends on. Lengths are in halves of the edge of the cloud's cube.
@@ -46,8 +48,8 @@ pub(super) struct Imposter {
     /// Along rows and columns, scaled so that products with places in the plane are texels.
     right: Vec3,
     down: Vec3,
-    /// For each texel: transmittance, light from above and light of the sun, each as a word of the bytes of four texels, as
-    /// in [`Voxels`].
+    /// For each texel: transmittance, light from above and light of the sun, each as a word of the bytes of four
+    /// texels, as in [`Voxels`].
     cells: Vec<[u32; 3]>,
 }
 
@@ -76,8 +78,8 @@ impl Imposter {
         self.plan.edge.next_multiple_of(Tile::SIZE).pow(2)
     }
 
-    /// Makes what lookups read from `texels`: transmittance, light from above and light of the sun, of 255. Those of a tile
-    /// come one after another.
+    /// Makes what lookups read from `texels`: transmittance, light from above and light of the sun, of 255. Those of a
+    /// tile come one after another.
     pub fn pack(&mut self, texels: &[[u8; 4]]) {
         let n = self.plan.edge;
         let texel = |x: usize, y: usize| {

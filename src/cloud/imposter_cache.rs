@@ -1,12 +1,12 @@
 //! Which imposters a frame needs, and the making and keeping of them.
 //!
-//! The eye's place around a cloud is rounded to a lattice of distances and directions. The lattice is so fine that nothing
-//! before or behind an imposter's plane is misplaced on the screen by more pixels than
-//! [`CloudSettings::imposter`](crate::settings::CloudSettings::imposter). Between two points of the lattice their imposters
-//! fade into each other, so nothing pops.
+//! The eye's place around a cloud is rounded to a lattice of distances and directions. The lattice is so fine that
+//! nothing before or behind an imposter's plane is misplaced on the screen by more pixels than
+//! [`CloudSettings::imposter`](crate::settings::CloudSettings::imposter). Between two points of the lattice their
+//! imposters fade into each other, so nothing pops.
 //!
-//! An imposter depends on nothing but its [`ImposterPlan`]. So frames do not depend on which imposters are kept, and clouds
-//! of one shape share them. The reference is the frame without imposters (`tests/imposters.rs`).
+//! An imposter depends on nothing but its [`ImposterPlan`]. So frames do not depend on which imposters are kept, and
+//! clouds of one shape share them. The reference is the frame without imposters (`tests/imposters.rs`).
 
 use super::cells;
 use super::imposter::{Imposter, ImposterPlan, PLANE};
@@ -19,16 +19,16 @@ use glam::Vec3;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// An eye that is closer than this, in halves of the edge of the cube, sees the cloud itself. Within the share `FADE` of
-/// that distance beyond it the cloud fades into its imposters.
+/// An eye that is closer than this, in halves of the edge of the cube, sees the cloud itself. Within the share `FADE`
+/// of that distance beyond it the cloud fades into its imposters.
 const CLOSE: f32 = 2.5;
 const FADE: f32 = 0.1;
 /// The share of the way between two points of the lattice in which their imposters fade into each other.
 const BAND: f32 = 0.25;
 /// The largest edge of a texel, pixels. It is also at most the bound and half a pixel.
 const TEXEL: f32 = 1.5;
-/// Texels along an edge: an imposter with fewer than the first number is not worth its while, and none has more than the
-/// second.
+/// Texels along an edge: an imposter with fewer than the first number is not worth its while, and none has more than
+/// the second.
 const TEXELS: [f32; 2] = [8.0, 512.0];
 /// Frames after which an imposter that none has needed is dropped.
 const KEPT: u32 = 120;
@@ -137,13 +137,13 @@ fn blend(share: f32) -> [f32; 2] {
     [1.0 - u, u]
 }
 
-/// The places that imposters are made for, with their weights, where the eye is at `q` from the centre of a cloud. Lengths
-/// are in halves of the edge of the cube, `reach` is the cloud's, and `bound` is an angle in radians.
+/// The places that imposters are made for, with their weights, where the eye is at `q` from the centre of a cloud.
+/// Lengths are in halves of the edge of the cube, `reach` is the cloud's, and `bound` is an angle in radians.
 fn eyes(q: Vec3, reach: f32, bound: f32) -> Vec<(Vec3, f32)> {
     let mut eyes = Vec::new();
     let way = q.length();
-    // As the eye comes nearer, what is `z` before the plane and `x` beside the centre moves by `x z / way^2` per length: so
-    // the lattice of distances becomes coarser far away.
+    // As the eye comes nearer, what is `z` before the plane and `x` beside the centre moves by `x z / way^2` per
+    // length: so the lattice of distances becomes coarser far away.
     let next = |way: f32| way * (1.0 + (8.0 * bound * way * way / (reach * reach)).min(0.5));
     let mut near = CLOSE;
     while next(near) < way {

@@ -23,15 +23,15 @@ impl CloudLayer {
         CloudLayer { clouds: SeenClouds::new(clouds, light, view, settings) }
     }
 
-    /// The same in air of which `range` metres let 1/e of a cloud's light through, and which has the linear light `light` of
-    /// a unit direction itself.
+    /// The same in air of which `range` metres let 1/e of a cloud's light through, and which has the linear light
+    /// `light` of a unit direction itself.
     pub fn in_air(mut self, range: f32, light: impl Fn(Vec3) -> Vec3) -> CloudLayer {
         self.clouds.add_air(range, light);
         self
     }
 
-    /// The same in the shadow of clouds, which may be the layer's own. A quarter of the sun's light is left in the deepest
-    /// shadow.
+    /// The same in the shadow of clouds, which may be the layer's own. A quarter of the sun's light is left in the
+    /// deepest shadow.
     pub fn shaded_by(mut self, clouds: &[Cloud]) -> CloudLayer {
         self.clouds.shade(clouds);
         self

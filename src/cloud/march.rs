@@ -1,10 +1,10 @@
 //! Rays through the voxels of one cloud, a vector of rays at a time.
 //!
-//! This is the second pass of [Kajiya84]. The way of a ray through the cube is cut into equal steps, and the density in the
-//! middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share
-//! `1 - exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
-//! square of the step. The reference is the same march in `f64` (`tests/cloud/oracle.rs`), and in the limit of many steps
-//! the transmittance of clouds that have one in closed form.
+//! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, and the density
+//! in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
+//! exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
+//! square of the step. The reference is the same march in `f64` (`tests/cloud/oracle.rs`), and in the limit of many
+//! steps the transmittance of clouds that have one in closed form.
 
 use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, V3};
@@ -55,8 +55,8 @@ impl<S: Simd> Passage<S> {
 ///     step over as many steps as the empty space around u is wide
 /// ```
 ///
-/// Lanes are independent: a lane that is through adds an optical depth of 0 as long as others go on, so a ray has the same
-/// bits in any company.
+/// Lanes are independent: a lane that is through adds an optical depth of 0 as long as others go on, so a ray has the
+/// same bits in any company.
 #[simd]
 pub fn march<S: Simd>(
     simd: S,

@@ -1,5 +1,5 @@
-//! Clouds as they are seen from an eye: sorted by distance, each with the steps that it is worth, and with the air and the
-//! shadows of others between.
+//! Clouds as they are seen from an eye: sorted by distance, each with the steps that it is worth, and with the air and
+//! the shadows of others between.
 
 use super::imposter::Imposter;
 use super::march::{Passage, march};
@@ -109,8 +109,8 @@ impl SeenCloud {
         self.distance + ROOT * self.cloud.size
     }
 
-    /// What rays from `eye` along unit directions `d` meet of it, up to `limit` metres from the eye: of the cloud itself or
-    /// of its imposters. A ray ends where its transmittance falls below `opaque`.
+    /// What rays from `eye` along unit directions `d` meet of it, up to `limit` metres from the eye: of the cloud
+    /// itself or of its imposters. A ray ends where its transmittance falls below `opaque`.
     #[inline(always)]
     pub fn meet<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: f32) -> Passage<S> {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
@@ -120,8 +120,8 @@ impl SeenCloud {
         }
     }
 
-    /// [`Self::meet`] for a cloud with imposters: their weighted sum, with the cloud's own share where it has one. Where a
-    /// solid stands in the cloud, rays are cast.
+    /// [`Self::meet`] for a cloud with imposters: their weighted sum, with the cloud's own share where it has one.
+    /// Where a solid stands in the cloud, rays are cast.
     #[inline(always)]
     fn meet_imposters<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: f32) -> Passage<S> {
         let zero = F::<S>::splat(simd, 0.0);

@@ -1,8 +1,8 @@
 //! The shadows of clouds: what they leave of the sun's light for each other and for the ground.
 //!
-//! For its shadow a cloud is approximated by a ball whose optical depth falls from the centre to the edge with the square
-//! of the distance. Shadows of clouds are soft and far away, so neither the shape nor the voxels matter; there is no
-//! reference for them.
+//! For its shadow a cloud is approximated by a ball whose optical depth falls from the centre to the edge with the
+//! square of the distance. Shadows of clouds are soft and far away, so neither the shape nor the voxels matter; there
+//! is no reference for them.
 
 use super::world::Cloud;
 use crate::simd::lanes::{F, V3};
@@ -17,8 +17,8 @@ const RADIUS: f32 = 0.62;
 
 /// The shares of the light from the direction of the unit vector `towards` that reach points.
 ///
-/// A cloud counts fully where it is nearer to the sun than a point by half of its cube's edge or more, and less and less
-/// down to 0. So no cloud shades itself, and none begins to with a jump.
+/// A cloud counts fully where it is nearer to the sun than a point by half of its cube's edge or more, and less and
+/// less down to 0. So no cloud shades itself, and none begins to with a jump.
 #[inline(never)] // Called from several places and never in a loop; inlined, its dispatch would be there as often.
 pub fn shares(clouds: &[Cloud], towards: Vec3, points: &[Vec3]) -> Vec<f32> {
     dispatch!(level::best(), simd => shares_in(simd, clouds, towards, points))

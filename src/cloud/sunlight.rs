@@ -1,13 +1,13 @@
 //! The light of the sun that reaches each voxel of a cloud, for all voxels in one sweep.
 //!
-//! Light that is computed once per cloud and not once per ray is the first of the two passes of [Kajiya84]. Voxels are
-//! taken in layers across the axis that the sun is nearest to, beginning with the layer that it meets first. The optical
-//! depth of a voxel is what the layer before it has where the ray to the sun crosses it, interpolated bilinearly, and the
-//! voxel's own. So the cost is a few operations per voxel, however long the way to the sun is.
+//! Light that is computed once per cloud and not once per ray is the first of the two passes of `[Kajiya84]`. Voxels
+//! are taken in layers across the axis that the sun is nearest to, beginning with the layer that it meets first. The
+//! optical depth of a voxel is what the layer before it has where the ray to the sun crosses it, interpolated
+//! bilinearly, and the voxel's own. So the cost is a few operations per voxel, however long the way to the sun is.
 //!
-//! Two approximations: bilinear lookups in each layer blur the light a little sideways (`tests/cloud/light.rs` bounds the
-//! error against rays in `f64`), and light that is scattered more than once is stood for by a second, slower decay:
-//! `0.7 exp(-q / 2) + 0.3 exp(-0.06 q)` of an optical depth q, two terms of the sum of octaves of [Wrenninge13].
+//! Two approximations: bilinear lookups in each layer blur the light a little sideways (`tests/cloud/light.rs` bounds
+//! the error against rays in `f64`), and light that is scattered more than once is stood for by a second, slower decay:
+//! `0.7 exp(-q / 2) + 0.3 exp(-0.06 q)` of an optical depth q, two terms of the sum of octaves of `[Wrenninge13]`.
 
 use super::voxels::Voxels;
 use crate::simd::block::{BLOCK, load, store};
@@ -18,8 +18,8 @@ use fearless_simd_macros::simd;
 use glam::Vec3;
 use std::f32::consts::LOG2_E;
 
-/// Writes the sunlight of every voxel, for a sun in the direction of the unit vector `towards` and a cloud whose greatest
-/// density has that extinction coefficient, per half of the cube's edge.
+/// Writes the sunlight of every voxel, for a sun in the direction of the unit vector `towards` and a cloud whose
+/// greatest density has that extinction coefficient, per half of the cube's edge.
 #[simd]
 pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f32) {
     let n = voxels.edge();
@@ -56,8 +56,8 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     voxels.pack();
 }
 
-/// From the optical depths behind voxels to the light at their centres; `half` is half of a voxel's own optical depth, per
-/// step of density.
+/// From the optical depths behind voxels to the light at their centres; `half` is half of a voxel's own optical depth,
+/// per step of density.
 #[inline(always)]
 fn scatter<S: Simd>(simd: S, voxels: &mut Voxels, depths: &[f32], half: f32) {
     let (densities, light) = voxels.density_and_light();

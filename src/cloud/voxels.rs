@@ -1,8 +1,8 @@
 //! Density and light of a cloud in a cube of voxels, and lookups of both for a vector of points.
 //!
-//! A lookup is trilinear, and takes two reads of memory per point and value: the bytes of four neighbours are packed into
-//! one word. Space is divided into blocks of 4 x 4 x 4 cells, each of which knows how far around it nothing is, so that
-//! rays can leap over emptiness.
+//! A lookup is trilinear, and takes two reads of memory per point and value: the bytes of four neighbours are packed
+//! into one word. Space is divided into blocks of 4 x 4 x 4 cells, each of which knows how far around it nothing is, so
+//! that rays can leap over emptiness.
 
 use crate::simd::lanes::{F, U, V3};
 use crate::simd::math::to_f32;
@@ -15,7 +15,8 @@ const LEAP: usize = 4;
 /// Rings of blocks that are searched for emptiness: a leap is at most `7 * LEAP` cells.
 const RINGS: usize = 7;
 
-/// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer ones.
+/// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
+/// ones.
 ///
 /// What lookups read is derived from the two, and made again whenever either is replaced.
 #[derive(Clone)]
@@ -73,14 +74,15 @@ impl Voxels {
         &self.light
     }
 
-    /// Densities, and light to be written. [`Voxels::pack`] is called afterwards; empty space stays where it is, so it need
-    /// not be measured again.
+    /// Densities, and light to be written. [`Voxels::pack`] is called afterwards; empty space stays where it is, so it
+    /// need not be measured again.
     #[inline(always)]
     pub(super) fn density_and_light(&mut self) -> (&[u8], &mut [u8]) {
         (&self.density, &mut self.light)
     }
 
-    /// Distance from the centre of the cube to the farthest point where the density is not 0, halves of the cube's edge.
+    /// Distance from the centre of the cube to the farthest point where the density is not 0, halves of the cube's
+    /// edge.
     pub fn reach(&self) -> f32 {
         self.reach
     }
@@ -110,8 +112,8 @@ impl Voxels {
         let n = self.edge / LEAP;
         self.leaps = vec![0; full.len()];
         for _ in 0..RINGS {
-            // One ring wider, an axis at a time. What runs over an edge comes in at the opposite one, which can only make
-            // leaps shorter.
+            // One ring wider, an axis at a time. What runs over an edge comes in at the opposite one, which can only
+            // make leaps shorter.
             for stride in [1, n, n * n] {
                 let before = full.clone();
                 for (at, full) in full.iter_mut().enumerate() {
@@ -147,8 +149,8 @@ impl Voxels {
         full
     }
 
-    /// The number of cells along any axis, at least, within which nothing is around points `u`. Coordinates are those of
-    /// [`Voxels::look_up`].
+    /// The number of cells along any axis, at least, within which nothing is around points `u`. Coordinates are those
+    /// of [`Voxels::look_up`].
     #[inline(always)]
     pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
         let n = to_f32(self.edge / LEAP);

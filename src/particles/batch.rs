@@ -5,7 +5,8 @@ use fearless_simd::prelude::*;
 
 /// As many particles as a vector has lanes.
 pub struct Batch<S: Simd> {
-    /// Place from the emitter's origin, metres. That is the eye for flakes and writing, and the world's origin for fires.
+    /// Place from the emitter's origin, metres. That is the eye for flakes and writing, and the world's origin for
+    /// fires.
     pub at: V3<S>,
     /// Radius, metres.
     pub radius: F<S>,

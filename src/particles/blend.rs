@@ -1,7 +1,7 @@
 //! Sprites into a tile: first into planes of their own, then over what is there.
 //!
-//! The planes are the share of the light behind that passes, and the light that is added. Flakes need only the first and
-//! sparks only the others, so a sprite costs one or three sums per pixel.
+//! The planes are the share of the light behind that passes, and the light that is added. Flakes need only the first
+//! and sparks only the others, so a sprite costs one or three sums per pixel.
 
 use super::crystal;
 use super::sprite::{LIGHT, PASSES, Sprite};
@@ -17,8 +17,8 @@ use std::f32::consts::LOG2_E;
 /// The middles of the first pixels of a row.
 const HALVES: [f32; 16] = [0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, 11.5, 12.5, 13.5, 14.5, 15.5];
 
-/// Draws a sprite into a tile's planes from number `first` on. With `solids` it is hidden by what is in front of it, softly
-/// over its radius, so that no edge shows where it stands in a solid.
+/// Draws a sprite into a tile's planes from number `first` on. With `solids` it is hidden by what is in front of it,
+/// softly over its radius, so that no edge shows where it stands in a solid.
 #[simd]
 pub fn draw<S: Simd>(
     simd: S,
@@ -61,8 +61,8 @@ pub fn draw<S: Simd>(
     }
 }
 
-/// The pixels of a tile whose middles lie within `reach` of `at` along an axis: the first, and the one after the last. The
-/// tile's first pixel is number `corner` of the picture.
+/// The pixels of a tile whose middles lie within `reach` of `at` along an axis: the first, and the one after the last.
+/// The tile's first pixel is number `corner` of the picture.
 #[inline(always)]
 fn range(at: f32, reach: f32, corner: usize) -> [usize; 2] {
     let from = at - to_f32(corner) + 0.5;

@@ -1,9 +1,9 @@
 //! Flames and sparks: every particle lives, dies and is born again in a rhythm of its own.
 //!
-//! After the emitter of a fire for a game engine [Fire08], whose particles also follow from their birth alone. Here not even
-//! births are stored: what share of its life a particle has lived is the fraction of the time over the length of its life,
-//! so at any instant the same number of particles is there, at all ages. A particle is born and dies without light, so
-//! nothing pops.
+//! After the emitter of a fire for a game engine `[Fire08]`, whose particles also follow from their birth alone. Here
+//! not even births are stored: what share of its life a particle has lived is the fraction of the time over the length
+//! of its life, so at any instant the same number of particles is there, at all ages. A particle is born and dies
+//! without light, so nothing pops.
 
 use super::batch::Batch;
 use super::lens::Lens;
@@ -73,8 +73,8 @@ const RATE: f64 = 1.1;
 impl Fire {
     /// The same fire with fewer and brighter particles, which together have the light of all.
     ///
-    /// Drawn is the share `detail`, which is above 0, per pixel of the fire's height on the screen, and less again where the
-    /// screen shows only a part of the fire. As that changes, particles come and go one after another.
+    /// Drawn is the share `detail`, which is above 0, per pixel of the fire's height on the screen, and less again
+    /// where the screen shows only a part of the fire. As that changes, particles come and go one after another.
     pub fn detailed(self, view: &View, detail: f32) -> Fire {
         let Flame { life, speed, slows, lift, .. } = self.flame;
         let life = (life[0] + 0.5 * life[1]) as f32;
@@ -133,8 +133,8 @@ impl Fire {
 
     /// Where particles are after a share `x` of their lives, metres from the fire's place at scale 1.
     ///
-    /// A particle sets out somewhere in the ring, in a direction somewhere in the cone, and is slowed evenly; hot air lifts
-    /// it, and its flame leans.
+    /// A particle sets out somewhere in the ring, in a direction somewhere in the cone, and is slowed evenly; hot air
+    /// lifts it, and its flame leans.
     #[inline(always)]
     fn at<S: Simd>(&self, simd: S, number: U<S>, x: F<S>, life: F<S>) -> V3<S> {
         let Flame { ring, narrows, leans, cone, speed, slows, lift, .. } = self.flame;

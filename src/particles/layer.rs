@@ -57,7 +57,8 @@ impl ParticleLayer {
         ParticleLayer { emitters: all, screen, chunks, color, exposure: EXPOSURE, planes, solids }
     }
 
-    /// The same with flakes of a colour, linear light, which takes the place of the light that they take; white without.
+    /// The same with flakes of a colour, linear light, which takes the place of the light that they take; white
+    /// without.
     pub fn colored(self, color: Vec3) -> ParticleLayer {
         ParticleLayer { color, ..self }
     }

@@ -3,8 +3,8 @@
 /// How particles are seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Lens {
-    /// The least and the greatest radius of a sprite, pixels. What is smaller is drawn at the least radius and weaker, so
-    /// that its light stays; what is larger is drawn at the greatest.
+    /// The least and the greatest radius of a sprite, pixels. What is smaller is drawn at the least radius and weaker,
+    /// so that its light stays; what is larger is drawn at the greatest.
     pub radius: [f32; 2],
     /// Distances along the view axis between which particles come into sight, metres.
     pub near: [f32; 2],

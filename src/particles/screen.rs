@@ -72,8 +72,8 @@ impl Screen {
         [range(0, self.columns), range(1, self.rows)]
     }
 
-    /// Adds the sprites of those particles of a batch that are on the screen, of the lanes in `wanted`. The batch is seen
-    /// from `eye`.
+    /// Adds the sprites of those particles of a batch that are on the screen, of the lanes in `wanted`. The batch is
+    /// seen from `eye`.
     ///
     /// ```text
     /// project the particle: depth, place on the screen, radius
@@ -140,8 +140,8 @@ impl Screen {
         }
     }
 
-    /// The ellipses of discs that are drawn out along their way while the shutter is open; what they hide then falls to a
-    /// larger area, so `share` becomes less.
+    /// The ellipses of discs that are drawn out along their way while the shutter is open; what they hide then falls to
+    /// a larger area, so `share` becomes less.
     #[inline(always)]
     fn streaks<S: Simd>(
         &self,

@@ -1,9 +1,10 @@
 //! Flakes and drops around the eye, which fall for ever and everywhere.
 //!
-//! Fields of flakes that go with the camera are those of snow for virtual reality [Snow07]. Flakes fall through a box
-//! around the eye; what leaves the box on one side comes back on the other. A place in the box is a whole number of 2^-32
-//! of its edges, so it wraps by itself, and what time is multiplied by is split into a whole number and a fraction: after
-//! 10^9 s a flake is where exact arithmetic has it, within some nanometres. Nothing is stored: a flake is its number.
+//! Fields of flakes that go with the camera are those of snow for virtual reality `[Snow07]`. Flakes fall through a box
+//! around the eye; what leaves the box on one side comes back on the other. A place in the box is a whole number of
+//! 2^-32 of its edges, so it wraps by itself, and what time is multiplied by is split into a whole number and a
+//! fraction: after 10^9 s a flake is where exact arithmetic has it, within some nanometres. Nothing is stored: a flake
+//! is its number.
 
 use super::batch::Batch;
 use super::lens::Lens;
@@ -36,8 +37,8 @@ pub struct Flakes {
     pub pace: [f64; 2],
     /// Radius, metres.
     pub radius: [f32; 2],
-    /// The number of the chance that the radius depends on. With 3, which is that of the fall, larger flakes are faster;
-    /// with 7 it has its own.
+    /// The number of the chance that the radius depends on. With 3, which is that of the fall, larger flakes are
+    /// faster; with 7 it has its own.
     pub by: u32,
     /// How they are seen.
     pub lens: Lens,
@@ -117,8 +118,8 @@ const FADE: f32 = 0.02;
 const WHOLE: f32 = 4_294_967_296.0;
 
 impl Snow {
-    /// The share `share` of a field's flakes, at `time` seconds around `eye`, in metres, after the wind has carried them by
-    /// `wind` metres.
+    /// The share `share` of a field's flakes, at `time` seconds around `eye`, in metres, after the wind has carried
+    /// them by `wind` metres.
     pub fn new(flakes: &Flakes, time: f64, eye: DVec3, wind: DVec3, share: f32) -> Snow {
         let carried = (wind - DVec3::Y * (flakes.fall[0] * time) - eye) / flakes.extent.as_dvec3();
         let pace = time / std::f64::consts::TAU;

@@ -9,8 +9,8 @@ pub const PLANES: usize = 4;
 
 /// An ellipse on the screen, in pixels from the picture's top left corner.
 ///
-/// Its weight at a point is `(1 - q)^2`, where q is the square of the point's distance from the middle in a space in which
-/// the ellipse is the unit disc. That is close to a Gaussian, ends at a border and needs two products.
+/// Its weight at a point is `(1 - q)^2`, where q is the square of the point's distance from the middle in a space in
+/// which the ellipse is the unit disc. That is close to a Gaussian, ends at a border and needs two products.
 ///
 /// With 16 numbers it is one line of memory: they are copied as they are drawn.
 #[derive(Clone, Copy, Debug)]
