@@ -19,7 +19,7 @@ pub struct CloudField {
     pub spacing: f32,
     /// Share of the squares that hold a cloud, 0 to 1.
     pub share: f32,
-    /// Height of the smallest cubes' centres, metres. Larger ones are higher by 0.45 of their `size`.
+    /// Height of the cubes' centres, metres, to which 0.45 of a cube's `size` is added.
     pub height: f32,
     /// Half of the edge of a cube, metres: the least, and the most that chance adds.
     pub size: [f32; 2],

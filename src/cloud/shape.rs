@@ -1,9 +1,9 @@
 //! The densities of clouds, from a formula: balls on a flat base, warped and eroded by noise.
 //!
-//! A cloud is the inside of a distance field. Its kernel are puffs, balls in rings around the axis of the cube; the
+//! A cloud is the inside of a distance field. At its core are puffs, balls in rings around the axis of the cube. The
 //! distance to the nearest is taken at a point that noise has moved (domain warping), and octaves of the absolute value
-//! of noise are taken from it, which rounds its surface into billows. Density rises over a short distance inside of the
-//! surface, and ends at a flat base, as rising air condenses at one height.
+//! of noise are taken from it, which puts billows on the surface. Density rises over a short distance inside of the
+//! surface and ends at a flat base, as rising air condenses at one height.
 //!
 //! The bench scenes specify [`CloudKind::CUMULUS`] down to the numbers; the reference is `cumulus` in
 //! `tests/cloud/oracle.rs`.
@@ -32,8 +32,8 @@ pub struct CloudKind {
 /// How far noise moves points.
 const WARP: f32 = 0.22;
 
-/// How much octaves of billows add to a distance; and how much of that is taken away again, so that the surface stays
-/// where it is in the mean.
+/// How much octaves of billows take from a distance, and what is added to it, so that the surface stays where it is in
+/// the mean.
 const EROSION: f32 = 0.42;
 const SHIFT: f32 = EROSION * 0.16;
 

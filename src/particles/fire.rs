@@ -73,8 +73,8 @@ const RATE: f64 = 1.1;
 impl Fire {
     /// The same fire with fewer and brighter particles, which together have the light of all.
     ///
-    /// Drawn is the share `detail`, which is above 0, per pixel of the fire's height on the screen, and less again
-    /// where the screen shows only a part of the fire. As that changes, particles come and go one after another.
+    /// The share `detail`, above 0, is drawn per pixel of the fire's height on the screen, and less again where the
+    /// screen shows only a part of the fire. As that changes, particles come and go one after another.
     pub fn detailed(self, view: &View, detail: f32) -> Fire {
         let Flame { life, speed, slows, lift, .. } = self.flame;
         let life = (life[0] + 0.5 * life[1]) as f32;

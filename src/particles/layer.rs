@@ -38,7 +38,7 @@ impl ParticleLayer {
         view: &View,
         settings: &ParticleSettings,
     ) -> ParticleLayer {
-        // Black adds nothing to what passes of the light behind sparks, which is all.
+        // Sparks let all of the light behind pass; with black in place of the rest it keeps its bits.
         let (mut planes, mut solids, mut color) = ((LIGHT, PLANES), true, Vec3::ZERO);
         let mut all = Vec::new();
         for emitter in emitters {
