@@ -1,10 +1,10 @@
 //! Solid textures `[Perlin02]`: a scalar field in space, turned into colours by a palette.
 //!
-//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (thesis A). The plain truth is
+//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (`[Intro07]`). The plain truth is
 //! [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the size of a pixel
 //! on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed form.
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::noise::{self, Footprint};
 pub use crate::simd::block::Block3;
 use crate::simd::block::{BLOCK, load, store};
@@ -199,8 +199,7 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
         let lost = load::<S, F<S>>(simd, &lost, i);
         let filter = footprint.is_some();
         let s = match texture.pattern {
-            // What the show has of lumen has no checks.
-            Pattern::Checker if BENCH => checker(simd, p, if filter { Some(w) } else { None }),
+            Pattern::Checker if cuts::CHECKER => checker(simd, p, if filter { Some(w) } else { None }),
             Pattern::Plain | Pattern::Turbulence { .. } | Pattern::Checker => n,
             Pattern::Clouds { .. } => n * 0.5 + 0.5,
             Pattern::Marble { .. } | Pattern::Wood { .. } => {

@@ -56,7 +56,7 @@ fn blend(keys: &[f32], width: usize, time: f64, line: &mut [f32]) {
 }
 
 /// `speed` where intervals of the mean speeds `a` and `b` meet, limited so that the curve stays monotone in both.
-#[inline(never)]
+#[inline(never)] // Called twice per value, never in a hot loop.
 fn monotone(speed: f32, a: f32, b: f32) -> f32 {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
     let most = if low > 0.0 { 2.0 * low } else { 0.0 };

@@ -2,7 +2,7 @@
 //!
 //! The world is right-handed with y up; lengths are metres.
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use glam::Vec3;
 
 /// A pinhole camera.
@@ -80,7 +80,7 @@ impl Camera {
     /// The axes of a pair stay parallel and their pictures are shifted. Were the axes turned to meet instead, the two eyes would
     /// see most points at different heights.
     pub fn at(self, eye: Eye) -> Camera {
-        if !BENCH {
+        if !cuts::STEREO {
             return self;
         }
         let metre = eye.offset / self.right.length();
