@@ -6,11 +6,9 @@ use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Vec3, vec3};
 use paprsek::frame::{Layer, Renderer};
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
-use paprsek::particles::snow::Flakes;
-use paprsek::particles::sprite::Lens;
+use paprsek::particles::{Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{FLAKES, fires, flakes};
+use paprsek::settings::Quality;
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -36,11 +34,11 @@ fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
-        ParticleLayer::snow(vec![flakes(&of, time, Vec3::ZERO)], Vec3::ONE, &view, SIZE.0, SIZE.1)
+        ParticleLayer::new([flakes(&of, time, Vec3::ZERO)], &view, &Quality::EXACT.particles)
     } else {
         let fire = fires(time)[0];
         let fire = Fire { place: Vec3::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
-        ParticleLayer::fire(vec![fire], 1.6, &view, SIZE.0, SIZE.1)
+        ParticleLayer::new([fire], &view, &Quality::EXACT.particles)
     }
 }
 
