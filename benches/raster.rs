@@ -10,10 +10,7 @@ use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{self, Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Haze, Light, Projection, RasterLayer, ShadowViews, Source, World, fit, shadow_maps};
 use paprsek::scenes;
 use paprsek::scenes::bench::shadow_set;
 use paprsek::settings::Quality;
@@ -79,7 +76,8 @@ impl Case {
                 (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
             }
         };
-        let shadow = Some(ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false });
+        let shadow =
+            Some(ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: false });
         Light { source, color: Vec3::ONE, shadow }
     }
 }
@@ -92,7 +90,7 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
         textures: Vec::new(),
         lights: vec![light],
         ambient: [Vec3::ZERO; 2],
-        veil: None,
+        cloud_shadow: None,
         snow: None,
         haze: Haze::even(Vec3::ZERO, 0.0),
         zenith: Vec3::ZERO,
@@ -106,7 +104,7 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
 
 /// The bits of every texel, mixed.
 fn sum() -> u64 {
-    let maps = shadow::maps();
+    let maps = shadow_maps::maps();
     let (key, map) = maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
     let mut sum = 0u64;
     for view in 0..key.views.len() {

@@ -8,11 +8,7 @@ use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use lexopt::{Arg, Parser};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::mesh::{Mesh, Paint};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, Source, World, fit};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -99,7 +95,8 @@ impl Stage {
     fn light(&self, kind: Kind, index: usize, count: usize) -> Light {
         let time = self.count as f32 * 0.01;
         let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
-        let plan = |views| ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false };
+        let plan =
+            |views| ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: false };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
             let towards = vec3(cos, 0.8, sin).normalize();
@@ -143,7 +140,7 @@ impl Stage {
                 textures: Vec::new(),
                 lights,
                 ambient: [Vec3::splat(0.1); 2],
-                veil: None,
+                cloud_shadow: None,
                 snow: None,
                 haze: Haze::even(fog, 0.0),
                 zenith: fog,

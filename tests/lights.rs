@@ -7,10 +7,7 @@ mod oracle;
 use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
 use oracle::{ULP, random::Random};
-use paprsek::raster::World;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, Light, Projection, ShadowViews, Source, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -86,7 +83,7 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
             let position =
                 vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
             let plan = |views| {
-                Some(ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: k % 2 == 0 })
+                Some(ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: k % 2 == 0 })
             };
             match k % 4 {
                 0 => {
@@ -149,7 +146,8 @@ fn a_light_out_of_reach_changes_no_bit() {
             for (at, kind) in [(0, 0), (4, 0), (0, 1), (4, 2)] {
                 let bias = Bias { constant: 0.01, slope: 2.0, normal: 0.0 };
                 let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
-                let plan = ShadowViews { views, bias, back_faces: false, traced: kind == 2, from: 0, smooth: true };
+                let plan =
+                    ShadowViews { views, bias, back_faces: false, traced: kind == 2, first_caster: 0, smooth: true };
                 let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6));
                 light.shadow = (kind > 0).then_some(plan);
                 let mut lights = few.clone();

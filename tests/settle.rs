@@ -6,12 +6,8 @@ mod drawn;
 use drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
 use glam::{DVec3, Vec3, vec3};
 use paprsek::noise::noise;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, SnowCover, WHITE};
-use paprsek::raster::{Body, World};
+use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, WHITE};
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, Source, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
 use paprsek::view::Camera;
@@ -28,14 +24,14 @@ fn plan(width: f32, texels: u32) -> ShadowViews {
         bias: Bias { constant: 0.05, slope: 2.0, normal: 0.0 },
         back_faces: false,
         traced: false,
-        from: 0,
+        first_caster: 0,
         smooth: true,
     }
 }
 
 fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
-    let from = Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow };
-    Some(SnowCover { amount, from, gives: Vec3::ZERO })
+    let fall = Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow };
+    Some(SnowCover { amount, fall, sky: Vec3::ZERO })
 }
 
 /// Light from all around, so that a picture has the albedo of what it shows.
@@ -128,7 +124,7 @@ fn open_slopes_are_covered_by_their_formula() {
             let world = even(vec![body(paint(mesh, albedo, gloss))]);
             let camera = Camera::look_at(vec3(0.0, 6.0, 14.0), Vec3::ZERO, 0.5, 0.0);
             for amount in AMOUNTS {
-                let settled = snow(amount, None).map(|snow| SnowCover { gives: light, ..snow });
+                let settled = snow(amount, None).map(|snow| SnowCover { sky: light, ..snow });
                 let planes = picture(&World { snow: settled, ..world.clone() }, camera);
                 for (pixel, found) in planes.color.iter().enumerate().filter(|(pixel, _)| planes.coverage[*pixel] > 0.0)
                 {

@@ -9,11 +9,7 @@ mod drawn;
 
 use drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
 use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, World};
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, Source, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use std::sync::Arc;
@@ -79,7 +75,7 @@ impl Sunny {
     fn plan(&self) -> ShadowViews {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
-        ShadowViews { views: vec![view], bias, back_faces, traced, from: 0, smooth }
+        ShadowViews { views: vec![view], bias, back_faces, traced, first_caster: 0, smooth }
     }
 
     fn draw(&self, camera: Camera) -> Planes {
@@ -209,7 +205,7 @@ fn a_plan_without_views_is_no_shadow() {
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, common::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let plan = ShadowViews { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
+        let plan = ShadowViews { views: Vec::new(), bias, back_faces: false, traced, first_caster: 0, smooth: true };
         assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
     }
 }
@@ -227,7 +223,8 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
         let hidden = |from| {
             let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
             let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
-            let found = picture(Some(ShadowViews { views, bias, back_faces: false, traced, from, smooth: true }));
+            let found =
+                picture(Some(ShadowViews { views, bias, back_faces: false, traced, first_caster: from, smooth: true }));
             let pairs = found.color.iter().zip(&truth.color);
             pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
         };

@@ -8,11 +8,7 @@ mod drawn;
 
 use drawn::{Count, block, body, dark, draw, enters, ray};
 use glam::{DVec3, Vec2, Vec3, vec3};
-use paprsek::raster::World;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, Light, Mesh, Projection, ShadowViews, Source, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 
@@ -49,7 +45,7 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
-    let plan = ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth };
+    let plan = ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth };
     let source = Source::Lamp { position: torch, falloff: Vec2::ZERO, reach: f32::INFINITY };
     let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
     let mut bodies = vec![body(room(half))];

@@ -15,7 +15,7 @@ mod maps;
 use glam::Vec3;
 use lexopt::{Arg, Parser};
 use paprsek::frame::Renderer;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, ShadowViews};
 use plot::{Axis, Curve};
 use set::{Set, sun};
 use std::error::Error;

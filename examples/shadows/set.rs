@@ -4,11 +4,7 @@ use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::mesh::{Mesh, Paint};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, Source, World, fit};
 use paprsek::scenes::bench::shadow_set;
 use paprsek::scenes::models::{chapel, land, tree};
 use paprsek::settings::Quality;
@@ -140,7 +136,7 @@ impl Set {
 
     /// A plan with the scene's bias.
     pub fn plan(&self, views: Vec<Projection>) -> ShadowViews {
-        ShadowViews { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
+        ShadowViews { views, bias: self.bias, back_faces: false, traced: false, first_caster: 0, smooth: self.smooth }
     }
 
     /// What is seen under suns, each of its own colour.
@@ -155,7 +151,7 @@ impl Set {
             textures: Vec::new(),
             lights: suns.iter().map(light).collect(),
             ambient: [Vec3::ZERO; 2],
-            veil: None,
+            cloud_shadow: None,
             snow: None,
             haze: Haze::even(Vec3::ZERO, 0.0),
             zenith: Vec3::ZERO,

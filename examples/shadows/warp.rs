@@ -2,7 +2,7 @@
 
 use crate::set::Set;
 use glam::{Vec3, Vec4};
-use paprsek::raster::project::Projection;
+use paprsek::raster::Projection;
 
 /// A warped map of `size` texels for what a set's camera sees between the ends of its range. In it w is the distance from a
 /// point behind the eye, along the view's axis as the sun sees it: then heights over it are affine in the map.

@@ -5,9 +5,7 @@ use fearless_simd::Level;
 use glam::{Affine3A, DVec3, Mat3, Vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
-use paprsek::raster::light::Haze;
-use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::{Body, RasterLayer, World};
+use paprsek::raster::{Body, Face, Haze, Mesh, Paint, RasterLayer, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -82,7 +80,7 @@ pub fn dark(bodies: Vec<Body>) -> World {
         textures: Vec::new(),
         lights: Vec::new(),
         ambient: [Vec3::ZERO; 2],
-        veil: None,
+        cloud_shadow: None,
         snow: None,
         haze: Haze::even(Vec3::ZERO, 0.0),
         zenith: Vec3::ZERO,

@@ -4,11 +4,7 @@ use super::shadow_set;
 use crate::frame::Picture;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
-use crate::raster::fit;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::project::Projection;
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::{Body, World};
+use crate::raster::{Bias, Body, Haze, Light, Projection, ShadowViews, Source, World, fit};
 use crate::scenes::drawn;
 use crate::view::Camera;
 use glam::{Affine3A, Vec2, Vec3, vec3};
@@ -41,7 +37,7 @@ fn sun(spec: &FrameSpec) -> Picture {
         bias: Bias { constant: 0.03, slope: 0.15 * SIZES[0] as f32 / WIDTH, normal: 0.0 },
         back_faces: false,
         traced: false,
-        from: 0,
+        first_caster: 0,
         smooth: false,
     };
     let light = Light { source: Source::Sun(towards), color: vec3(1.05, 0.92, 0.74), shadow: Some(plan) };
@@ -55,7 +51,7 @@ fn torch(spec: &FrameSpec) -> Picture {
         bias: Bias { constant: 0.03, slope: 2.12, normal: 0.0 },
         back_faces: false,
         traced: false,
-        from: 0,
+        first_caster: 0,
         smooth: false,
     };
     let source = Source::Lamp { position, falloff: Vec2::new(0.0, 0.06), reach: f32::INFINITY };
@@ -72,7 +68,7 @@ fn picture(spec: &FrameSpec, light: Light, ambient: Vec3, fog: Vec3) -> Picture 
         textures: Vec::new(),
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],
-        veil: None,
+        cloud_shadow: None,
         snow: None,
         haze: Haze::even(fog, 0.012),
         zenith: fog,

@@ -4,10 +4,7 @@ use crate::cuts::BENCH;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture};
-use crate::raster::fit;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::{Body, RasterLayer, World};
+use crate::raster::{Bias, Body, Haze, Light, RasterLayer, ShadowViews, Source, World, fit};
 use crate::scenes::models::{chapel, land, mustang, tree};
 use crate::scenes::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
@@ -182,7 +179,7 @@ pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, 
         bodies,
         textures,
         lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
-        veil: None,
+        cloud_shadow: None,
         snow: None,
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze {
@@ -227,7 +224,7 @@ pub(in crate::scenes) fn point(
         bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
         back_faces: false,
         traced,
-        from: from as usize,
+        first_caster: from as usize,
         smooth: true,
     };
     Light { source: Source::Lamp { position, falloff, reach }, color, shadow: Some(shadow) }
@@ -249,7 +246,7 @@ pub(in crate::scenes) fn cascades(
         bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
         back_faces: false,
         traced: BENCH && spec.quality.shadow_map == 0,
-        from: 0,
+        first_caster: 0,
         smooth: true,
     })
 }

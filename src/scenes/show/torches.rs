@@ -9,9 +9,7 @@ use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
 use crate::particles::sprite::Lens;
 use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::light::Light;
-use crate::raster::mesh::Mesh;
-use crate::raster::{Body, form};
+use crate::raster::{Body, Light, Mesh, form};
 use crate::scenes::models::{PAINTS, paint};
 use crate::timeline::{self, Key};
 use crate::view::Camera;
@@ -43,7 +41,7 @@ pub const FIRES: [[f32; 6]; 7] = [
 
 /// Under a fire, tenths of its radius: a bowl on a staff.
 #[rustfmt::skip]
-const BOWL: form::Body = form::Body {
+const BOWL: form::Rings = form::Rings {
     rows: &[[-45, 0, 2, 2, 0], [-14, 0, 3, 3, 0], [-10, 0, 9, 9, 0], [1, 0, 12, 12, 0], [1, 0, 10, 10, 0], [-3, 0, 0, 0, 0]],
     sides: 8,
     half: false,
@@ -100,7 +98,7 @@ fn bowls() -> Body {
                 size.y_axis.x = -0.18 * x;
             }
             if inner == 0.0 {
-                mesh.body(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
+                mesh.rings(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
             }
         }
         Body::new(Arc::new(mesh), Affine3A::IDENTITY)

@@ -1,0 +1,206 @@
+//! The rasterizer as a layer of a picture: the stages of a frame, and of a tile.
+
+use super::collect::collect;
+use super::context::{ShadeContext, ShadowLookup};
+use super::depth_map::DepthMap;
+use super::fill::{CENTER, SubPixel, Visible, fill};
+use super::id::PLAIN;
+use super::project::Projection;
+use super::queue::FragmentQueue;
+use super::rasters::{self, Raster, draw_map};
+use super::shade::flush;
+use super::shadow_maps::{self, MapKey};
+use super::shadow_views::ShadowViews;
+use super::triangle::SUB;
+use super::world::World;
+use crate::cuts::BENCH;
+use crate::frame::{Layer, Stats, Tile, Workers};
+use crate::settings::Quality;
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::F;
+use crate::view::View;
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use glam::Vec3;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// A world seen by a camera: the first layer of a picture, which clears its tiles.
+pub struct RasterLayer {
+    world: World,
+    view: View,
+    size: [u32; 2],
+    quality: Quality,
+    /// The camera's raster, then those of lights that have no map from an earlier frame.
+    rasters: Vec<Raster>,
+    /// Shadows of each light, and after those of falling snow.
+    lookups: Vec<ShadowLookup>,
+}
+
+impl RasterLayer {
+    /// Prepares a picture of `width` x `height` pixels.
+    pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> RasterLayer {
+        let size = [width as u32, height as u32];
+        RasterLayer { world, view, size, quality, rasters: Vec::new(), lookups: Vec::new() }
+    }
+
+    /// Decides for each light, and for falling snow, where its shadows are looked up: in a map of an earlier frame, or in
+    /// rasters that are added. Returns the maps that have to be drawn into.
+    #[inline(always)]
+    fn look_up_shadows(&mut self) -> Vec<(MapKey, DepthMap)> {
+        let RasterLayer { world, rasters, lookups, .. } = self;
+        let bodies = &world.bodies;
+        let mut missing = Vec::new();
+        let snow = world.snow.iter().map(|snow| &snow.fall);
+        for (slot, light) in world.lights.iter().chain(snow).enumerate() {
+            let mut lookup = ShadowLookup { map: None, first: rasters.len() };
+            // The shadows of a lamp that reaches nothing in the picture are never looked up.
+            if let Some(&ShadowViews { ref views, back_faces, traced, first_caster, .. }) = light.shadow_views()
+                && light.counts(&rasters[0].setup.projection)
+            {
+                let mut key = MapKey { slot, views: views.clone(), back_faces, casters: Vec::new() };
+                for body in bodies.iter().skip(first_caster) {
+                    let (center, radius) = body.bound();
+                    if light.reaches(center, radius) {
+                        key.casters.push(body.clone());
+                    }
+                }
+                let traced = BENCH && traced;
+                // A traced light has no map, though another frame may have kept one of the same views.
+                let kept = if traced { Err(DepthMap::default()) } else { shadow_maps::recall(&key) };
+                match kept {
+                    Ok(map) => lookup.map = Some(map),
+                    Err(map) => {
+                        for view in views {
+                            rasters::add(rasters, view, back_faces, false, first_caster, bodies.len());
+                        }
+                        if !traced {
+                            missing.push((key, map));
+                        }
+                    }
+                }
+            }
+            lookups.push(lookup);
+        }
+        missing
+    }
+
+    /// Draws a tile; returns the number of fragments.
+    ///
+    /// ```text
+    /// for each cell of a grid in the pixel          (one, except for the reference)
+    ///     find what is visible at each sample of the cell
+    ///     collect fragments, and shade those of full queues
+    /// shade what is left in queues
+    /// ```
+    #[inline(always)]
+    fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
+        let RasterLayer { world, view, rasters, lookups, quality, .. } = self;
+        let grid = quality.grid() as u32;
+        let count = if grid > 1 { 1 } else { quality.coverage };
+        let Scratch { planes, queues } = scratch;
+        let planes = &mut planes[..count];
+        let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
+        tile.clear();
+        tile.coverage.fill(0.0);
+        tile.inv_depth.fill(0.0);
+        let share = 1.0 / (grid * grid * count as u32) as f32;
+        let context = ShadeContext { world, lookups, rasters, view, share };
+        let mut fragments = 0;
+        if !ids.is_empty() {
+            for pass in 0..grid * grid {
+                for (k, (visible, place)) in planes.iter_mut().enumerate() {
+                    *place = match grid {
+                        1 => spread(k as u32, count as u32),
+                        _ => cell([pass % grid, pass / grid], grid),
+                    };
+                    visible.clear(0.0);
+                    fill(simd, &rasters[0].meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
+                }
+                fragments += collect(simd, &context, planes, queues, tile);
+            }
+            for (texture, queue) in queues.iter_mut().enumerate() {
+                if queue.count > 0 {
+                    flush(simd, &context, texture, queue, tile);
+                }
+            }
+        }
+        if BENCH && let Some(color) = world.background {
+            behind(simd, color, tile);
+        }
+        fragments
+    }
+}
+
+/// Adds the background to what solids leave open in a tile.
+#[inline(always)]
+fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, light) in planes.into_iter().zip(color.to_array()) {
+        let coverage = tile.coverage.as_chunks::<BLOCK>().0;
+        for (block, coverage) in plane.as_chunks_mut::<BLOCK>().0.iter_mut().zip(coverage) {
+            let mut i = 0;
+            while i < BLOCK / F::<S>::LEN {
+                let open = -load::<S, F<S>>(simd, coverage, i) + 1.0;
+                store(open * light + load::<S, F<S>>(simd, block, i), block, i);
+                i += 1;
+            }
+        }
+    }
+}
+
+/// The place of sample `k` of `n` in a pixel: a lattice with one sample in each row and each column of an `n` x `n` grid.
+fn spread(k: u32, n: u32) -> SubPixel {
+    let multiplier = if n == 4 { 2 } else { 5 };
+    cell([k, multiplier * (k + 1) % (n + 1) - 1], n)
+}
+
+/// The middle of a cell of an `n` x `n` grid in a pixel, by its column and row.
+fn cell(at: [u32; 2], n: u32) -> SubPixel {
+    at.map(|at| ((2 * at + 1) * (SUB as u32 / 2) / n) as i32)
+}
+
+/// Memory that a thread needs to draw a tile.
+struct Scratch {
+    /// What is visible at each sample of the pixels, and where that sample lies.
+    planes: Vec<(Visible, SubPixel)>,
+    /// The fragments that wait, by texture; the last queue is for plain colours.
+    queues: Vec<FragmentQueue>,
+}
+
+impl Scratch {
+    fn new() -> Scratch {
+        Scratch {
+            planes: (0..16).map(|_| (Visible::new(), CENTER)).collect(),
+            queues: vec![FragmentQueue::EMPTY; PLAIN as usize + 1],
+        }
+    }
+}
+
+/// Memory that threads left for the next tiles: one for each thread that was drawing at the same time.
+static SPARE: Mutex<Vec<Scratch>> = Mutex::new(Vec::new());
+
+fn spare() -> MutexGuard<'static, Vec<Scratch>> {
+    SPARE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Layer for RasterLayer {
+    fn prepare(&mut self, workers: &Workers) {
+        let bodies = self.world.bodies.len();
+        rasters::add(&mut self.rasters, &Projection::of_view(&self.view, self.size), false, true, 0, bodies);
+        let mut missing = self.look_up_shadows();
+        let RasterLayer { world, rasters, lookups, .. } = self;
+        rasters::set_up(workers, rasters, &world.bodies);
+        while let Some((key, mut map)) = missing.pop() {
+            let lookup = &mut lookups[key.slot];
+            map.resize(key.views[0].size[0] as usize, key.views.len());
+            draw_map(workers, &mut map, &rasters[lookup.first..]);
+            lookup.map = Some(shadow_maps::keep(key, map));
+        }
+    }
+
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        let mut scratch = spare().pop().unwrap_or_else(Scratch::new);
+        let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
+        spare().push(scratch);
+        Stats { samples }
+    }
+}
