@@ -7,14 +7,13 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
-use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::particles::ParticleLayer;
 use paprsek::scenes;
 use paprsek::scenes::bench::particles::{FLAKES, fires, snowfall};
 use paprsek::settings::Quality;
+use paprsek::view::Camera;
 use paprsek::view::View;
-use paprsek::view::{Camera, Eye};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -34,9 +33,7 @@ const KINDS: [(&str, usize); 2] = [("flakes", FLAKES.count as usize), ("flames",
 fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
     let (width, height) = SIZE;
     if kind == 0 {
-        let shot =
-            FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: renderer.workers() };
-        return snowfall(&shot, &FLAKES).without_solids();
+        return snowfall(&renderer.spec(time, Quality::FAST, SIZE), &FLAKES).without_solids();
     }
     let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
     ParticleLayer::fire(fires(time), 1.6, &View::new(camera, width, height), width, height).without_solids()
@@ -81,7 +78,7 @@ fn motion(criterion: &mut Criterion) {
             let renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
             let prepare = |time: f64| {
                 let mut particles = particles(&renderer, kind, time);
-                particles.prepare(renderer.workers());
+                particles.prepare(renderer.workers(), renderer.cache());
                 particles.drawn()
             };
             let drawn = prepare(START);
@@ -115,7 +112,7 @@ fn sprites(criterion: &mut Criterion) {
         for (level_name, level) in common::levels() {
             let renderer = Renderer::new(1).expect("threads can be started").at_level(level);
             let mut particles = particles(&renderer, kind, START);
-            particles.prepare(renderer.workers());
+            particles.prepare(renderer.workers(), renderer.cache());
             draw(&particles, level, &mut tiles);
             assert_eq!(*expected.get_or_insert_with(|| sum(&tiles)), sum(&tiles), "{name} at {level_name}");
             let ms = median(|_| draw(&particles, level, &mut tiles));

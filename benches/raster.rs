@@ -8,9 +8,12 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
+use paprsek::frame::cache::lock;
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::{Bias, Body, Haze, Light, Projection, RasterLayer, ShadowViews, Source, World, fit, shadow_maps};
+use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::raster::{
+    Bias, Body, Haze, Light, Projection, RasterLayer, RasterMemory, ShadowViews, Source, World, fit,
+};
 use paprsek::scenes;
 use paprsek::scenes::bench::shadow_set;
 use paprsek::settings::Quality;
@@ -37,8 +40,8 @@ const SIZE: (usize, usize) = (1280, 720);
 struct DepthOnly(RasterLayer);
 
 impl Layer for DepthOnly {
-    fn prepare(&mut self, workers: &Workers) {
-        self.0.prepare(workers);
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
+        self.0.prepare(workers, _cache);
     }
 
     fn draw(&self, _level: Level, _tile: &mut Tile) -> Stats {
@@ -97,15 +100,15 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
         film: false,
         background: None,
     };
-    let drawn =
-        RasterLayer::new(world, View::new(camera, Tile::SIZE, Tile::SIZE), Tile::SIZE, Tile::SIZE, Quality::FAST);
+    let drawn = RasterLayer::new(world, &View::new(camera, Tile::SIZE, Tile::SIZE), &Quality::FAST.raster);
     Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }
 }
 
 /// The bits of every texel, mixed.
-fn sum() -> u64 {
-    let maps = shadow_maps::maps();
-    let (key, map) = maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
+fn sum(renderer: &Renderer) -> u64 {
+    let memory = renderer.cache().get::<RasterMemory>();
+    let memory = lock(&memory);
+    let (key, map) = memory.maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
     let mut sum = 0u64;
     for view in 0..key.views.len() {
         for (x, y) in (0..map.size).flat_map(|y| (0..map.size).map(move |x| (x, y))) {
@@ -141,13 +144,14 @@ fn depth(criterion: &mut Criterion) {
         let settings = common::levels().into_iter().map(|level| (level, 1)).chain([(common::levels()[0], 2)]);
         for ((level_name, level), threads) in settings {
             let mut renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
-            let mut draw = |time: f64| {
-                maps::forget();
+            let mut draw = |renderer: &mut Renderer, time: f64| {
+                maps::forget(renderer);
                 black_box(renderer.draw(depth_only(&bodies, case.light(time)), &mut frame));
             };
-            draw(START);
-            assert_eq!(*expected.get_or_insert_with(sum), sum(), "{name} {level_name} on {threads} threads");
-            let ms = median(&mut draw);
+            draw(&mut renderer, START);
+            let found = sum(&renderer);
+            assert_eq!(*expected.get_or_insert(found), found, "{name} {level_name} on {threads} threads");
+            let ms = median(|time| draw(&mut renderer, time));
             println!(
                 "{name:15} {level_name:7} {threads} threads {ms:7.3} ms {:7.2} Mtri/s {:8.1} Mpixel/s",
                 (TRIANGLES * count) as f64 / ms * 1e-3,
@@ -157,7 +161,7 @@ fn depth(criterion: &mut Criterion) {
             group.bench_function(format!("{level_name} {threads} threads"), |bencher| {
                 bencher.iter(|| {
                     step += 1;
-                    draw(START + step as f64 * STEP);
+                    draw(&mut renderer, START + step as f64 * STEP);
                 });
             });
         }
@@ -174,7 +178,7 @@ fn frames(criterion: &mut Criterion) {
             let quality = Quality::named(quality_name).expect("a quality of the command line");
             let mut frame = Frame::new(SIZE.0, SIZE.1);
             let mut draw = |time: f64| {
-                maps::forget();
+                maps::forget(&renderer);
                 renderer.render(&scene, time, &quality, &mut frame).samples
             };
             // Every pixel but those of the sky has a fragment.

@@ -7,9 +7,9 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::dome::{Dome, Sky};
 use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::view::Camera;
 use std::hint::black_box;
@@ -36,8 +36,8 @@ fn picture(altitude: f32, cell: f32) -> Picture {
         turn: Mat3::IDENTITY,
         air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
     };
-    let steps = DomeQuality::new(&Quality::DEFAULT).steps;
-    let dome = Dome::new(sky, DomeQuality { steps, cell, grid: 1 });
+    let steps = Quality::DEFAULT.sky.steps;
+    let dome = Dome::new(sky, SkySettings { steps, cell, grid: 1 });
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
     let layer = SkyLayer::new(dome, camera, SIZE.0, SIZE.1, Look::default());
     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }

@@ -5,9 +5,10 @@
 //! where nothing is; each map's grey goes from its farthest texel to its nearest.
 
 use image::{GrayImage, Luma, imageops};
+use paprsek::frame::cache::lock;
 use paprsek::frame::{Frame, Renderer};
+use paprsek::raster::RasterMemory;
 use paprsek::raster::depth_map::{DepthMap, EMPTY};
-use paprsek::raster::shadow_maps::{self, ShadowMaps};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::error::Error;
@@ -25,14 +26,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     else {
         return Err("usage: depth SCENE TIME [SCENE TIME ...] OUT.png".into());
     };
-    let mut renderer = Renderer::new(0)?;
     let mut rows = Vec::new();
     for shot in shots.chunks_exact(2) {
         let scene = scenes::named(&shot[0]).ok_or(format!("there is no scene '{}'", shot[0]))?;
-        *shadow_maps::maps() = ShadowMaps::default();
+        // A renderer of its own, so that no maps of another scene are kept.
+        let mut renderer = Renderer::new(0)?;
         renderer.render(&scene, shot[1].parse()?, &Quality::FAST, &mut Frame::new(SIZE.0, SIZE.1));
-        let kept = shadow_maps::maps();
-        let mut maps: Vec<_> = kept.iter().collect();
+        let memory = renderer.cache().get::<RasterMemory>();
+        let memory = lock(&memory);
+        let mut maps: Vec<_> = memory.maps.iter().collect();
         maps.sort_by_key(|(key, _)| key.slot);
         for (key, map) in maps {
             rows.push((0..key.views.len()).map(|view| grey(map, view)).collect::<Vec<_>>());

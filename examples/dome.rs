@@ -7,9 +7,9 @@ use glam::{Mat3, Vec3, vec3};
 use image::{Rgb, RgbImage, imageops};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::dome::{Dome, Sky};
 use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::sky::place::Place;
 use paprsek::sky::time;
@@ -50,7 +50,7 @@ fn difference(a: &RgbImage, b: &RgbImage) -> (f64, u8) {
 
 /// The sky towards the sun and away from it, and the fastest of some times that one takes, milliseconds of one thread
 /// without what encodes it.
-fn views(quality: DomeQuality, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
+fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
     let mut best = f64::MAX;
     for _ in 0..repeat {
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
@@ -73,11 +73,11 @@ fn table() {
     println!("| cell, rad | steps | ms by day | ms at -6 | rms, worst codes by day | at 0 | at -6 | at -12 |");
     println!("|---|---|---|---|---|---|---|---|");
     let altitudes = [30.0, 0.0, -6.0, -12.0];
-    let truth = altitudes.map(|a| views(DomeQuality { steps: 50, cell: 0.0, grid: 1 }, a, size, 1).0);
+    let truth = altitudes.map(|a| views(SkySettings { steps: 50, cell: 0.0, grid: 1 }, a, size, 1).0);
     for (cell, steps) in
         [(0.0, 24), (0.0, 10), (0.011, 24), (0.011, 16), (0.011, 10), (0.011, 8), (0.011, 6), (0.022, 10), (0.044, 10)]
     {
-        let quality = DomeQuality { steps, cell, grid: 1 };
+        let quality = SkySettings { steps, cell, grid: 1 };
         let repeat = if cell > 0.0 { 5 } else { 1 };
         print!("| {cell} | {steps} |");
         let mut errors = String::new();
@@ -95,11 +95,11 @@ fn table() {
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let quality = DomeQuality::new(&Quality::DEFAULT);
+    let quality = Quality::DEFAULT.sky;
     match arguments[0].as_str() {
         "sheet" => {
             let quality =
-                DomeQuality { steps: arguments.get(3).map_or(quality.steps, |s| s.parse().unwrap()), ..quality };
+                SkySettings { steps: arguments.get(3).map_or(quality.steps, |s| s.parse().unwrap()), ..quality };
             let haze = arguments.get(2).map_or(1.3, |h| h.parse().unwrap());
             let size = (320, 200);
             let mut sheet = RgbImage::new(size.0 as u32 * 4, size.1 as u32 * 6);

@@ -70,7 +70,7 @@ fn time(renderer: &mut Renderer, scenes: &[Scene]) -> Vec<[Cost; 2]> {
                 for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
                     // The sun has moved as far as it does while the scene plays.
                     renderer.render(scene, at - 1.0 / 60.0, quality, &mut frame);
-                    maps::forget();
+                    maps::forget(renderer);
                     let began = Instant::now();
                     let stats = renderer.render(scene, at, quality, &mut frame);
                     seconds[s][i][q].push(began.elapsed().as_secs_f64());

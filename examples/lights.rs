@@ -148,7 +148,7 @@ impl Stage {
                 background: Some(fog),
             };
             let began = Instant::now();
-            let drawn = RasterLayer::new(world, View::new(camera, SIZE.0, SIZE.1), SIZE.0, SIZE.1, case.quality);
+            let drawn = RasterLayer::new(world, &View::new(camera, SIZE.0, SIZE.1), &case.quality.raster);
             self.renderer.draw(Picture { layers: vec![Box::new(drawn)], transfer: Transfer::Srgb }, &mut self.frame);
             ms += began.elapsed().as_secs_f64() * 1e3;
         }

@@ -3,11 +3,9 @@
 //!
 //! `cargo run --release --example samples -- [SCENE [SECONDS [QUALITY [FILE.png]]]]`
 
-use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Renderer, Tile};
 use paprsek::scenes;
 use paprsek::settings::Quality;
-use paprsek::view::Eye;
 use std::error::Error;
 
 #[path = "common/picture.rs"]
@@ -25,9 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let shot =
-        FrameSpec { time, width: *width, height: *height, quality, eye: Eye::MIDDLE, workers: renderer.workers() };
-    let picture = scene.picture(&shot);
+    let picture = (scene.picture)(&renderer.spec(time, quality, (*width, *height)));
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {
         *pixel = (*pixel >> 1) & 0x7f7f7f;

@@ -1,5 +1,33 @@
-//! What the 64 kB build leaves out.
+//! What the 64 kB build leaves out: one constant per cut, false in that build.
+//!
+//! A cut is asked for as a constant, so that both builds are checked by the compiler and the code behind it vanishes.
 
-/// Are the bench scenes there? What they alone ask for, the intro does without: in the rasterizer a background, light
-/// without film, and lookups of depth maps in which each texel counts alike; pictures that stand for clouds.
-pub const BENCH: bool = cfg!(feature = "full");
+/// Whether everything is built: single scenes, the benchmark, qualities without shortcuts. The feature `full`.
+pub const FULL: bool = cfg!(feature = "full");
+
+/// The bench scenes and what they alone ask for.
+pub const BENCH: bool = FULL;
+
+/// Whether scenes have names, so that the parts of the show can be played alone.
+pub const SCENES: bool = FULL;
+
+/// Whether two eyes can be rendered side by side.
+pub const STEREO: bool = FULL;
+
+/// Whether a pixel can have a grid of samples.
+pub const REFERENCE: bool = FULL;
+
+/// Whether scenes can be changed by their parameters.
+pub const PARAMETERS: bool = FULL;
+
+/// Whether the rasterizer can trace shadows through triangles instead of looking them up in maps.
+pub const TRACED_SHADOWS: bool = FULL;
+
+/// Whether a lookup of a shadow map can count 3x3 texels alike, as the bench scenes specify, instead of weighting them.
+pub const COUNTED_TEXELS: bool = FULL;
+
+/// Whether the rasterizer can leave light as it is, without the film's compression.
+pub const LIGHT_WITHOUT_FILM: bool = FULL;
+
+/// Whether the rasterizer can fill what solids leave open with a colour.
+pub const BACKGROUND: bool = FULL;

@@ -32,7 +32,7 @@ const SHADOW_MISCOUNT: f64 = 0.005;
 const FLICKER: f64 = 1.5;
 
 /// Edge of the coarsest square, pixels, and steps of an eighth of a pixel across it.
-const CELL: usize = Quality::FAST.cell;
+const CELL: usize = Quality::FAST.trace.cell;
 const STEPS: usize = CELL * 8;
 
 fn frame(scene: &str, time: f64, quality: Quality, size: (usize, usize)) -> Codes {

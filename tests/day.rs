@@ -2,7 +2,7 @@
 
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::show::day::{DAY, LENGTH, clock};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, RasterSettings};
 
 mod common;
 
@@ -72,7 +72,7 @@ fn light_does_not_jump() {
     let mut renderer = Renderer::new(2).unwrap();
     let mut worst: f64 = 0.0;
     // No shadow falls on the sky.
-    let quick = Quality { shadow_map: 64, ..Quality::FAST };
+    let quick = Quality { raster: RasterSettings { shadow_map: 64, ..Quality::FAST.raster }, ..Quality::FAST };
     for season in [0, 2] {
         for (from, to) in [(4.0, 9.0), (14.5, 21.9)] {
             let steps = ((to - from) / 24.0 * LENGTH / STEP) as usize;

@@ -4,13 +4,13 @@
 use fearless_simd::Level;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
-use paprsek::settings::Quality;
+use paprsek::settings::{CloudSettings, Quality};
 
 const SIZE: (usize, usize) = (320, 180);
 
 fn render(renderer: &mut Renderer, time: f64, imposter: f32, size: (usize, usize)) -> Frame {
     let mut frame = Frame::new(size.0, size.1);
-    let quality = Quality { cloud_imposter: imposter, ..Quality::FAST };
+    let quality = Quality { cloud: CloudSettings { imposter, ..Quality::FAST.cloud }, ..Quality::FAST };
     let scene = scenes::named("sky-of-clouds").expect("a scene");
     renderer.render(&scene, time, &quality, &mut frame);
     frame

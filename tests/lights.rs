@@ -8,7 +8,7 @@ use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
 use oracle::{ULP, random::Random};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, Source, World};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, RasterSettings};
 use paprsek::view::Camera;
 use paprsek::view::View;
 
@@ -165,7 +165,7 @@ fn a_light_out_of_reach_changes_no_bit() {
 fn a_lamp_counts_if_it_reaches_what_is_seen() {
     let mut random = Random(7);
     let camera = camera();
-    let raster = Projection::of_view(&View::new(camera, SIZE[0], SIZE[1]), SIZE.map(|n| n as u32));
+    let raster = Projection::of_view(&View::new(camera, SIZE[0], SIZE[1]));
     let mut number = |low: f64, high: f64| random.range(low, high);
     for _ in 0..20_000 {
         let (x, y) = (number(0.0, SIZE[0] as f64), number(0.0, SIZE[1] as f64));
@@ -211,7 +211,13 @@ fn shares_of_a_pixel_sum_up_to_one() {
     let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points)]) };
     for (name, level) in common::levels() {
         for (coverage, grid) in [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)] {
-            let planes = draw(&world, camera, [100, 70], Quality { coverage, grid, ..Quality::EXACT }, level);
+            let planes = draw(
+                &world,
+                camera,
+                [100, 70],
+                Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT },
+                level,
+            );
             for (pixel, (share, color)) in planes.coverage.iter().zip(&planes.color).enumerate() {
                 assert!((share - 1.0).abs() <= 1e-6, "{name}, {coverage} samples: {share} at pixel {pixel}");
                 assert!((color.x - share).abs() <= 1e-6, "{name}, {coverage} samples: {color} at pixel {pixel}");
@@ -264,7 +270,7 @@ fn coverage_nears_the_area_with_more_samples() {
         let drawn: Vec<Planes> = qualities
             .iter()
             .map(|&(coverage, grid)| {
-                let quality = Quality { coverage, grid, ..Quality::EXACT };
+                let quality = Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT };
                 draw(&world, camera, SIZE, quality, common::levels()[0].1)
             })
             .collect();

@@ -1,17 +1,16 @@
 //! The show: its parts are what plays, each at its own time, and dark is only where one ends.
 
 use paprsek::frame::Scene;
-use paprsek::frame::{Frame, Renderer};
+use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::scenes::show::intro::{FADE, INTRO, PARTS, READ, WRITING, light};
-use paprsek::settings::Quality;
 use paprsek::view::Stereo;
 
 const SIZE: (usize, usize) = (96, 54);
 
 fn render(scene: &Scene, time: f64, stereo: Option<Stereo>) -> Vec<u32> {
     let mut frame = Frame::new(SIZE.0, SIZE.1);
-    Renderer::new(2).unwrap().render_eyes(scene, time, &Quality::DEFAULT, stereo, &mut frame);
+    Renderer::new(2).unwrap().render_with(scene, time, &Options { stereo, ..Options::default() }, &mut frame);
     frame.pixels
 }
 

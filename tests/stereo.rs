@@ -5,7 +5,7 @@ mod picture;
 
 use glam::{Vec3, vec3};
 use paprsek::frame::Scene;
-use paprsek::frame::{Frame, Renderer};
+use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use paprsek::texture::Texture;
@@ -33,7 +33,8 @@ fn render(
     let mut frame = Frame::new(size.0, size.1);
     // No scene is of this colour, and what is left over must be black.
     frame.pixels.fill(0xff00_0000);
-    renderer.render_eyes(scene, 2.0, quality, stereo, &mut frame);
+    let options = Options { quality: *quality, stereo, ..Options::default() };
+    renderer.render_with(scene, 2.0, &options, &mut frame);
     frame
 }
 

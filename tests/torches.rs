@@ -2,7 +2,7 @@
 
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::show::torches::{FIRES, LENGTH, NIGHT, SHOTS, TORCHES};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, RasterSettings};
 use paprsek::sky::dome::Sky;
 use paprsek::sky::place::{Place, angles};
 use paprsek::sky::time::{Date, days};
@@ -61,7 +61,7 @@ fn light_does_not_jump() {
     const BEND: f64 = 1.5;
     let mut renderer = Renderer::new(2).unwrap();
     // No edge of a shadow of the moon is that large.
-    let quick = Quality { shadow_map: 64, ..Quality::FAST };
+    let quick = Quality { raster: RasterSettings { shadow_map: 64, ..Quality::FAST.raster }, ..Quality::FAST };
     for cut in cuts().windows(2) {
         let (mut worst, mut least, mut most) = (0f64, f64::MAX, 0f64);
         assert!(cut[1] - cut[0] > 2.0);

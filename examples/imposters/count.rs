@@ -7,11 +7,11 @@ use glam::{Vec3, vec3};
 use paprsek::cloud::march::{Cloud, Look};
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::voxels::Voxels;
-use paprsek::cloud::{CloudLayer, CloudQuality, sunlight};
+use paprsek::cloud::{CloudLayer, sunlight};
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::scenes::bench::cumulus_set as set;
-use paprsek::settings::Quality;
+use paprsek::settings::{CloudSettings, Quality};
 use paprsek::simd::hash::rnd;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -29,8 +29,8 @@ const EXTINCTION: f32 = 30.0;
 struct Alone(CloudLayer);
 
 impl Layer for Alone {
-    fn prepare(&mut self, workers: &Workers) {
-        self.0.prepare(workers);
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
+        self.0.prepare(workers, _cache);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
@@ -43,7 +43,7 @@ impl Layer for Alone {
 /// One way to draw them.
 struct Way {
     name: &'static str,
-    quality: CloudQuality,
+    quality: CloudSettings,
     /// Is the sunlight of all shapes baked anew in every frame?
     bakes: bool,
     /// Are clouds outside of the view handed on, too?
@@ -116,15 +116,15 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Appends both tables, and writes their curves.
 pub fn report(text: &mut String, out: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
-    let fast = CloudQuality::new(&Quality::FAST);
+    let fast = Quality::FAST.cloud;
     let way = |name, quality| Way { name, quality, bakes: false, all: true };
     let ways = [
         way("fast", fast),
         way("sunlight baked in every frame", fast),
-        way("steps not by size on the screen", CloudQuality { detail: f32::INFINITY, ..fast }),
+        way("steps not by size on the screen", CloudSettings { detail: f32::INFINITY, ..fast }),
         way("only clouds in the view handed on", fast),
-        way("behind opaque clouds too", CloudQuality { hidden: 0.0, ..fast }),
-        way("imposters, 1 pixel", CloudQuality { imposter: 1.0, ..fast }),
+        way("behind opaque clouds too", CloudSettings { hidden: 0.0, ..fast }),
+        way("imposters, 1 pixel", CloudSettings { imposter: 1.0, ..fast }),
     ];
     let mut ways = ways;
     ways[1].bakes = true;

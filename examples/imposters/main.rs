@@ -13,7 +13,7 @@ use lexopt::{Arg, Parser, ValueExt};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
-use paprsek::settings::Quality;
+use paprsek::settings::{CloudSettings, Quality};
 use plot::{Axis, Curve};
 use std::error::Error;
 use std::fmt::Write;
@@ -67,7 +67,7 @@ fn fly(scene: &Scene, quality: Quality, start: f64, step: f64, frames: usize) ->
         let mut truth = None;
         for (flight, bound) in flights.iter_mut().zip(BOUNDS) {
             std::mem::swap(&mut flight.frame, &mut flight.last);
-            let quality = Quality { cloud_imposter: bound, ..quality };
+            let quality = Quality { cloud: CloudSettings { imposter: bound, ..quality.cloud }, ..quality };
             let began = Instant::now();
             renderer.render(scene, start + step * number as f64, &quality, &mut flight.frame);
             flight.ms.push(began.elapsed().as_secs_f64() * 1e3);

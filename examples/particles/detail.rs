@@ -48,7 +48,7 @@ fn times(renderer: &Renderer, rounds: usize, away: f32, details: &[f32]) -> Vec<
     let mut time = |instant: f64, detail: f32| {
         let began = Instant::now();
         let mut particles = particles(vec![burning(instant, away, detail)], away).without_solids();
-        particles.prepare(renderer.workers());
+        particles.prepare(renderer.workers(), renderer.cache());
         for tile in &mut tiles {
             particles.draw(renderer.level(), tile);
         }
@@ -116,7 +116,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
             });
             let lacks = (lights.sum::<f64>() / INSTANTS as f64).sqrt();
             let name = if detail.is_finite() { format!("1/{}", 1.0 / detail) } else { "all".into() };
-            let bold = if detail == Quality::FAST.particle_detail { format!("**{name}**") } else { name.clone() };
+            let bold = if detail == Quality::FAST.particles.detail { format!("**{name}**") } else { name.clone() };
             let psnr = if off.square > 0.0 {
                 curve.points.push((ratio, off.rmse(), name));
                 format!("{:.1} | {:.1}", off.psnr(), off.psnr() + 10.0 * share.log10())
@@ -141,7 +141,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
         Axis { name: "error of the frame, codes of 255 (root of the mean square)" },
     ];
     plot::draw(&out.join("particles-detail.svg"), &["level of detail"], &[curves], axes)?;
-    let ways = [("all", f32::INFINITY), ("as at `fast`", Quality::FAST.particle_detail)];
+    let ways = [("all", f32::INFINITY), ("as at `fast`", Quality::FAST.particles.detail)];
     let mut curves = ways.map(|(name, _)| Curve { name: name.into(), points: Vec::new() });
     for away in MORE {
         for (curve, (ms, _)) in curves.iter_mut().zip(times(&alone, rounds, away, &ways.map(|way| way.1))) {

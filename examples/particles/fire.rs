@@ -60,14 +60,14 @@ pub fn report(text: &mut String, stage: &mut Stage) -> Result<(), Box<dyn Error>
         "| fires | thesis: fps | ms more | all: sprites | fps | ms more | with level of detail: sprites | fps | ms more |\n|---|{}",
         "--:|".repeat(8)
     )?;
-    let details = [f32::INFINITY, Quality::FAST.particle_detail];
+    let details = [f32::INFINITY, Quality::FAST.particles.detail];
     let cases: Vec<_> = CASES.iter().flat_map(|case| details.map(|detail| (case, detail))).collect();
     let fps = stage.fps(&cases, |(case, detail), shot| over(shot, FIRE_SKY, particles(case, shot, *detail)));
     for (case, fps_of) in CASES.iter().zip(fps.chunks_exact(2)) {
         write!(text, "| {} | {:.0} | {:.1}", case.name, case.theirs, 1e3 / case.theirs - 1e3 / CASES[0].theirs)?;
         for k in 0..2 {
             let mut particles = particles(case, &stage.shot(crate::START), details[k]);
-            particles.prepare(stage.renderer.workers());
+            particles.prepare(stage.renderer.workers(), stage.renderer.cache());
             write!(text, " | {} | {:.1} | {:.2}", particles.drawn(), fps_of[k], 1e3 / fps_of[k] - 1e3 / fps[k])?;
         }
         writeln!(text, " |")?;

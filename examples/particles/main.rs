@@ -21,7 +21,7 @@ use lexopt::{Arg, Parser};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::Quality;
-use paprsek::view::{Camera, Eye};
+use paprsek::view::Camera;
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -43,8 +43,7 @@ struct Stage {
 impl Stage {
     /// An instant of a scene at `fast`.
     fn shot(&self, time: f64) -> FrameSpec<'_> {
-        let (width, height) = SIZE;
-        FrameSpec { time, width, height, quality: Quality::FAST, eye: Eye::MIDDLE, workers: self.renderer.workers() }
+        self.renderer.spec(time, Quality::FAST, SIZE)
     }
 
     /// Median frames a second of each case from time to finished picture; all take turns at each instant.

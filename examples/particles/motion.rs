@@ -49,7 +49,7 @@ fn speed(renderer: &Renderer, kind: usize, seen: bool, rounds: usize) -> f64 {
     let time = |round: usize| {
         let mut particles = particles(kind, START + round as f64 * STEP, seen);
         let began = Instant::now();
-        particles.prepare(renderer.workers());
+        particles.prepare(renderer.workers(), renderer.cache());
         let seconds = began.elapsed().as_secs_f64();
         assert_eq!(particles.drawn() > 0, seen);
         seconds
@@ -70,7 +70,8 @@ fn lanes(level: Level) -> f64 {
 pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dyn Error>> {
     let seen = |kind: usize| {
         let mut particles = particles(kind, START, true);
-        particles.prepare(Renderer::new(1)?.workers());
+        let renderer = Renderer::new(1)?;
+        particles.prepare(renderer.workers(), renderer.cache());
         Ok::<_, String>(particles.drawn() as f64 / f64::from(COUNT))
     };
     writeln!(

@@ -33,7 +33,7 @@ pub fn report(text: &mut String, stage: &mut Stage, out: &Path) -> Result<(), Bo
         let instants = [0.0, 10.0, 20.0, 30.0, 40.0];
         let sum = instants.map(|k| {
             let mut particles = snowfall(&stage.shot(START + k * STEP), &flakes(*count));
-            particles.prepare(stage.renderer.workers());
+            particles.prepare(stage.renderer.workers(), stage.renderer.cache());
             particles.drawn()
         });
         sum.iter().sum::<usize>() / instants.len()

@@ -89,8 +89,8 @@ impl<'a> Bench<'a> {
         let mut frame = Frame::new(self.effort.size.0, self.effort.size.1);
         let instants = self.effort.instants;
         for round in 0..self.effort.rounds {
-            let mut timed = |point| {
-                maps::forget();
+            let mut timed = |point: &Point| {
+                maps::forget(self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level));
                 let began = Instant::now();
                 self.render(point, round % instants, &mut frame);
                 began.elapsed().as_secs_f64() * 1000.0
@@ -144,7 +144,7 @@ impl<'a> Bench<'a> {
     /// Draws a point at an instant; returns its samples.
     fn render(&mut self, point: &Point, instant: usize, frame: &mut Frame) -> u64 {
         let renderer = self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level);
-        let picture = self.subject.picture(instant, point, self.effort.size, renderer.workers());
+        let picture = self.subject.picture(instant, point, self.effort.size, renderer);
         renderer.draw(picture, frame).samples
     }
 }

@@ -3,13 +3,12 @@
 use crate::sweep::{Group, Point};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{FrameSpec, Scene};
-use paprsek::frame::{Picture, Workers};
+use paprsek::frame::{Picture, Renderer, Scene};
 use paprsek::scenes;
 use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::dome::{Dome, Sky};
 use paprsek::sky::layer::{Look, SkyLayer};
-use paprsek::view::{Camera, Eye};
+use paprsek::view::Camera;
 
 /// Something to draw.
 pub struct Subject {
@@ -74,11 +73,11 @@ impl Subject {
         instant: usize,
         point: &Point,
         (width, height): (usize, usize),
-        workers: &Workers,
+        renderer: &Renderer,
     ) -> Picture {
         let (time, quality) = (self.times[instant], point.quality);
         if let Some(scene) = self.scene {
-            return scene.picture(&FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, workers });
+            return (scene.picture)(&renderer.spec(time, quality, (width, height)));
         }
         let (sin, cos) = (time as f32).to_radians().sin_cos();
         let sky = Sky {
@@ -90,7 +89,7 @@ impl Subject {
             turn: Mat3::IDENTITY,
             air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
         };
-        let dome = Dome::new(sky, point.dome.unwrap_or_else(|| DomeQuality::new(&quality)));
+        let dome = Dome::new(sky, point.dome.unwrap_or(quality.sky));
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let layer = SkyLayer::new(dome, camera, width, height, Look::default());
         Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }

@@ -1,8 +1,7 @@
 //! Which knob goes through which values, from which quality: a new renderer's knobs are added here.
 
 use fearless_simd::Level;
-use paprsek::settings::Quality;
-use paprsek::sky::dome::DomeQuality;
+use paprsek::settings::{Quality, SkySettings};
 
 /// What is right, where a sweep is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,11 +24,9 @@ impl Truth {
         let (quality, dome) = match self {
             Truth::Exact => (Quality::EXACT, None),
             Truth::Reference => (Quality::REFERENCE, None),
-            Truth::Samples => (Quality { grid: Quality::REFERENCE.grid, ..point.quality }, None),
-            Truth::ParticleLayer => {
-                (Quality { particle_detail: Quality::EXACT.particle_detail, ..point.quality }, None)
-            }
-            Truth::Dome => (Quality::EXACT, Some(DomeQuality::new(&Quality::EXACT))),
+            Truth::Samples => (with_grid(point.quality, Quality::REFERENCE.raster.grid), None),
+            Truth::ParticleLayer => (Quality { particles: Quality::EXACT.particles, ..point.quality }, None),
+            Truth::Dome => (Quality::EXACT, Some(Quality::EXACT.sky)),
         };
         Point { quality, dome, level: None, threads: None, ..point.clone() }
     }
@@ -71,7 +68,7 @@ pub struct Point {
     /// Everything else as the sweep's base has it.
     pub quality: Quality,
     /// How the sky alone is computed; in scenes the quality says that.
-    pub dome: Option<DomeQuality>,
+    pub dome: Option<SkySettings>,
     /// SIMD level; the machine's best where none is named.
     pub level: Option<Level>,
     /// Threads; as many as the report runs on where none is named.
@@ -97,53 +94,65 @@ pub struct Sweep {
     pub points: Vec<Point>,
 }
 
-/// Every sweep of the knobs of [`Quality`], and of [`DomeQuality`].
+/// The same quality with a grid of samples in every pixel.
+fn with_grid(mut quality: Quality, grid: usize) -> Quality {
+    (quality.trace.grid, quality.raster.grid, quality.cloud.grid, quality.sky.grid) = (grid, grid, grid, grid);
+    quality
+}
+
+/// Every sweep of the knobs of [`Quality`], and of [`SkySettings`].
 pub fn knobs() -> Vec<Sweep> {
     let threshold = [0.0, 0.0025, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16];
     let weight = [0.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0];
     let detail = [0.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0];
     let (fast, default) = (("fast", Truth::Exact), ("default", Truth::Reference));
-    let min_weight: Knob = ("min_weight", |q| q.min_weight, |q, value| q.min_weight = value);
-    let set_threshold: Knob = ("threshold", |q| q.threshold, |q, value| q.threshold = value);
-    let map: Knob = ("shadow_map", |q| q.shadow_map as f32, |q, value| q.shadow_map = value as u32);
+    let min_weight: Knob = ("min_weight", |q| q.trace.min_weight, |q, value| q.trace.min_weight = value);
+    let set_threshold: Knob = ("threshold", |q| q.trace.threshold, |q, value| q.trace.threshold = value);
+    let map: Knob = ("shadow_map", |q| q.raster.shadow_map as f32, |q, value| q.raster.shadow_map = value as u32);
     let maps = [0.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0];
     let mut sweeps = vec![
         sweep("threshold", fast, set_threshold, &threshold),
         sweep(
             "cell",
             fast,
-            ("cell", |q| q.cell as f32, |q, value| q.cell = value as usize),
+            ("cell", |q| q.trace.cell as f32, |q, value| q.trace.cell = value as usize),
             &[1.0, 2.0, 4.0, 8.0, 16.0],
         ),
         sweep("min-weight", fast, min_weight, &weight),
         sweep("min-weight-default", default, min_weight, &weight),
-        sweep("min-detail", fast, ("min_detail", |q| q.min_detail, |q, value| q.min_detail = value), &detail),
+        sweep(
+            "min-detail",
+            fast,
+            ("min_detail", |q| q.trace.min_detail, |q, value| q.trace.min_detail = value),
+            &detail,
+        ),
         sweep(
             "subpixel",
             default,
-            ("subpixel", |q| q.subpixel as f32, |q, value| q.subpixel = value as u32),
+            ("subpixel", |q| q.trace.subpixel as f32, |q, value| q.trace.subpixel = value as u32),
             &[0.0, 1.0, 2.0],
         ),
     ];
-    let coverage: Knob = ("coverage", |q| q.coverage as f32, |q, value| q.coverage = value as usize);
+    let coverage: Knob = ("coverage", |q| q.raster.coverage as f32, |q, value| q.raster.coverage = value as usize);
     let coverage = sweep("coverage", ("default", Truth::Samples), coverage, &[1.0, 2.0, 4.0, 8.0, 16.0]);
     sweeps.push(Sweep { group: Group::Raster, ..coverage });
     for (file, base) in [("shadow-map", fast), ("shadow-map-default", default)] {
         sweeps.push(Sweep { group: Group::Shadows, ..sweep(file, base, map, &maps) });
     }
-    let steps: Knob = ("cloud_steps", |q| q.cloud_steps as f32, |q, value| q.cloud_steps = value as u32);
-    let detail: Knob = ("cloud_detail", |q| q.cloud_detail, |q, value| q.cloud_detail = value);
-    let opaque: Knob = ("cloud_opaque", |q| q.cloud_opaque, |q, value| q.cloud_opaque = value);
+    let steps: Knob = ("cloud_steps", |q| q.cloud.steps as f32, |q, value| q.cloud.steps = value as u32);
+    let detail: Knob = ("cloud_detail", |q| q.cloud.detail, |q, value| q.cloud.detail = value);
+    let opaque: Knob = ("cloud_opaque", |q| q.cloud.opaque, |q, value| q.cloud.opaque = value);
+    let cloud_threshold: Knob = ("cloud_threshold", |q| q.cloud.threshold, |q, value| q.cloud.threshold = value);
     let opaques = [0.0, 1.0 / 1024.0, 1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
     for clouds in [
         sweep("cloud-steps", fast, steps, &[12.0, 25.0, 50.0, 100.0, 200.0, 400.0]),
         sweep("cloud-detail", fast, detail, &[0.0625, 0.125, 0.25, 0.5, 1.0, f32::INFINITY]),
         sweep("cloud-opaque", fast, opaque, &opaques),
-        sweep("cloud-threshold", fast, set_threshold, &threshold),
+        sweep("cloud-threshold", fast, cloud_threshold, &threshold.map(|threshold| 0.5 * threshold)),
     ] {
         sweeps.push(Sweep { group: Group::CloudLayer, ..clouds });
     }
-    let detail: Knob = ("particle_detail", |q| q.particle_detail, |q, value| q.particle_detail = value);
+    let detail: Knob = ("particle_detail", |q| q.particles.detail, |q, value| q.particles.detail = value);
     let details = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, f32::INFINITY];
     let fires = sweep("particle-detail", ("fast", Truth::ParticleLayer), detail, &details);
     sweeps.push(Sweep { group: Group::Fires, ..fires });
@@ -154,12 +163,12 @@ pub fn knobs() -> Vec<Sweep> {
 
 /// The dome with another cell, or another number of points at every pixel; else as `fast` has it.
 fn dome<const N: usize>(file: &'static str, knob: &'static str, values: [(f32, Option<u32>); N]) -> Sweep {
-    let from = DomeQuality::new(&Quality::FAST);
+    let from = Quality::FAST.sky;
     let point = |(cell, steps): (f32, Option<u32>)| {
         let dome = match steps {
-            None => DomeQuality { cell, ..from },
+            None => SkySettings { cell, ..from },
             // Beside interpolation its error would not be seen.
-            Some(steps) => DomeQuality { steps, cell, ..from },
+            Some(steps) => SkySettings { steps, cell, ..from },
         };
         let default = steps.map_or(dome == from, |steps| steps == from.steps);
         let label = steps.map_or(cell.to_string(), |steps| steps.to_string());

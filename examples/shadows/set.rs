@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
+use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, Source, World, fit};
 use paprsek::scenes::bench::shadow_set;
 use paprsek::scenes::models::{chapel, land, tree};
@@ -96,9 +96,9 @@ struct Probe {
 }
 
 impl Layer for Probe {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
         let began = Instant::now();
-        self.drawn.prepare(workers);
+        self.drawn.prepare(workers, _cache);
         self.kept.lock().unwrap().1 = began.elapsed().as_secs_f64() * 1e3;
     }
 
@@ -160,11 +160,11 @@ impl Set {
         };
         let (width, height) = self.size;
         let kept = Arc::new(Mutex::new((vec![[0.0; 4]; width * height], 0.0)));
-        let drawn = RasterLayer::new(world, self.view(), width, height, Quality::FAST);
+        let drawn = RasterLayer::new(world, &self.view(), &Quality::FAST.raster);
         let layer = Probe { drawn, width, kept: kept.clone() };
         let picture = Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb };
         let mut frame = Frame::new(width, height);
-        crate::maps::forget();
+        crate::maps::forget(renderer);
         let began = Instant::now();
         renderer.draw(picture, &mut frame);
         let all = began.elapsed().as_secs_f64() * 1e3;

@@ -6,8 +6,9 @@
 
 use super::march::{Cloud, Look, Passage, march};
 use super::voxels::{Voxels, square};
-use super::{CloudLayer, CloudQuality, Seen};
+use super::{CloudLayer, Seen};
 use crate::frame::{Layer, Tile, Workers};
+use crate::settings::CloudSettings;
 use crate::simd::lanes::{F, U, V3};
 use crate::view::Camera;
 use crate::view::View;
@@ -36,7 +37,7 @@ const KEPT: u32 = 120;
 struct Plan {
     voxels: Arc<Voxels>,
     extinction: f32,
-    quality: CloudQuality,
+    quality: CloudSettings,
     /// From the cloud's middle, halves of the cube's edge.
     eye: Vec3,
     /// Texels along the edge.
@@ -246,7 +247,7 @@ pub fn prepare(clouds: &mut CloudLayer, workers: &Workers) {
                 (2.0 * reach / ((way * way - reach * reach).sqrt() * pixel * texel)).min(TEXELS[1]).ceil() as usize + 2;
             // Clouds that come out of nothing must not need a picture for every frame.
             let (voxels, extinction) = (cloud.voxels.clone(), cloud.extinction.ceil());
-            let quality = CloudQuality { imposter: 0.0, ..quality };
+            let quality = CloudSettings { imposter: 0.0, ..quality };
             let plan = Plan { voxels, extinction, quality, eye, edge };
             let old = kept.iter_mut().find(|(_, old)| old.plan.is(&plan));
             match old {

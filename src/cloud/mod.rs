@@ -12,8 +12,8 @@ pub mod sunlight;
 pub mod voxels;
 
 use crate::cuts::BENCH;
-use crate::frame::{Layer, Stats, Tile, Workers};
-use crate::settings::Quality;
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
+use crate::settings::CloudSettings;
 use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::{Level, dispatch};
@@ -22,51 +22,13 @@ use imposter::Imposter;
 use march::{Cloud, Look};
 use std::sync::Arc;
 
-/// Speed against error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CloudQuality {
-    /// Steps through a cube.
-    pub steps: u32,
-    /// The same by a cube's edge on the screen: steps a pixel, where that is less; infinite for never.
-    pub detail: f32,
-    /// A ray ends in a cloud where less than this share of the light comes through, and 0 is nowhere;
-    pub opaque: f32,
-    /// and before further clouds likewise.
-    pub hidden: f32,
-    /// Edge of the coarsest cell of pixels whose corners are cast, a power of two up to 16; 1 casts a ray for every pixel.
-    pub cell: usize,
-    /// A cell is interpolated where its middle is off by at most this, linear light; cells of 1 never are.
-    pub threshold: f32,
-    /// Samples of a pixel along each axis, where every pixel has a ray.
-    pub grid: usize,
-    /// How far imposters may be off, pixels; 0 for none.
-    pub imposter: f32,
-}
-
-impl CloudQuality {
-    /// As the renderer's quality says.
-    pub fn new(quality: &Quality) -> CloudQuality {
-        CloudQuality {
-            steps: quality.cloud_steps,
-            detail: quality.cloud_detail,
-            opaque: quality.cloud_opaque,
-            hidden: quality.cloud_opaque,
-            cell: quality.cell,
-            // At the whole of it 0.6 instead of 0.2 % of the pixels of `sky-of-clouds` are off by more than 8 codes.
-            threshold: 0.5 * quality.threshold,
-            grid: quality.grid(),
-            imposter: quality.cloud_imposter,
-        }
-    }
-}
-
 /// Clouds before a camera, as a layer of a picture.
 pub struct CloudLayer {
     /// Nearest first.
     clouds: Vec<Seen>,
     look: Look,
     view: View,
-    quality: CloudQuality,
+    quality: CloudSettings,
 }
 
 /// A cloud as it is seen from where the eye is.
@@ -94,7 +56,7 @@ impl CloudLayer {
         haze: impl Fn(Vec3) -> Vec3,
         range: f32,
         view: View,
-        quality: CloudQuality,
+        quality: CloudSettings,
     ) -> CloudLayer {
         let Camera { eye, forward, .. } = *view.camera();
         let mut seen: Vec<Seen> = Vec::new();
@@ -151,7 +113,7 @@ impl CloudLayer {
 const ROOT: f32 = 1.732_051;
 
 impl Layer for CloudLayer {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
         if BENCH && self.quality.imposter > 0.0 {
             imposter::prepare(self, workers);
         }

@@ -1,26 +1,37 @@
-//! What a layer is, and a picture as a stack of layers.
+//! Layers: what a picture is made of.
+//!
+//! The contract of a layer is here and nowhere else:
+//!
+//! 1. Layers are drawn in order. The first one writes every pixel of a tile; each later one adds to what is there.
+//! 2. [`Layer::prepare`] runs once per frame, before any tile is drawn, and may use all threads.
+//! 3. [`Layer::draw`] runs once per tile, on any thread and in any order. What it writes depends on the layer and the
+//!    tile alone, so a frame has the same bytes on every number of threads.
+//! 4. A layer of solids writes `inv_depth` and `coverage` where [`Tile::solids_matter`]; particles and clouds read them
+//!    to be hidden by what is in front, and a sky reads `coverage` to fill what solids left.
 
+use super::cache::Cache;
 use super::encode::Transfer;
 use super::tile::Tile;
 use super::workers::Workers;
 use fearless_simd::Level;
 
-/// What a frame took.
+/// What drawing took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
-    /// Eye rays traced.
+    /// Eye rays traced, or fragments shaded.
     pub samples: u64,
 }
 
-/// Something that draws into tiles: layers of a picture are drawn in order.
+/// Something that draws into tiles. The module has the contract.
 pub trait Layer: Sync {
-    /// What is done once a frame, before any tile is drawn: shadow maps, triangles in bins.
-    fn prepare(&mut self, _crew: &Workers) {}
+    /// Does what is done once per frame: shadow maps, triangles in bins. What may serve a later frame goes into `cache`.
+    fn prepare(&mut self, _workers: &Workers, _cache: &Cache) {}
 
-    /// Draws the tile's part of the layer over what is there; returns what that took.
+    /// Draws the layer's part of a tile over what is there.
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
 
-    /// Where eye rays are traced in a tile, pixels from the picture's top left; none for layers that trace none.
+    /// Where eye rays are traced in a tile, in pixels from the picture's top left corner; none for layers that trace
+    /// none.
     #[cfg(feature = "full")]
     fn positions(&self, _level: Level, _tile: &mut Tile) -> Vec<(f32, f32)> {
         Vec::new()
@@ -29,13 +40,13 @@ pub trait Layer: Sync {
 
 /// A scene at one instant, ready to be drawn.
 pub struct Picture {
-    /// Back to front.
+    /// The layers in the order in which they are drawn.
     pub layers: Vec<Box<dyn Layer>>,
-    /// The screen's scale.
+    /// From linear light to codes.
     pub transfer: Transfer,
 }
 
 impl Picture {
-    /// No layers.
+    /// A picture without layers.
     pub const EMPTY: Picture = Picture { layers: Vec::new(), transfer: Transfer::Srgb };
 }

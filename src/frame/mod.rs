@@ -1,5 +1,11 @@
-//! How a frame is made: a scene gives layers, layers draw into tiles on all threads, tiles become pixels.
+//! How a frame is made: a scene gives a picture, the picture's layers draw into tiles on all threads, and each tile is
+//! encoded into pixels.
+//!
+//! ```text
+//! Scene, FrameSpec -> Picture of Layers -> Tile by Tile, on Workers -> encode -> Frame
+//! ```
 
+pub mod cache;
 pub mod encode;
 pub mod layer;
 pub mod pool;
@@ -9,8 +15,9 @@ pub mod scene;
 pub mod tile;
 pub mod workers;
 
+pub use cache::Cache;
 pub use layer::{Layer, Picture, Stats};
-pub use renderer::{Frame, Renderer};
-pub use scene::{FrameSpec, Scene};
+pub use renderer::{Frame, Options, Renderer};
+pub use scene::{FrameSpec, Parameter, Scene, Values};
 pub use tile::Tile;
 pub use workers::Workers;

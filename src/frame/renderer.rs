@@ -1,20 +1,21 @@
 //! From a scene at an instant to finished pixels.
 
+use super::cache::Cache;
 use super::encode::{self, Transfer};
 use super::layer::{Picture, Stats};
-use super::pool::Pool;
-use super::scene::{FrameSpec, Scene};
+use super::scene::{FrameSpec, Scene, Values};
 use super::tile::Tile;
 use super::workers::Workers;
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::settings::Quality;
-use crate::view::Stereo;
+use crate::simd::level;
+use crate::view::{Eye, Stereo};
 use fearless_simd::{Level, Simd, dispatch};
 
 /// A finished picture: `0RGB` pixels, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub width: usize,
     /// Rows.
     pub height: usize,
@@ -27,11 +28,28 @@ impl Frame {
     pub fn new(width: usize, height: usize) -> Frame {
         Frame { width, height, pixels: vec![0; width * height] }
     }
+
+    /// The pixels as bytes, red, green and blue in turn: what encoders of pictures take.
+    pub fn to_rgb(&self) -> Vec<u8> {
+        self.pixels.iter().flat_map(|pixel| pixel.to_be_bytes().into_iter().skip(1)).collect()
+    }
+}
+
+/// How a frame is asked for, beside its scene and its time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options<'a> {
+    /// Speed against error.
+    pub quality: Quality,
+    /// Two pictures side by side, for two eyes.
+    pub stereo: Option<Stereo>,
+    /// What the scene's parameters are set to.
+    pub values: Values<'a>,
 }
 
 /// Renders frames on a fixed number of threads at one SIMD level.
 pub struct Renderer {
     workers: Workers,
+    cache: Cache,
 }
 
 impl Renderer {
@@ -39,79 +57,71 @@ impl Renderer {
     ///
     /// The calling thread becomes a worker where it can. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
-        // What was built for processors with AVX2 need not look for it: 0.8 kB packed.
-        let known = cfg!(target_feature = "avx2");
-        let level = if known { Level::baseline() } else { Level::new() };
-        Ok(Renderer { workers: Workers { pool: Pool::new(threads)?, level } })
+        Ok(Renderer { workers: Workers::new(threads)?, cache: Cache::default() })
     }
 
     /// The same renderer at another SIMD level.
-    pub fn at_level(self, level: Level) -> Renderer {
-        Renderer { workers: Workers { level, ..self.workers } }
+    pub fn at_level(mut self, level: Level) -> Renderer {
+        self.workers.set_level(level);
+        self
     }
 
-    /// Threads in use.
+    /// The number of threads.
     pub fn threads(&self) -> usize {
-        self.workers.pool.threads()
+        self.workers.threads()
     }
 
-    /// Who works: what a [`FrameSpec`] needs.
+    /// The threads, which a [`FrameSpec`] hands to its scene.
     pub fn workers(&self) -> &Workers {
         &self.workers
     }
 
-    /// The SIMD level in use.
-    pub fn level(&self) -> Level {
-        self.workers.level
+    /// What is kept from frame to frame, which a [`FrameSpec`] hands to its scene.
+    pub fn cache(&self) -> &Cache {
+        &self.cache
     }
 
-    /// The SIMD level in use, as the benchmark names it: `avx512`, `avx2`, `sse4.2`, `sse2`, `neon`, `scalar`.
+    /// The SIMD level in use.
+    pub fn level(&self) -> Level {
+        self.workers.level()
+    }
+
+    /// The name of the SIMD level in use.
     pub fn simd(&self) -> &'static str {
-        // What runs, which a build may hold below what the machine has.
-        match dispatch!(self.workers.level, simd => simd.level()) {
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512(_) => "avx512",
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2(_) => "avx2",
-            #[cfg(target_arch = "x86_64")]
-            Level::Sse4_2(_) => "sse4.2",
-            #[cfg(target_arch = "x86_64")]
-            Level::Sse2(_) => "sse2",
-            #[cfg(target_arch = "aarch64")]
-            Level::Neon(_) => "neon",
-            _ => "scalar",
-        }
+        level::name(self.workers.level())
     }
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
-        self.render_eyes(scene, time, quality, None, frame)
+        self.render_with(scene, time, &Options { quality: *quality, ..Options::default() }, frame)
     }
 
-    /// The same with a picture for each eye, side by side and equally wide: columns that are left over are black, at the
-    /// right. A picture has the pixels that it has alone, as tiles and dither start at its own edge.
-    pub fn render_eyes(
-        &mut self,
-        scene: &Scene,
-        time: f64,
-        quality: &Quality,
-        stereo: Option<Stereo>,
-        frame: &mut Frame,
-    ) -> Stats {
-        // The 64 kB build has one.
-        let stereo = stereo.filter(|_| BENCH);
+    /// Renders `scene` at `time` seconds into `frame`, with all that can be asked for.
+    ///
+    /// Two eyes have pictures of equal width; a column that is left over is black, at the right. Each picture has the
+    /// pixels that it has alone, as tiles and dither start at its own edge.
+    pub fn render_with(&mut self, scene: &Scene, time: f64, options: &Options, frame: &mut Frame) -> Stats {
+        let Options { quality, stereo, values } = *options;
+        let stereo = stereo.filter(|_| cuts::STEREO);
         let (eyes, pair) = stereo.map_or((1, Stereo { eye_distance: 0.0, convergence: 1.0 }), |pair| (2, pair));
-        let (width, height, quality) = (frame.width / eyes, frame.height, *quality);
+        let (width, height) = (frame.width / eyes, frame.height);
         if width * eyes < frame.width {
             frame.pixels.fill(0);
         }
         let mut samples = 0;
         for number in 0..eyes {
             let eye = pair.eye(number as u32 as f32 - 0.5);
-            let picture = scene.picture(&FrameSpec { time, width, height, quality, eye, workers: &self.workers });
+            let (workers, cache) = (&self.workers, &self.cache);
+            let picture = (scene.picture)(&FrameSpec { time, width, height, quality, eye, values, workers, cache });
             samples += self.draw_at(picture, number * width, width, frame).samples;
         }
         Stats { samples }
+    }
+
+    /// The request for the frame of `time`, `width` x `height` pixels, with everything else as usual.
+    pub fn spec(&self, time: f64, quality: Quality, (width, height): (usize, usize)) -> FrameSpec<'_> {
+        let (workers, cache) = (&self.workers, &self.cache);
+        FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, values: &[], workers, cache }
     }
 
     /// Draws a picture that was made for a frame of that size.
@@ -119,12 +129,12 @@ impl Renderer {
         self.draw_at(picture, 0, frame.width, frame)
     }
 
-    /// Draws a picture that was made for that many columns of the frame, from column `x` on.
+    /// Draws a picture that was made for `width` columns of the frame, from column `x` on.
     fn draw_at(&mut self, mut picture: Picture, x: usize, width: usize, frame: &mut Frame) -> Stats {
         for layer in &mut picture.layers {
-            layer.prepare(&self.workers);
+            layer.prepare(&self.workers, &self.cache);
         }
-        let (level, stride, height) = (self.workers.level, frame.width, frame.height);
+        let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
         // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
         // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
@@ -137,7 +147,7 @@ impl Renderer {
                     tile.solids_matter = index + 1 < picture.layers.len();
                     samples += layer.draw(level, tile).samples;
                 }
-                dispatch!(level, simd => develop(simd, picture.transfer, tile, stride, &mut pixels[x..]));
+                dispatch!(level, simd => encode_tile(simd, picture.transfer, tile, stride, &mut pixels[x..]));
             }
             samples
         };
@@ -147,7 +157,7 @@ impl Renderer {
 
 /// From the tile's light to the screen's codes.
 #[inline(always)]
-fn develop<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
+fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
     for row in 0..tile.height {
         let at = row * Tile::SIZE..row * Tile::SIZE + tile.width;
         let (r, g, b) = (&tile.red[at.clone()], &tile.green[at.clone()], &tile.blue[at]);

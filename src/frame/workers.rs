@@ -1,24 +1,40 @@
 //! The threads that make a frame.
 
 use super::pool::Pool;
+use crate::simd::level;
 use fearless_simd::Level;
 use std::sync::{Mutex, PoisonError};
 
-/// The threads of a frame, and the SIMD level that it is made at.
+/// The threads of a renderer, and the SIMD level that they work at.
 pub struct Workers {
-    pub(super) pool: Pool,
-    pub(super) level: Level,
+    pool: Pool,
+    level: Level,
 }
 
 impl Workers {
+    /// `threads` threads (0: all cores) at the best SIMD level of this machine. Fails where they cannot be started.
+    pub fn new(threads: usize) -> Result<Workers, String> {
+        Ok(Workers { pool: Pool::new(threads)?, level: level::best() })
+    }
+
+    /// Changes the SIMD level.
+    pub fn set_level(&mut self, level: Level) {
+        self.level = level;
+    }
+
+    /// The number of threads.
+    pub fn threads(&self) -> usize {
+        self.pool.threads()
+    }
+
     /// The SIMD level in use.
     pub fn level(&self) -> Level {
         self.level
     }
 
-    /// Does `work` on every job once; threads take one after another.
+    /// Does `work` on every job once. Threads take one job after another.
     ///
-    /// Two jobs may run at once in either order: what they give must not depend on it.
+    /// Jobs may run at once and in any order, so their results must not depend on it.
     pub fn each<T: Send>(&self, jobs: impl Iterator<Item = T> + Send, work: impl Fn(T) + Sync) {
         self.each_with(
             jobs,
@@ -30,7 +46,8 @@ impl Workers {
         );
     }
 
-    /// The same with something that each thread makes once, for all of its jobs; the sum of what the jobs give.
+    /// Does `work` on every job once, with a value that each thread makes once for all of its jobs. Gives the sum of the
+    /// jobs' results.
     pub(super) fn each_with<T: Send, M>(
         &self,
         jobs: impl Iterator<Item = T> + Send,

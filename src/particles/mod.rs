@@ -11,7 +11,7 @@ pub mod sprite;
 pub mod strokes;
 
 use crate::cuts::BENCH;
-use crate::frame::{Layer, Stats, Tile, Workers};
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::simd::lanes::{F, STEPS, U, V3};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
@@ -161,7 +161,7 @@ impl ParticleLayer {
 }
 
 impl Layer for ParticleLayer {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
         for (emitter, from) in self.emitters.iter().enumerate() {
             let mut first = 0;
             while first < from.count() {

@@ -1,6 +1,6 @@
 //! From the triangles that the samples of a tile show to fragments in queues, one queue per texture.
 //!
-//! A fragment is shaded once, however many samples of its pixel it has (multisampling [Akeley93]), at the mean of their
+//! A fragment is shaded once, however many samples of its pixel it has, at the mean of their
 //! places. Full queues are shaded at once.
 
 use super::context::ShadeContext;

@@ -1,10 +1,10 @@
-//! Shadow maps: the depths that a light sees [Williams78], looked up by percentage-closer filtering [Reeves87].
+//! Shadow maps: the depths that a light sees \[Williams78\], looked up by percentage-closer filtering \[Reeves87\].
 //!
 //! A lookup compares the depths of 3x3 texels with that of a point, and averages the outcomes. With `smooth` the 3x3
 //! texels are a window that moves with the point and meets 4x4 texels, whose borders count by how much of them it covers:
 //! bilinear interpolation of the averages. It is an approximation of [`super::exact_shadow`].
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::Tile;
 use crate::simd::lanes::{Bits, F, M};
 use fearless_simd::f32x4;
@@ -68,7 +68,7 @@ impl DepthMap {
     pub fn lit<S: Simd>(&self, simd: S, points: &MapPoints<S>, smooth: bool) -> F<S> {
         let (size, lanes) = (self.size, F::<S>::LEN);
         // Smooth, the window of 3x3 texels begins 1.5 before the point; else at the texel before the point's own.
-        let smooth = smooth || !BENCH;
+        let smooth = smooth || !cuts::COUNTED_TEXELS;
         let shift = if smooth { 1.5 } else { 1.0 };
         let end = (size - 3) as u32 as f32;
         let zero = F::<S>::splat(simd, 0.0);

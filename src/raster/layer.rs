@@ -3,50 +3,51 @@
 use super::collect::collect;
 use super::context::{ShadeContext, ShadowLookup};
 use super::depth_map::DepthMap;
-use super::fill::{CENTER, SubPixel, Visible, fill};
-use super::id::PLAIN;
+use super::fill::{SubPixel, fill};
+use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
-use super::queue::FragmentQueue;
 use super::rasters::{self, Raster, draw_map};
 use super::shade::flush;
-use super::shadow_maps::{self, MapKey};
+use super::shadow_maps::MapKey;
 use super::shadow_views::ShadowViews;
 use super::triangle::SUB;
 use super::world::World;
-use crate::cuts::BENCH;
-use crate::frame::{Layer, Stats, Tile, Workers};
-use crate::settings::Quality;
+use crate::cuts;
+use crate::frame::cache::lock;
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
+use crate::settings::{RasterSettings, samples_per_axis};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::F;
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// A world seen by a camera: the first layer of a picture, which clears its tiles.
 pub struct RasterLayer {
     world: World,
     view: View,
-    size: [u32; 2],
-    quality: Quality,
+    settings: RasterSettings,
     /// The camera's raster, then those of lights that have no map from an earlier frame.
     rasters: Vec<Raster>,
     /// Shadows of each light, and after those of falling snow.
     lookups: Vec<ShadowLookup>,
+    /// What the renderer keeps; empty until the layer is prepared.
+    memory: Arc<Mutex<RasterMemory>>,
 }
 
 impl RasterLayer {
-    /// Prepares a picture of `width` x `height` pixels.
-    pub fn new(world: World, view: View, width: usize, height: usize, quality: Quality) -> RasterLayer {
-        let size = [width as u32, height as u32];
-        RasterLayer { world, view, size, quality, rasters: Vec::new(), lookups: Vec::new() }
+    /// A world as a view shows it. Frames must have the size of the view.
+    pub fn new(world: World, view: &View, settings: &RasterSettings) -> RasterLayer {
+        let (view, settings) = (*view, *settings);
+        RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: Arc::default() }
     }
 
     /// Decides for each light, and for falling snow, where its shadows are looked up: in a map of an earlier frame, or in
     /// rasters that are added. Returns the maps that have to be drawn into.
     #[inline(always)]
     fn look_up_shadows(&mut self) -> Vec<(MapKey, DepthMap)> {
-        let RasterLayer { world, rasters, lookups, .. } = self;
+        let RasterLayer { world, rasters, lookups, memory, .. } = self;
         let bodies = &world.bodies;
         let mut missing = Vec::new();
         let snow = world.snow.iter().map(|snow| &snow.fall);
@@ -63,9 +64,9 @@ impl RasterLayer {
                         key.casters.push(body.clone());
                     }
                 }
-                let traced = BENCH && traced;
+                let traced = cuts::TRACED_SHADOWS && traced;
                 // A traced light has no map, though another frame may have kept one of the same views.
-                let kept = if traced { Err(DepthMap::default()) } else { shadow_maps::recall(&key) };
+                let kept = if traced { Err(DepthMap::default()) } else { lock(memory).maps.recall(&key) };
                 match kept {
                     Ok(map) => lookup.map = Some(map),
                     Err(map) => {
@@ -93,9 +94,9 @@ impl RasterLayer {
     /// ```
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let RasterLayer { world, view, rasters, lookups, quality, .. } = self;
-        let grid = quality.grid() as u32;
-        let count = if grid > 1 { 1 } else { quality.coverage };
+        let RasterLayer { world, view, rasters, lookups, settings, .. } = self;
+        let grid = samples_per_axis(settings.grid) as u32;
+        let count = if grid > 1 { 1 } else { settings.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
         let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
@@ -123,7 +124,9 @@ impl RasterLayer {
                 }
             }
         }
-        if BENCH && let Some(color) = world.background {
+        if cuts::BACKGROUND
+            && let Some(color) = world.background
+        {
             behind(simd, color, tile);
         }
         fragments
@@ -158,49 +161,28 @@ fn cell(at: [u32; 2], n: u32) -> SubPixel {
     at.map(|at| ((2 * at + 1) * (SUB as u32 / 2) / n) as i32)
 }
 
-/// Memory that a thread needs to draw a tile.
-struct Scratch {
-    /// What is visible at each sample of the pixels, and where that sample lies.
-    planes: Vec<(Visible, SubPixel)>,
-    /// The fragments that wait, by texture; the last queue is for plain colours.
-    queues: Vec<FragmentQueue>,
-}
-
-impl Scratch {
-    fn new() -> Scratch {
-        Scratch {
-            planes: (0..16).map(|_| (Visible::new(), CENTER)).collect(),
-            queues: vec![FragmentQueue::EMPTY; PLAIN as usize + 1],
-        }
-    }
-}
-
-/// Memory that threads left for the next tiles: one for each thread that was drawing at the same time.
-static SPARE: Mutex<Vec<Scratch>> = Mutex::new(Vec::new());
-
-fn spare() -> MutexGuard<'static, Vec<Scratch>> {
-    SPARE.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 impl Layer for RasterLayer {
-    fn prepare(&mut self, workers: &Workers) {
+    fn prepare(&mut self, workers: &Workers, cache: &Cache) {
+        self.memory = cache.get();
         let bodies = self.world.bodies.len();
-        rasters::add(&mut self.rasters, &Projection::of_view(&self.view, self.size), false, true, 0, bodies);
+        rasters::add(&mut self.rasters, &Projection::of_view(&self.view), false, true, 0, bodies);
         let mut missing = self.look_up_shadows();
-        let RasterLayer { world, rasters, lookups, .. } = self;
+        let RasterLayer { world, rasters, lookups, memory, .. } = self;
         rasters::set_up(workers, rasters, &world.bodies);
         while let Some((key, mut map)) = missing.pop() {
             let lookup = &mut lookups[key.slot];
             map.resize(key.views[0].size[0] as usize, key.views.len());
             draw_map(workers, &mut map, &rasters[lookup.first..]);
-            lookup.map = Some(shadow_maps::keep(key, map));
+            lookup.map = Some(lock(memory).maps.keep(key, map));
         }
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let mut scratch = spare().pop().unwrap_or_else(Scratch::new);
+        // Bound, so that the lock is free again while the tile is drawn.
+        let spare = lock(&self.memory).spare.pop();
+        let mut scratch = spare.unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
-        spare().push(scratch);
+        lock(&self.memory).spare.push(scratch);
         Stats { samples }
     }
 }

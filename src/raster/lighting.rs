@@ -10,7 +10,7 @@ use super::light::{Light, Source};
 use super::project::Projection;
 use super::rasters::Raster;
 use super::shadow_views::ShadowViews;
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::simd::block::BLOCK;
 use crate::simd::lanes::{Bits, F, Lane, M, V3};
 use crate::texture::Block3;
@@ -121,7 +121,7 @@ fn locate<S: Simd>(simd: S, shadow: &ShadowViews, source: Source, facet: &Facet<
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let Facet { point, normal, cosine } = *facet;
     let size = shadow.views[0].size[0] as f32;
-    let bias = shadow.bias.times(if BENCH && shadow.traced { TRACED_BIAS } else { 1.0 });
+    let bias = shadow.bias.times(if cuts::TRACED_SHADOWS && shadow.traced { TRACED_BIAS } else { 1.0 });
     let sine = (one - cosine * cosine).max(zero).sqrt();
     let tangent = (sine / cosine.max(F::<S>::splat(simd, 1e-3))).min(F::<S>::splat(simd, 4.0));
     let (mut view, mut x, mut y, mut inv_depth) = (zero, zero, zero, zero);
@@ -183,7 +183,7 @@ fn unshadowed<S: Simd>(
     let one = F::<S>::splat(simd, 1.0);
     let lit = match &lookup.map {
         Some(map) => map.lit(simd, points, shadow.smooth),
-        None if !BENCH => one,
+        None if !cuts::TRACED_SHADOWS => one,
         None => {
             let (zero, end) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, shadow.views[0].size[0] as f32 - 0.01));
             let (x, y) = (points.x.max(zero).min(end), points.y.max(zero).min(end));

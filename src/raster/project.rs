@@ -24,11 +24,12 @@ pub struct Projection {
 pub const NEAR: f32 = 0.05;
 
 impl Projection {
-    /// What a view's camera sees, on a raster of `size` pixels, which is the view's.
-    pub fn of_view(view: &View, size: [u32; 2]) -> Projection {
+    /// What a view's camera sees, on the pixels of the view.
+    pub fn of_view(view: &View) -> Projection {
         let camera = view.camera();
         let (middle, pixels) = view.screen();
         let depth = row(camera.forward, camera.eye);
+        let size = [view.width() as u32, view.height() as u32];
         Projection::new([camera.right, camera.up], camera.eye, [Vec4::W, depth], pixels, middle, size)
     }
 

@@ -9,7 +9,7 @@
 //! scatter    add the light to the tile's pixels by coverage
 //! ```
 //!
-//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term [Schlick94].
+//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term \[Schlick94\].
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::id::{Id, parts};
@@ -18,7 +18,7 @@ use super::queue::FragmentQueue;
 use super::snow_cover::{GRAIN, SnowCover};
 use super::triangle::{SUB, SetupMesh, Triangle};
 use super::world::World;
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, STEPS, U, V3, float};
@@ -200,7 +200,7 @@ fn finish<S: Simd>(simd: S, context: &ShadeContext, queue: &mut FragmentQueue) {
         if gloss.simd_gt(zero).any_true() {
             color = glossy(simd, world, color, gloss, way, n);
         }
-        if world.film || !BENCH {
+        if world.film || !cuts::LIGHT_WITHOUT_FILM {
             color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
         }
         let clear = math::exp2(simd, distance * (-haze.density * std::f32::consts::LOG2_E));

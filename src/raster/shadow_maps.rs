@@ -59,17 +59,3 @@ impl ShadowMaps {
         }
     }
 }
-
-static MAPS: std::sync::Mutex<ShadowMaps> = std::sync::Mutex::new(ShadowMaps(Vec::new()));
-/// For now.
-pub fn maps() -> std::sync::MutexGuard<'static, ShadowMaps> {
-    MAPS.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
-}
-/// For now.
-pub fn recall(key: &MapKey) -> Result<Arc<DepthMap>, DepthMap> {
-    maps().recall(key)
-}
-/// For now.
-pub fn keep(key: MapKey, map: DepthMap) -> Arc<DepthMap> {
-    maps().keep(key, map)
-}

@@ -5,7 +5,7 @@ use super::moon::Moon;
 use super::place::{Place, refracted};
 use super::sun;
 use super::time::{sane, turned};
-use crate::settings::Quality;
+use crate::settings::SkySettings;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::level;
 use fearless_simd::{dispatch, prelude::*};
@@ -66,33 +66,13 @@ impl Air {
     }
 }
 
-/// Speed against error of the dome.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DomeQuality {
-    /// Points along a direction where light is gathered, by day; three times as many in the dusk. The error falls with
-    /// their square.
-    pub steps: u32,
-    /// Largest angle between directions that are evaluated, radians; light is interpolated between. 0 is every pixel.
-    pub cell: f32,
-    /// Samples of a pixel along each axis, where every pixel is evaluated.
-    pub grid: usize,
-}
-
-impl DomeQuality {
-    /// What that quality takes: 10 points, and 100 at every pixel where it is exact.
-    pub fn new(quality: &Quality) -> DomeQuality {
-        let exact = quality.cell == 1;
-        DomeQuality { steps: if exact { 100 } else { 10 }, cell: if exact { 0.0 } else { 0.022 }, grid: quality.grid() }
-    }
-}
-
 /// The light of the sky at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Dome {
     /// What stands in it.
     pub sky: Sky,
     /// Speed against error.
-    pub quality: DomeQuality,
+    pub quality: SkySettings,
     /// Light shown of light 1, before the shoulder.
     pub exposure: f32,
     /// Light of the sky as a whole, over the sun's outside of the air: 0.1 by day, 1e-8 at night.
@@ -105,7 +85,7 @@ pub struct Dome {
 
 impl Dome {
     /// The dome of a sky; its exposure follows from the light in a few directions.
-    pub fn new(sky: Sky, quality: DomeQuality) -> Dome {
+    pub fn new(sky: Sky, quality: SkySettings) -> Dome {
         // The moon is left out by day, where it gives 1e-5 of the light, and each when far down.
         let counts = [sky.sun.y >= -0.36, sky.sun.y < 0.05 && sky.moon.y > -0.2];
         let mut lamps = [(sky.sun, 1.0), (sky.moon, MOONLIGHT * sky.lit * sky.lit * sky.lit)]

@@ -23,7 +23,7 @@ use super::guard::Guard;
 use super::packet::Context;
 use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
 use crate::frame::Tile;
-use crate::settings::Quality;
+use crate::settings::{TraceSettings, samples_per_axis};
 use crate::simd::lanes::F;
 use crate::texture::Variation;
 use fearless_simd::prelude::*;
@@ -42,7 +42,7 @@ pub struct Job<'a> {
     /// Squares that must be cut.
     pub guard: &'a Guard,
     /// The knobs.
-    pub quality: &'a Quality,
+    pub quality: &'a TraceSettings,
 }
 
 impl Job<'_> {
@@ -80,7 +80,7 @@ pub struct Scratch {
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
     scratch.deferred.begin(job.context.world.objects.len(), job.quality.subpixel > 0);
     tile.clear();
-    let across = job.quality.grid();
+    let across = samples_per_axis(job.quality.grid);
     let step = 1.0 / across as u32 as f32;
     let mut count = 0;
     for n in 0..across * across {

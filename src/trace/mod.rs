@@ -2,7 +2,7 @@
 //!
 //! One flow: [`world`] (what is there) -> [`guard`] (what must not be missed) -> [`adaptive`] (which rays) ->
 //! [`packet`] (what they see) -> [`fill`] (which pixels that is) -> [`deferred`] (what colour that is).
-//! [`reference`] is the plain truth beside the packets.
+//! [`mod@reference`] is the plain truth beside the packets.
 
 pub mod adaptive;
 pub mod deferred;
@@ -18,7 +18,7 @@ pub mod shape;
 pub mod world;
 
 use crate::frame::{Layer, Stats, Tile};
-use crate::settings::Quality;
+use crate::settings::{Quality, TraceSettings};
 use crate::texture::Variation;
 use crate::view::Camera;
 use crate::view::View;
@@ -37,7 +37,7 @@ pub struct TraceLayer {
     variation: Vec<Variation>,
     view: View,
     guard: Guard,
-    quality: Quality,
+    quality: TraceSettings,
 }
 
 impl TraceLayer {
@@ -48,7 +48,7 @@ impl TraceLayer {
         let guard = Guard::new(&world, &all, &view, width, height);
         let surfaces = world.objects.iter().map(|o| o.material.numbers()).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
-        TraceLayer { world, surfaces, all, variation, view, guard, quality }
+        TraceLayer { world, surfaces, all, variation, view, guard, quality: quality.trace }
     }
 
     /// The objects that eye rays through a tile may meet: by the distance of their bounds from a cone around the tile.
@@ -90,7 +90,7 @@ impl TraceLayer {
     /// Draws a tile; returns the number of eye rays and the memory that it took.
     fn draw_in(&self, level: Level, tile: &mut Tile) -> (u64, Scratch) {
         let TraceLayer { world, surfaces, all, variation, view, guard, quality } = self;
-        let Quality { min_weight, min_detail, light_samples, .. } = *quality;
+        let TraceSettings { min_weight, min_detail, light_samples, .. } = *quality;
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
         let (min_weight, min_detail) = (min_weight / brightest, min_detail / brightest);

@@ -1,31 +1,52 @@
-//! From pixels to eye rays, and from points to pixels.
+//! The view of a picture: from pixels to eye rays, and from points in space to pixels.
+//!
+//! A [`View`] is a [`Camera`] and the size of the picture in pixels. Everything that a renderer asks about the screen is
+//! answered here: rays through pixels, the projection of points, the angle of a pixel, and the cone of a tile, by which
+//! whole bodies are rejected.
 
 mod camera;
+mod cone;
+
+pub use camera::{Camera, Eye, Stereo};
+pub use cone::Cone;
 
 use crate::simd::lanes::{F, Lane, V3};
-pub use camera::{Camera, Eye, Stereo};
 use fearless_simd::prelude::*;
 use glam::Vec3;
 
-/// From pixels to eye rays.
+/// A camera and the size of its picture.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     camera: Camera,
-    /// Screen units of a pixel, and of the middle from the top left corner.
+    width: usize,
+    height: usize,
+    /// Screen units per pixel.
     pixel: f32,
+    /// The screen's middle from its top left corner, screen units.
     half: (f32, f32),
 }
 
 impl View {
-    /// The view of a camera on a picture of that many pixels.
+    /// The view of a camera on a picture of `width` x `height` pixels.
     pub fn new(camera: Camera, width: usize, height: usize) -> View {
         let pixel = 2.0 / height as u32 as f32;
-        View { camera, pixel, half: (width as u32 as f32 / height as u32 as f32 - camera.shift, 1.0) }
+        let half = (width as u32 as f32 / height as u32 as f32 - camera.shift, 1.0);
+        View { camera, width, height, pixel, half }
     }
 
     /// The camera.
     pub fn camera(&self) -> &Camera {
         &self.camera
+    }
+
+    /// Pixels per row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
     }
 
     /// The screen's middle, pixels from its top left corner, and what `right` and `up` times a metre are in pixels at one

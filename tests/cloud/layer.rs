@@ -4,11 +4,11 @@ use super::common::levels;
 use super::oracle::{DAY, FURNACE, ball, cloud, filled, span, truth};
 use fearless_simd::Level;
 use glam::{Vec3, vec3};
+use paprsek::cloud::CloudLayer;
 use paprsek::cloud::march::{Cloud, Look};
-use paprsek::cloud::{CloudLayer, CloudQuality};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::scenes;
-use paprsek::settings::Quality;
+use paprsek::settings::{CloudSettings, Quality};
 use paprsek::view::Camera;
 use paprsek::view::View;
 
@@ -20,12 +20,12 @@ fn view() -> View {
 }
 
 /// Every pixel, nothing left out.
-fn exact() -> CloudQuality {
-    CloudQuality::new(&Quality::EXACT)
+fn exact() -> CloudSettings {
+    Quality::EXACT.cloud
 }
 
 /// Solids by coverage and depth along the view axis, with the clouds over them. They are not all of one colour.
-fn tile(clouds: Vec<Cloud>, look: Look, quality: CloudQuality, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
+fn tile(clouds: Vec<Cloud>, look: Look, quality: CloudSettings, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
     let layer = CloudLayer::new(clouds, look, |_| Vec3::ONE, f32::INFINITY, view(), quality);
     let mut tile = Tile::at(0, 0, 64, 64);
     for at in 0..Tile::AREA {
@@ -45,7 +45,7 @@ fn bits(tile: &Tile) -> Vec<u32> {
 #[test]
 fn an_empty_cloud_leaves_the_picture_as_it_is() {
     let solid = |at: usize| ((at % 5) as f32 * 0.25, 2.0 + (at % 7) as f32 * 0.3);
-    for quality in [exact(), CloudQuality::new(&Quality::FAST), CloudQuality::new(&Quality::REFERENCE)] {
+    for quality in [exact(), Quality::FAST.cloud, Quality::REFERENCE.cloud] {
         let without = bits(&tile(vec![], DAY, quality, solid));
         for empty in [cloud(filled(32, |_| 0), 30.0), cloud(filled(32, |_| 255), 0.0)] {
             assert!(bits(&tile(vec![empty; 2], DAY, quality, solid)) == without, "{quality:?}");
@@ -92,10 +92,10 @@ fn clouds_hide_each_other_in_any_order() {
         ..cloud(ball(32, 3.0), extinction)
     };
     let clouds = [at(1.0, 0.1, 3.0), at(-0.5, -0.2, 9.0), at(-2.0, 0.4, 1.0)];
-    let found = tile(clouds.to_vec(), DAY, CloudQuality { steps: 100, ..exact() }, |_| (0.0, 0.0));
+    let found = tile(clouds.to_vec(), DAY, CloudSettings { steps: 100, ..exact() }, |_| (0.0, 0.0));
     for order in [[2, 1, 0], [1, 2, 0], [0, 2, 1]] {
         let again =
-            tile(order.map(|i| clouds[i].clone()).to_vec(), DAY, CloudQuality { steps: 100, ..exact() }, |_| {
+            tile(order.map(|i| clouds[i].clone()).to_vec(), DAY, CloudSettings { steps: 100, ..exact() }, |_| {
                 (0.0, 0.0)
             });
         assert!(bits(&again) == bits(&found), "{order:?}");
@@ -118,24 +118,25 @@ fn clouds_hide_each_other_in_any_order() {
 #[test]
 fn exact_takes_no_shortcut() {
     for quality in [Quality::EXACT, Quality::REFERENCE] {
-        let CloudQuality { detail, opaque, hidden, cell, .. } = CloudQuality::new(&quality);
+        let CloudSettings { detail, opaque, hidden, cell, .. } = quality.cloud;
         assert_eq!((detail, opaque, hidden, cell), (f32::INFINITY, 0.0, 0.0, 1));
     }
     // Cells that always are cut give each pixel's own ray.
     let clouds = || vec![cloud(ball(32, 4.0), 5.0)];
     let solid = |_| (0.0, 0.0);
     let every = bits(&tile(clouds(), DAY, exact(), solid));
-    let corners = tile(clouds(), DAY, CloudQuality { cell: 8, threshold: -1.0, ..exact() }, solid);
+    let corners = tile(clouds(), DAY, CloudSettings { cell: 8, threshold: -1.0, ..exact() }, solid);
     assert!(bits(&corners) == every);
 }
 
 #[test]
 fn cells_are_off_by_less_than_their_threshold() {
     let clouds = || vec![cloud(ball(32, 9.0), 5.0)];
-    let every = tile(clouds(), FURNACE, CloudQuality { steps: 100, ..exact() }, |_| (0.0, 0.0));
+    let every = tile(clouds(), FURNACE, CloudSettings { steps: 100, ..exact() }, |_| (0.0, 0.0));
     let mut last = f32::INFINITY;
     for threshold in [0.1, 0.03, 0.01, 0.003] {
-        let cells = tile(clouds(), FURNACE, CloudQuality { steps: 100, cell: 8, threshold, ..exact() }, |_| (0.0, 0.0));
+        let cells =
+            tile(clouds(), FURNACE, CloudSettings { steps: 100, cell: 8, threshold, ..exact() }, |_| (0.0, 0.0));
         let squares: f32 = every.red.iter().zip(cells.red.iter()).map(|(a, b)| (a - b) * (a - b)).sum();
         let error = (squares / Tile::AREA as f32).sqrt();
         println!("threshold {threshold}: rms {error}");
@@ -168,11 +169,11 @@ fn fast_is_close_to_exact() {
 fn every_level_draws_the_same_bits() {
     let clouds =
         || vec![cloud(ball(32, 4.0), 5.0), Cloud { centre: vec3(0.5, 0.5, -1.0), ..cloud(ball(16, 2.0), 3.0) }];
-    for quality in [Quality::FAST, Quality::REFERENCE].map(|quality| CloudQuality::new(&quality)) {
+    for quality in [Quality::FAST, Quality::REFERENCE].map(|quality| quality.cloud) {
         let mut first = None;
         for (name, level) in levels() {
             let layer =
-                CloudLayer::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudQuality { steps: 100, ..quality });
+                CloudLayer::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudSettings { steps: 100, ..quality });
             let mut tile = Tile::at(0, 0, 64, 50);
             for at in 0..Tile::AREA {
                 tile.coverage[at] = (at % 3) as f32 * 0.5;

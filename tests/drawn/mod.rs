@@ -58,7 +58,7 @@ pub fn draw(world: &World, camera: Camera, size: [usize; 2], quality: Quality, l
     let planes =
         Planes { width, height, color: vec![Vec3::NAN; n], inv_depth: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
     let planes = Arc::new(Mutex::new(planes));
-    let drawn = RasterLayer::new(world.clone(), View::new(camera, width, height), width, height, quality);
+    let drawn = RasterLayer::new(world.clone(), &View::new(camera, width, height), &quality.raster);
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn), Box::new(Probe(planes.clone()))];
     let mut renderer = Renderer::new(1).unwrap().at_level(level);
     renderer.draw(Picture { layers, transfer: Transfer::Gamma22 }, &mut Frame::new(width, height));

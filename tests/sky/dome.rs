@@ -4,9 +4,9 @@ use crate::common;
 use glam::{DVec3, Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
-use paprsek::settings::Quality;
+use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
-use paprsek::sky::dome::{Dome, DomeQuality, Sky};
+use paprsek::sky::dome::{Dome, Sky};
 use paprsek::sky::layer::{Look, SkyLayer};
 use paprsek::sky::place::Place;
 use paprsek::view::Camera;
@@ -27,7 +27,7 @@ pub fn sky(altitude: f32) -> Sky {
     }
 }
 
-const EXACT: DomeQuality = DomeQuality { steps: 100, cell: 0.0, grid: 1 };
+const EXACT: SkySettings = SkySettings { steps: 100, cell: 0.0, grid: 1 };
 
 fn toward(altitude: f32, azimuth: f32) -> Vec3 {
     let ((y, level), (x, z)) = (altitude.to_radians().sin_cos(), azimuth.to_radians().sin_cos());
@@ -138,7 +138,7 @@ fn no_jump_as_the_sun_goes_down() {
     // more, nor its pace. The glow on the horizon fades fastest, at -11 degrees.
     const CODES: f32 = 4.0;
     const PACE: f32 = 1.0;
-    let quality = DomeQuality::new(&Quality::DEFAULT);
+    let quality = Quality::DEFAULT.sky;
     let look = |altitude: f32| {
         let dome = Dome::new(sky(altitude), quality);
         let mut colors = vec![];
@@ -222,7 +222,7 @@ fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
     assert!(light.z > 1.1 * dark.z && light.z > light.x && light.max_element() < 0.15, "{dark} {light}");
 }
 
-fn frame(renderer: &mut Renderer, sky: Sky, quality: DomeQuality, look: Look, size: (usize, usize)) -> Frame {
+fn frame(renderer: &mut Renderer, sky: Sky, quality: SkySettings, look: Look, size: (usize, usize)) -> Frame {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.3, 0.3, -1.0), 0.9, 0.1);
     let layer = SkyLayer::new(Dome::new(sky, quality), camera, size.0, size.1, look);
     let mut frame = Frame::new(size.0, size.1);
@@ -239,7 +239,7 @@ fn skies() -> [Sky; 3] {
 #[test]
 fn the_same_bytes_at_every_level_and_on_any_threads() {
     for sky in skies() {
-        for quality in [Quality::FAST, Quality::EXACT].map(|q| DomeQuality::new(&q)) {
+        for quality in [Quality::FAST, Quality::EXACT].map(|q| q.sky) {
             for size in [(200, 130), (67, 3), (1, 1)] {
                 let look = Look { moon: 12.0, ..Look::default() };
                 let truth = frame(&mut Renderer::new(1).unwrap(), sky, quality, look, size);
@@ -261,8 +261,8 @@ fn cells_are_as_good_as_pixels() {
     let mut renderer = Renderer::new(0).unwrap();
     let mut worst = 0;
     for altitude in [50.0, 10.0, 2.0, 0.0, -3.0, -6.0, -10.0, -18.0] {
-        let fine = DomeQuality { steps: 10, cell: 0.0, grid: 1 };
-        let coarse = DomeQuality { cell: 0.022, ..fine };
+        let fine = SkySettings { steps: 10, cell: 0.0, grid: 1 };
+        let coarse = SkySettings { cell: 0.022, ..fine };
         let size = (1280, 720);
         let a = frame(&mut renderer, sky(altitude), fine, Look::default(), size);
         let b = frame(&mut renderer, sky(altitude), coarse, Look::default(), size);
@@ -282,7 +282,7 @@ fn fills_what_solids_leave() {
     for sky in skies() {
         let layer = |behind| {
             let look = Look { behind, ..Look::default() };
-            SkyLayer::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look)
+            SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look)
         };
         for (_, level) in common::levels() {
             let (mut all, mut rest) = (Tile::at(0, 0, 64, 64), Tile::at(0, 0, 64, 64));
@@ -353,7 +353,7 @@ fn the_moon_is_lit_where_the_sun_is() {
         let camera = Camera::look_at(Vec3::ZERO, moon, 0.2, 0.0);
         let look = Look { moon: 10.0, ..Look::default() };
         let mut tile = Tile::at(0, 0, 64, 64);
-        let layer = SkyLayer::new(Dome::new(sky, DomeQuality::new(&Quality::FAST)), camera, 64, 64, look);
+        let layer = SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look);
         layer.draw(common::levels()[0].1, &mut tile);
         let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
         for i in 0..Tile::AREA {
@@ -380,7 +380,7 @@ fn the_sun_reddens_towards_the_horizon() {
         let sky = sky(altitude);
         let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
-        let dome = Dome::new(sky, DomeQuality::new(&Quality::FAST));
+        let dome = Dome::new(sky, Quality::FAST.sky);
         SkyLayer::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
         let middle = 32 * Tile::SIZE + 32;
         let (red, blue) = (tile.red[middle], tile.blue[middle]);
@@ -397,7 +397,7 @@ fn the_light_is_handed_over_without_a_jump() {
     let (mut last, mut turns) = (None::<(Vec3, Vec3)>, 0);
     for minute in 0..1440 {
         let days = 9676.5 + minute as f64 / 1440.0;
-        let light = Dome::new(Sky::new(days, &Place::PLZEN), DomeQuality::new(&Quality::DEFAULT)).lighting();
+        let light = Dome::new(Sky::new(days, &Place::PLZEN), Quality::DEFAULT.sky).lighting();
         if let Some((direction, color)) = last {
             // A sinking sun loses its light within a few minutes.
             assert!((light.color - color).length() < 0.35, "{minute}: {color} {}", light.color);
@@ -418,7 +418,7 @@ proptest! {
         x in -1.0..1.0f32, y in -1.0..1.0f32, z in -1.0..1.0f32,
     ) {
         let sky = Sky::new(days, &Place { latitude, longitude });
-        let dome = Dome::new(sky, DomeQuality::new(&Quality::DEFAULT));
+        let dome = Dome::new(sky, Quality::DEFAULT.sky);
         for d in [vec3(x, y, z).normalize_or(Vec3::Y), Vec3::Y, -Vec3::Y, sky.sun, sky.moon, -sky.sun] {
             let c = dome.radiance(d);
             prop_assert!(c.is_finite() && c.min_element() >= 0.0 && c.max_element() <= 1.0, "{} {}", d, c);

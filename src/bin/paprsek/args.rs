@@ -6,8 +6,8 @@
 use crate::io::contents;
 use crate::io::fill;
 use crate::text::{decimal, whole};
-use paprsek::frame::Scene;
 use paprsek::frame::pool::cores;
+use paprsek::frame::{Options, Scene};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use paprsek::view::Stereo;
@@ -137,13 +137,11 @@ pub struct Args {
     pub still: bool,
     /// Frames per second of a capture, and those that playing holds.
     pub fps: f64,
-    /// Two eyes instead of one.
-    pub stereo: Option<Stereo>,
     /// The window fills the screen.
     pub full: bool,
-    /// Speed against error.
-    pub quality: Quality,
-    /// What `quality` is called.
+    /// Quality, eyes and parameters.
+    pub options: Options<'static>,
+    /// The name of the quality.
     #[cfg(feature = "full")]
     pub quality_name: &'static str,
     /// Frames may be smaller while they come late: neither size nor quality was asked for.
@@ -224,9 +222,8 @@ impl Args {
             end,
             still,
             fps,
-            stereo,
             full,
-            quality,
+            options: Options { quality, stereo, values: &[] },
             #[cfg(feature = "full")]
             quality_name: _quality_name,
             governed,

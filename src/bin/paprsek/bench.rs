@@ -72,7 +72,7 @@ fn time(renderer: &mut Renderer, scene: &Scene, args: &Args, frame: &mut Frame) 
         // Through the range, and from its start again.
         let instant = start + (number % steps) as f64 * STEP;
         let began = Instant::now();
-        let stats = renderer.render_eyes(scene, instant, &args.quality, args.stereo, frame);
+        let stats = renderer.render_with(scene, instant, &args.options, frame);
         // Never zero, since its inverse is printed: a microsecond is below what a frame can take.
         ((began.elapsed().as_secs_f64() * 1000.0).max(1e-3), stats.samples)
     };

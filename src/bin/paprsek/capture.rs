@@ -25,7 +25,7 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
     for number in args.frames() {
         // Of a range the film's frames that lie in it, whatever else was captured: so pieces make the whole.
         let time = if args.still { args.start.unwrap_or(0.0) } else { number as f64 / args.fps };
-        renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
+        renderer.render_with(args.scene(), time, &args.options, &mut frame);
         let pieces = ppm(&frame);
         if piped {
             stream(pieces)?;

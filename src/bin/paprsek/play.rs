@@ -178,7 +178,7 @@ fn draw(args: &Args, renderer: &mut Renderer, time: f64, step: usize, frame: &mu
     (frame.width, frame.height) = (width * eighths / 8, height * eighths / 8);
     // There is memory for the whole.
     frame.pixels.resize(frame.width * frame.height, 0);
-    renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, frame);
+    renderer.render_with(args.scene(), time, &args.options, frame);
 }
 
 /// A panic elsewhere has ended the process already; the lock itself cannot fail.

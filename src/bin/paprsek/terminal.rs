@@ -50,7 +50,7 @@ pub fn play(args: &Args) -> Result<(), String> {
         if (frame.width, frame.height) != (columns, 2 * rows) {
             frame = canvas::frame((columns, 2 * rows))?;
         }
-        renderer.render_eyes(args.scene(), time, &args.quality, args.stereo, &mut frame);
+        renderer.render_with(args.scene(), time, &args.options, &mut frame);
         text.clear();
         encode(&frame, &mut text);
         write(&text).map_err(|error| format!("cannot write to the terminal: {error}"))?;

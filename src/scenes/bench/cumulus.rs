@@ -2,10 +2,10 @@
 
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
+use crate::cloud::CloudLayer;
 use crate::cloud::march::Look;
-use crate::cloud::{CloudLayer, CloudQuality};
 use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Scene};
+use crate::frame::{Cache, FrameSpec, Scene};
 use crate::frame::{Layer, Picture, Stats, Tile, Workers};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
@@ -24,7 +24,7 @@ pub const CUMULUS_INSIDE: Scene =
 pub const SKY_OF_CLOUDS: Scene = scene("sky-of-clouds", "bench: a hundred clouds of voxels", |spec| picture(spec, 2));
 
 const fn scene(name: &'static str, about: &'static str, picture: fn(&FrameSpec) -> Picture) -> Scene {
-    Scene { name, about, duration: 20.0, picture }
+    Scene { name, about, duration: 20.0, parameters: &[], picture }
 }
 
 /// The sky at the horizon, and what haze looks like.
@@ -42,8 +42,8 @@ fn picture(spec: &FrameSpec, variant: usize) -> Picture {
     };
     let q = &spec.quality;
     // `fast` takes the steps that are specified, and ends rays where it says; `exact` is the limit of both.
-    let clouds = CloudLayer::new(set::clouds(variant), look, |_| HAZE, 1400.0, view, CloudQuality::new(q));
-    let cells = Cells { size: if q.cell > 1 { 8 } else { 1 }, grid: q.grid };
+    let clouds = CloudLayer::new(set::clouds(variant), look, |_| HAZE, 1400.0, view, q.cloud);
+    let cells = Cells { size: if q.cloud.cell > 1 { 8 } else { 1 }, grid: q.cloud.grid };
     Picture {
         layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })],
         transfer: Transfer::Linear,
@@ -85,8 +85,8 @@ struct Cumuli {
 }
 
 impl Layer for Cumuli {
-    fn prepare(&mut self, workers: &Workers) {
-        self.clouds.prepare(workers);
+    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
+        self.clouds.prepare(workers, _cache);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {

@@ -13,10 +13,16 @@ use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
 
 /// Flakes of which 200,000 may be seen.
-pub const SNOW: Scene = Scene { name: "snow", about: "bench: 200,000 flakes of snow", duration: 20.0, picture: snow };
+pub const SNOW: Scene =
+    Scene { name: "snow", about: "bench: 200,000 flakes of snow", duration: 20.0, parameters: &[], picture: snow };
 /// Five torches of 2,000 sprites.
-pub const FIRE: Scene =
-    Scene { name: "fire", about: "bench: five torches of 2,000 sprites", duration: 20.0, picture: fire };
+pub const FIRE: Scene = Scene {
+    name: "fire",
+    about: "bench: five torches of 2,000 sprites",
+    duration: 20.0,
+    parameters: &[],
+    picture: fire,
+};
 
 /// The flakes, as specified.
 pub const FLAKES: Flakes = Flakes {

@@ -13,7 +13,7 @@ use glam::{DVec3, Mat3, Vec3, vec3};
 
 /// The scene.
 pub const RAIN: Scene =
-    Scene { name: "rain", about: "a shower in autumn, looking ahead and up", duration: 20.0, picture };
+    Scene { name: "rain", about: "a shower in autumn, looking ahead and up", duration: 20.0, parameters: &[], picture };
 
 const DROPS: Flakes = Flakes {
     seed: 6,

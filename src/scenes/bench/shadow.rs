@@ -15,6 +15,7 @@ pub const SHADOW: Scene = Scene {
     name: "shadow",
     about: "bench: boxes and pines under the sun, one depth map",
     duration: 20.0,
+    parameters: &[],
     picture: sun,
 };
 /// By torch light.
@@ -22,6 +23,7 @@ pub const SHADOW_CUBE: Scene = Scene {
     name: "shadow-cube",
     about: "bench: the same by a torch, a cube of depth maps",
     duration: 20.0,
+    parameters: &[],
     picture: torch,
 };
 

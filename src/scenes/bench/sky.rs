@@ -14,11 +14,12 @@ use std::f32::consts::LOG2_E;
 use std::sync::OnceLock;
 
 /// The scene.
-pub const SKY: Scene = Scene { name: "sky", about: "bench: a sunrise, stars", duration: 20.0, picture };
+pub const SKY: Scene =
+    Scene { name: "sky", about: "bench: a sunrise, stars", duration: 20.0, parameters: &[], picture };
 
 fn picture(spec: &FrameSpec) -> Picture {
     let view = View::new(spec.camera(camera(spec.time)), spec.width, spec.height);
-    let cells = Cells { size: if spec.quality.cell > 1 { 8 } else { 1 }, grid: spec.quality.grid };
+    let cells = Cells { size: if spec.quality.sky.cell > 0.0 { 8 } else { 1 }, grid: spec.quality.sky.grid };
     Picture { layers: vec![Box::new(Cycle::new(spec.time, view, cells))], transfer: Transfer::Gamma22 }
 }
 

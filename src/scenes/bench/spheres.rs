@@ -12,16 +12,27 @@ use glam::{Vec3, vec3};
 use std::f64::consts::FRAC_PI_4;
 
 /// Textured.
-pub const SPHERES: Scene =
-    Scene { name: "spheres", about: "bench: nine spheres, noise textures", duration: 20.0, picture: textured };
+pub const SPHERES: Scene = Scene {
+    name: "spheres",
+    about: "bench: nine spheres, noise textures",
+    duration: 20.0,
+    parameters: &[],
+    picture: textured,
+};
 /// Without textures.
-pub const SPHERES_FLAT: Scene =
-    Scene { name: "spheres-flat", about: "bench: the same in plain colours", duration: 20.0, picture: flat };
+pub const SPHERES_FLAT: Scene = Scene {
+    name: "spheres-flat",
+    about: "bench: the same in plain colours",
+    duration: 20.0,
+    parameters: &[],
+    picture: flat,
+};
 /// With a glass ball.
 pub const SPHERES_GLASS: Scene = Scene {
     name: "spheres-glass",
     about: "bench: plain colours, the middle one of glass",
     duration: 20.0,
+    parameters: &[],
     picture: glass,
 };
 

@@ -5,7 +5,7 @@ use crate::cloud::field::Field;
 use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
 use crate::cloud::voxels::Voxels;
-use crate::cloud::{CloudLayer, CloudQuality, shadow, sunlight};
+use crate::cloud::{CloudLayer, shadow, sunlight};
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Picture, Workers};
 use crate::raster::CloudShadow;
@@ -18,7 +18,14 @@ use std::f32::consts::FRAC_PI_2;
 use std::sync::{Arc, Mutex};
 
 /// The part.
-pub const CLOUDS: Scene = Scene::part("clouds", "a flight through clouds, from dawn to noon", LENGTH, picture);
+pub const CLOUDS: Scene = Scene {
+    name: "clouds",
+    about: "a flight through clouds, from dawn to noon",
+    duration: LENGTH,
+    parameters: &[],
+    picture,
+}
+.part();
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 50.0;
@@ -124,7 +131,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let mut seen = CloudLayer::new(clouds.clone(), look, air, 9000.0, view, CloudQuality::new(&spec.quality));
+    let mut seen = CloudLayer::new(clouds.clone(), look, air, 9000.0, view, spec.quality.cloud);
     seen.shade(&clouds);
     day::show(spec, dome, world, view, Some(Box::new(seen)))
 }

@@ -9,7 +9,7 @@ use crate::scenes::models::{chapel, land, mustang, tree};
 use crate::scenes::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
 };
-use crate::sky::dome::{Dome, DomeQuality, Sky};
+use crate::sky::dome::{Dome, Sky};
 use crate::sky::layer::{Look, SkyLayer};
 use crate::sky::place::Place;
 use crate::texture::Texture;
@@ -21,7 +21,14 @@ use std::f32::consts::TAU;
 use std::sync::{Arc, Mutex};
 
 /// The part.
-pub const DAY: Scene = Scene::part("day", "a hill by a lake: four days, one of each season", 4.0 * LENGTH, picture);
+pub const DAY: Scene = Scene {
+    name: "day",
+    about: "a hill by a lake: four days, one of each season",
+    duration: 4.0 * LENGTH,
+    parameters: &[],
+    picture,
+}
+.part();
 
 /// Seconds that a day takes, from four in the morning to four in the morning.
 pub const LENGTH: f64 = 60.0;
@@ -138,7 +145,7 @@ pub(in crate::scenes) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Text
 /// The sky of a day, from J2000.
 #[inline(never)]
 pub(in crate::scenes) fn sky(spec: &FrameSpec, day: f64) -> Dome {
-    Dome::new(Sky::new(day, &Place::PLZEN), DomeQuality::new(&spec.quality))
+    Dome::new(Sky::new(day, &Place::PLZEN), spec.quality.sky)
 }
 
 /// The picture of a world under a sky, with what is between.
@@ -152,8 +159,7 @@ pub(in crate::scenes) fn show(
 ) -> Picture {
     let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
     let backdrop = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
-    let mut layers: Vec<Box<dyn Layer>> =
-        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, spec.quality))];
+    let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(RasterLayer::new(world, &view, &spec.quality.raster))];
     layers.extend(between);
     layers.push(Box::new(backdrop));
     Picture { layers, transfer: Transfer::Srgb }
@@ -239,13 +245,13 @@ pub(in crate::scenes) fn cascades(
     ends: &[f32],
 ) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
-    let size = if spec.quality.shadow_map == 0 { 1024 } else { spec.quality.shadow_map };
+    let size = if spec.quality.raster.shadow_map == 0 { 1024 } else { spec.quality.raster.shadow_map };
     Some(ShadowViews {
         views: fit::cascades(camera, aspect, towards, ends, size),
         // The curve of docs/report/shadows.md has its knee here.
         bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
         back_faces: false,
-        traced: BENCH && spec.quality.shadow_map == 0,
+        traced: BENCH && spec.quality.raster.shadow_map == 0,
         first_caster: 0,
         smooth: true,
     })

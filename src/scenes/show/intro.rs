@@ -15,7 +15,7 @@ use glam::{Vec3, vec3};
 
 /// The show.
 pub const INTRO: Scene =
-    Scene { name: "intro", about: "the show: its parts one after another", duration: END, picture };
+    Scene { name: "intro", about: "the show: its parts one after another", duration: END, parameters: &[], picture };
 
 /// The parts by the second that each starts, with the second of its own time that it begins at: a dawn, a morning in
 /// June, the flight, a sunset in September, the first snow, a night with fires, and the last light.
@@ -43,7 +43,7 @@ pub const FADE: f64 = 0.5;
 
 fn picture(spec: &FrameSpec) -> Picture {
     let ((part, from), time) = timeline::cut(PARTS, END, spec.time);
-    let mut picture = part.picture(&FrameSpec { time: from + time, ..*spec });
+    let mut picture = (part.picture)(&FrameSpec { time: from + time, ..*spec });
     write(spec, &mut picture);
     let light = light(PARTS, END, spec.time);
     if light < 1.0 {

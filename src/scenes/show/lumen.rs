@@ -18,7 +18,14 @@ use crate::view::Camera;
 use glam::{Mat3, Vec3, vec3};
 
 /// The part.
-pub const LUMEN: Scene = Scene::part("lumen", "a ray of light: glass, marble, wood, mirrors", END, picture);
+pub const LUMEN: Scene = Scene {
+    name: "lumen",
+    about: "a ray of light: glass, marble, wood, mirrors",
+    duration: END,
+    parameters: &[],
+    picture,
+}
+.part();
 
 /// Seconds that the part takes.
 const END: f64 = 56.0;

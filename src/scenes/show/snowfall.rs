@@ -16,7 +16,14 @@ use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
-pub const SNOWFALL: Scene = Scene::part("snowfall", "a walk through the first snow, into the dusk", LENGTH, picture);
+pub const SNOWFALL: Scene = Scene {
+    name: "snowfall",
+    about: "a walk through the first snow, into the dusk",
+    duration: LENGTH,
+    parameters: &[],
+    picture,
+}
+.part();
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 32.0;
@@ -127,7 +134,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         fields.push(Emitter::Snow(snow));
     }
     let flakes = ParticleLayer::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, spec.width, spec.height);
-    let drawn = RasterLayer::new(world, view, spec.width, spec.height, spec.quality);
+    let drawn = RasterLayer::new(world, &view, &spec.quality.raster);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {
         layers.push(Box::new(fog));

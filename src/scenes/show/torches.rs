@@ -18,7 +18,9 @@ use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use std::sync::{Arc, Mutex};
 
 /// The scene.
-pub const TORCHES: Scene = Scene::part("torches", "fires in a ruin under the moon", LENGTH, picture);
+pub const TORCHES: Scene =
+    Scene { name: "torches", about: "fires in a ruin under the moon", duration: LENGTH, parameters: &[], picture }
+        .part();
 
 /// Seconds that it takes.
 pub const LENGTH: f64 = 30.0;
@@ -115,7 +117,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, 0.4));
     // 1 / (1 + 0.0004 D + 0.000028 D^2) as in the thesis, if a unit of its game is half a centimetre.
-    let traced = BENCH && spec.quality.shadow_map == 0;
+    let traced = BENCH && spec.quality.raster.shadow_map == 0;
     day::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
 }
 
@@ -169,7 +171,7 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
                 weight: 1.0,
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
-            flames.push(Emitter::Fire(fire.detailed(view, spec.quality.particle_detail)));
+            flames.push(Emitter::Fire(fire.detailed(view, spec.quality.particles.detail)));
         }
     }
     ParticleLayer::new(flames, Vec3::ZERO, 1.6, view, spec.width, spec.height)

@@ -1,0 +1,37 @@
+//! The cone of eye rays through a rectangle of the picture.
+
+use super::View;
+use glam::Vec3;
+
+/// A cone with its apex at the eye that holds every ray through a rectangle of pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    /// Unit vector along the axis.
+    axis: Vec3,
+    /// Cosine and sine of the half angle.
+    cosine: f32,
+    sine: f32,
+}
+
+impl Cone {
+    /// The cone of the rays through the square of `2 * half` pixels around the point (`x`, `y`).
+    ///
+    /// Its axis is the ray through the point, and its angle that of the corner which is farthest from it.
+    pub fn new(view: &View, (x, y): (f32, f32), half: f32) -> Cone {
+        let axis = view.ray(x, y).normalize();
+        let corners = [(-half, -half), (half, -half), (-half, half), (half, half)];
+        let cosine = |(dx, dy)| axis.dot(view.ray(x + dx, y + dy).normalize());
+        let cosine = corners.map(cosine).into_iter().fold(1.0f32, f32::min);
+        Cone { axis, cosine, sine: (1.0 - cosine * cosine).sqrt() }
+    }
+
+    /// Whether a ray of the cone may meet a ball: its centre from the eye, and its radius, metres. Never false where one
+    /// does: the ball is taken a thousandth larger, and farther, than it is.
+    pub fn may_meet(&self, centre: Vec3, radius: f32) -> bool {
+        let along = centre.dot(self.axis);
+        let across = centre.distance(self.axis * along);
+        // How far the centre lies outside of the cone, unless it is behind the eye.
+        let outside = across * self.cosine - along * self.sine;
+        along >= -radius && outside <= radius * 1.001 + centre.length() * 1e-3
+    }
+}
