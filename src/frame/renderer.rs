@@ -1,4 +1,8 @@
-//! From a scene at an instant to finished pixels.
+//! The renderer: from a scene at an instant to finished pixels.
+//!
+//! A frame is cut into bands of 64 rows and these into tiles. Threads take one band after another; each draws all layers
+//! of the picture into a tile, encodes it, and goes on to the next. A frame is a pure function of what is asked for:
+//! neither the number of threads, nor the SIMD level, nor the frames before it change a byte.
 
 use super::cache::Cache;
 use super::encode::{self, Transfer};
@@ -53,9 +57,9 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer on `threads` threads (0: all cores) at the best SIMD level of this machine.
+    /// A renderer on `threads` threads, or one per core if 0, at the best SIMD level of this machine.
     ///
-    /// The calling thread becomes a worker where it can. Fails where threads cannot be started.
+    /// The calling thread is one of them where it can be. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
         Ok(Renderer { workers: Workers::new(threads)?, cache: Cache::default() })
     }
@@ -124,7 +128,7 @@ impl Renderer {
         FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, values: &[], workers, cache }
     }
 
-    /// Draws a picture that was made for a frame of that size.
+    /// Draws a picture that was made for the frame's size.
     pub fn draw(&mut self, picture: Picture, frame: &mut Frame) -> Stats {
         self.draw_at(picture, 0, frame.width, frame)
     }
@@ -136,8 +140,8 @@ impl Renderer {
         }
         let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
-        // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
-        // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
+        // The pixels of a band are contiguous, so threads never share a cache line. Bands are handed out one at a time, so
+        // that a few expensive ones do not all fall to one thread.
         let bands = frame.pixels.chunks_mut((stride * Tile::SIZE).max(1)).enumerate();
         let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
@@ -155,7 +159,7 @@ impl Renderer {
     }
 }
 
-/// From the tile's light to the screen's codes.
+/// Encodes the pixels of a tile into a band of the frame.
 #[inline(always)]
 fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
     for row in 0..tile.height {
