@@ -11,9 +11,7 @@ use glam::{Affine3A, Vec2, Vec3};
 use paprsek::frame::cache::lock;
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::{
-    Bias, Body, Haze, Light, Projection, RasterLayer, RasterMemory, ShadowViews, Source, World, fit,
-};
+use paprsek::raster::{Bias, Body, Light, Projection, RasterLayer, RasterMemory, ShadowViews, World, fit};
 use paprsek::scenes;
 use paprsek::scenes::bench::shadow_set;
 use paprsek::settings::Quality;
@@ -67,39 +65,26 @@ impl Case {
 
     fn light(self, time: f64) -> Light {
         let (_, size, _) = self.numbers();
-        let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let (source, views) = match self {
+        let (light, views) = match self {
             Case::Sun => {
                 let towards = shadow_set::sun(time).as_vec3();
-                (Source::Sun(towards), vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)])
+                let views = vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)];
+                (Light::sun(towards, Vec3::ONE), views)
             }
             Case::Cube => {
                 let position = shadow_set::torch(time).as_vec3();
-                let falloff = Vec2::new(0.0, 0.06);
-                (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
+                let light = Light::lamp(position, Vec3::ONE, Vec2::new(0.0, 0.06), f32::INFINITY);
+                (light, fit::cube(position, size as u32))
             }
         };
-        let shadow =
-            Some(ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: false });
-        Light { source, color: Vec3::ONE, shadow }
+        light.with_shadow(ShadowViews { smooth: false, ..ShadowViews::new(views, Bias::default()) })
     }
 }
 
 /// The set under a light, whose maps are all that is drawn: the camera is far off and looks away.
 fn depth_only(bodies: &[Body], light: Light) -> Picture {
     let camera = Camera::look_at(Vec3::splat(1e4), Vec3::splat(2e4), 0.1, 0.0);
-    let world = World {
-        bodies: bodies.to_vec(),
-        textures: Vec::new(),
-        lights: vec![light],
-        ambient: [Vec3::ZERO; 2],
-        cloud_shadow: None,
-        snow: None,
-        haze: Haze::even(Vec3::ZERO, 0.0),
-        zenith: Vec3::ZERO,
-        film: false,
-        background: None,
-    };
+    let world = World { lights: vec![light], ..World::new(bodies.to_vec()) };
     let drawn = RasterLayer::new(world, &View::new(camera, Tile::SIZE, Tile::SIZE), &Quality::FAST.raster);
     Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }
 }

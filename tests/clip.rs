@@ -9,7 +9,7 @@ use drawn::{Planes, block, body, dark, draw, ground, ray, triangles};
 use glam::{Affine3A, DVec3, Vec3, vec3};
 use oracle::random::Random;
 use paprsek::raster::project::NEAR;
-use paprsek::raster::{Body, Light, Source, World};
+use paprsek::raster::{Body, Light, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use proptest::prelude::*;
@@ -325,7 +325,7 @@ proptest! {
 
 /// Three suns along the axes: a white surface has its normal as its colour, where that has no negative part.
 fn suns() -> Vec<Light> {
-    Vec3::AXES.map(|axis| Light { source: Source::Sun(axis), color: axis, shadow: None }).to_vec()
+    Vec3::AXES.map(|axis| Light::sun(axis, axis)).to_vec()
 }
 
 #[test]

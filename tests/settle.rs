@@ -3,11 +3,12 @@
 mod common;
 mod drawn;
 
-use drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
+use drawn::{Planes, block, body, dark, draw, draw_with, enters, ground, ray, triangles};
 use glam::{DVec3, Vec3, vec3};
+use paprsek::frame::Cache;
 use paprsek::noise::noise;
 use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, WHITE};
-use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, Source, World};
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
 use paprsek::view::Camera;
@@ -19,18 +20,12 @@ const GROUND: Vec3 = vec3(0.16, 0.14, 0.05);
 
 /// A plan of one view straight down, `width` metres wide.
 fn plan(width: f32, texels: u32) -> ShadowViews {
-    ShadowViews {
-        views: vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)],
-        bias: Bias { constant: 0.05, slope: 2.0, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        first_caster: 0,
-        smooth: true,
-    }
+    let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)];
+    ShadowViews::new(views, Bias { constant: 0.05, slope: 2.0, normal: 0.0 })
 }
 
 fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
-    let fall = Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow };
+    let fall = Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) };
     Some(SnowCover { amount, fall, sky: Vec3::ZERO })
 }
 
@@ -263,15 +258,17 @@ fn more_snow_is_nowhere_less_white() {
 #[test]
 fn every_level_gives_the_same_bits_with_a_kept_map_too() {
     let (world, camera) = stage();
+    let cache = Cache::default();
     for quality in [Quality::FAST, Quality::DEFAULT] {
         let world = World { snow: snow(0.6, Some(plan(24.0, 128))), ..world.clone() };
         let truth = draw(&world, camera, SIZE, quality, common::levels()[0].1);
         for (name, level) in common::levels() {
             for _ in 0..2 {
-                assert_eq!(draw(&world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
+                assert_eq!(draw_with(&cache, &world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
             }
             // Other snow in between.
-            draw(&World { snow: snow(0.6, Some(plan(12.0, 64))), ..world.clone() }, camera, SIZE, quality, level);
+            let other = World { snow: snow(0.6, Some(plan(12.0, 64))), ..world.clone() };
+            draw_with(&cache, &other, camera, SIZE, quality, level);
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The second part of the intro: days on a hill by a lake, from dawn to the stars, through the year.
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture};
-use crate::raster::{Bias, Body, Haze, Light, RasterLayer, ShadowViews, Source, World, fit};
+use crate::raster::{Bias, Body, Haze, Light, RasterLayer, ShadowViews, World, fit};
 use crate::scenes::models::{chapel, land, mustang, tree};
 use crate::scenes::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
@@ -182,11 +182,8 @@ pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, 
     let [glow, haze] = [sun, level(-sun)].map(|d| dome.radiance(d));
     let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
     World {
-        bodies,
         textures,
-        lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
-        cloud_shadow: None,
-        snow: None,
+        lights: vec![Light::sun(now.direction, now.color)],
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze {
             color: haze,
@@ -196,7 +193,7 @@ pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, 
         },
         zenith: dome.radiance(Vec3::Y),
         film: true,
-        background: None,
+        ..World::new(bodies)
     }
 }
 
@@ -225,15 +222,10 @@ pub(in crate::scenes) fn point(
     [texels, from]: [u32; 2],
     traced: bool,
 ) -> Light {
-    let shadow = ShadowViews {
-        views: fit::cube(position, texels),
-        bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
-        back_faces: false,
-        traced,
-        first_caster: from as usize,
-        smooth: true,
-    };
-    Light { source: Source::Lamp { position, falloff, reach }, color, shadow: Some(shadow) }
+    let bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
+    let shadow = ShadowViews::new(fit::cube(position, texels), bias);
+    let shadow = ShadowViews { traced, first_caster: from as usize, ..shadow };
+    Light::lamp(position, color, falloff, reach).with_shadow(shadow)
 }
 
 /// What the sun or the moon sees, `towards` it, of what a camera sees: up to each of `ends`, metres, in a map.
@@ -246,15 +238,10 @@ pub(in crate::scenes) fn cascades(
 ) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
     let size = if spec.quality.raster.shadow_map == 0 { 1024 } else { spec.quality.raster.shadow_map };
-    Some(ShadowViews {
-        views: fit::cascades(camera, aspect, towards, ends, size),
-        // The curve of docs/report/shadows.md has its knee here.
-        bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
-        back_faces: false,
-        traced: BENCH && spec.quality.raster.shadow_map == 0,
-        first_caster: 0,
-        smooth: true,
-    })
+    // The curve of docs/report/shadows.md has its knee here.
+    let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
+    let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), bias);
+    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0, ..shadow })
 }
 
 fn picture(spec: &FrameSpec) -> Picture {

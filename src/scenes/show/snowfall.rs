@@ -8,7 +8,7 @@ use crate::frame::{Layer, Picture};
 use crate::particles::snow::{Calm, Flakes, Snow};
 use crate::particles::sprite::Lens;
 use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover, Source};
+use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover};
 use crate::scenes::models::land;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
@@ -112,8 +112,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let plan = ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: true };
-    let fall = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
+    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
     if !cfg!(without = "snow-cover") {
         world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6 });
     }

@@ -2,7 +2,7 @@
 //! the moon over the lake.
 
 use super::day;
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
 use crate::particles::fire::{Fire, Flame};
@@ -117,7 +117,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, 0.4));
     // 1 / (1 + 0.0004 D + 0.000028 D^2) as in the thesis, if a unit of its game is half a centimetre.
-    let traced = BENCH && spec.quality.raster.shadow_map == 0;
+    let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
     day::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
 }
 
