@@ -16,7 +16,7 @@ use crate::view::Camera;
 
 /// A picture that is all ray tracing.
 fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, spec.quality);
+    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
     Picture { layers: vec![Box::new(traced)], transfer }
 }
 
