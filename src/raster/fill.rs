@@ -20,22 +20,18 @@ pub struct Visible {
     pub id: Box<[Id; Tile::AREA]>,
 }
 
-impl Visible {
-    /// To be cleared before use: a buffer of zeros that nobody writes to takes no memory.
-    pub fn new() -> Visible {
+/// To be cleared before use: a buffer of zeros that nobody writes to takes no memory.
+impl Default for Visible {
+    fn default() -> Visible {
         Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
     }
+}
 
+impl Visible {
     /// Shows nothing anywhere, at the depth of the background.
     pub fn clear(&mut self, inv_depth: f32) {
         self.inv_depth.fill(inv_depth);
         self.id.fill(NOTHING);
-    }
-}
-
-impl Default for Visible {
-    fn default() -> Visible {
-        Visible::new()
     }
 }
 

@@ -6,11 +6,11 @@ use super::depth_map::DepthMap;
 use super::fill::{SubPixel, fill};
 use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
-use super::rasters::{self, Raster, draw_map};
+use super::rasters::{Raster, draw_map, set_up};
 use super::shade::flush;
 use super::shadow_maps::MapKey;
 use super::shadow_views::ShadowViews;
-use super::triangle::SUB;
+use super::triangle::{SUB, TriangleSetup};
 use super::world::World;
 use crate::cuts;
 use crate::frame::cache::lock;
@@ -37,7 +37,8 @@ pub struct RasterLayer {
 }
 
 impl RasterLayer {
-    /// A world as a view shows it. Frames must have the size of the view.
+    /// A world as a view shows it. The frame must have the size of the view, at most 16,384 pixels along either side, and
+    /// `coverage` must be from 1 to 16.
     pub fn new(world: World, view: &View, settings: &RasterSettings) -> RasterLayer {
         let (view, settings) = (*view, *settings);
         RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: Arc::default() }
@@ -59,8 +60,7 @@ impl RasterLayer {
             {
                 let mut key = MapKey { slot, views: views.clone(), back_faces, casters: Vec::new() };
                 for body in bodies.iter().skip(first_caster) {
-                    let (center, radius) = body.bound();
-                    if light.reaches(center, radius) {
+                    if light.reaches(body.bound.0, body.bound.1) {
                         key.casters.push(body.clone());
                     }
                 }
@@ -70,8 +70,9 @@ impl RasterLayer {
                 match kept {
                     Ok(map) => lookup.map = Some(map),
                     Err(map) => {
-                        for view in views {
-                            rasters::add(rasters, view, back_faces, false, first_caster, bodies.len());
+                        for projection in views {
+                            let setup = TriangleSetup { projection: *projection, back_faces, shaded: false };
+                            rasters.push(Raster::new(setup, first_caster, bodies.len()));
                         }
                         if !traced {
                             missing.push((key, map));
@@ -164,11 +165,12 @@ fn cell(at: [u32; 2], n: u32) -> SubPixel {
 impl Layer for RasterLayer {
     fn prepare(&mut self, workers: &Workers, cache: &Cache) {
         self.memory = cache.get();
-        let bodies = self.world.bodies.len();
-        rasters::add(&mut self.rasters, &Projection::of_view(&self.view), false, true, 0, bodies);
+        let projection = Projection::of_view(&self.view);
+        let setup = TriangleSetup { projection, back_faces: false, shaded: true };
+        self.rasters.push(Raster::new(setup, 0, self.world.bodies.len()));
         let mut missing = self.look_up_shadows();
         let RasterLayer { world, rasters, lookups, memory, .. } = self;
-        rasters::set_up(workers, rasters, &world.bodies);
+        set_up(workers, rasters, &world.bodies);
         while let Some((key, mut map)) = missing.pop() {
             let lookup = &mut lookups[key.slot];
             map.resize(key.views[0].size[0] as usize, key.views.len());

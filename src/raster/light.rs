@@ -37,17 +37,20 @@ pub struct Light {
 
 impl Light {
     /// A sun in the direction `towards` (unit), without shadows.
+    #[inline(always)]
     pub fn sun(towards: Vec3, color: Vec3) -> Light {
         Light { source: Source::Sun(towards), color, shadow: None }
     }
 
     /// A lamp at `position` that fades as [`Source::Lamp`] says, without shadows. `falloff` of (0, 1) and an infinite
     /// `reach` are near to the inverse square law.
+    #[inline(always)]
     pub fn lamp(position: Vec3, color: Vec3, falloff: Vec2, reach: f32) -> Light {
         Light { source: Source::Lamp { position, falloff, reach }, color, shadow: None }
     }
 
     /// The same light with shadows.
+    #[inline(always)]
     pub fn with_shadow(self, shadow: ShadowViews) -> Light {
         Light { shadow: Some(shadow), ..self }
     }

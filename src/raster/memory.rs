@@ -26,7 +26,7 @@ impl Scratch {
     /// Memory for 16 samples per pixel, of which those that are not used take no room.
     pub fn new() -> Scratch {
         Scratch {
-            planes: (0..16).map(|_| (Visible::new(), CENTER)).collect(),
+            planes: (0..16).map(|_| (Visible::default(), CENTER)).collect(),
             queues: vec![FragmentQueue::EMPTY; PLAIN as usize + 1],
         }
     }

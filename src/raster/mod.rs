@@ -16,9 +16,36 @@
 //! number of its samples, and lights are summed up over visible points only.
 //!
 //! What approximates, and where its reference stands: shadow maps ([`depth_map`]) against shadows traced through the
-//! same triangles ([`exact_shadow`]), and a few samples per pixel against a grid of 64. Edges are exact at any sample:
+//! same triangles (`exact_shadow`), and a few samples per pixel against a grid of 64. Edges are exact at any sample:
 //! coverage is decided in whole numbers. `tests/raster.rs`, `tests/clip.rs`, `tests/shadow.rs`, `tests/torch.rs`,
 //! `tests/lights.rs`, `tests/depth_map.rs` and `tests/settle.rs` hold the stages against formulas in f64.
+//!
+//! ```
+//! use glam::{Affine3A, Mat3, Vec3, vec3};
+//! use paprsek::frame::encode::Transfer;
+//! use paprsek::frame::{Frame, Picture, Renderer};
+//! use paprsek::raster::{Bias, Body, Light, Mesh, Paint, RasterLayer, ShadowViews, World, fit};
+//! use paprsek::settings::Quality;
+//! use paprsek::view::{Camera, View};
+//! use std::sync::Arc;
+//!
+//! // A cube under a sun whose shadows are looked up in two maps, up to 5 and up to 20 metres away.
+//! let mut cube = Mesh::painted(&[Paint { albedo: Vec3::splat(0.7), texture: None, gloss: 0.0 }]);
+//! cube.block(&Mat3::IDENTITY, Vec3::ZERO, 0);
+//! let camera = Camera::look_at(vec3(3.0, 2.0, 4.0), Vec3::ZERO, 0.8, 0.0);
+//! let towards = vec3(0.4, 0.8, 0.45).normalize();
+//! let views = fit::cascades(&camera, 64.0 / 48.0, towards, &[5.0, 20.0], 512);
+//! let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
+//! let sun = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
+//! let world = World { lights: vec![sun], ..World::new(vec![Body::new(Arc::new(cube), Affine3A::IDENTITY)]) };
+//!
+//! let layer = RasterLayer::new(world, &View::new(camera, 64, 48), &Quality::DEFAULT.raster);
+//! let mut frame = Frame::new(64, 48);
+//! let picture = Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb };
+//! Renderer::new(1)?.draw(picture, &mut frame);
+//! assert!(frame.pixels[24 * 64 + 32] > 0x0040_4040 && frame.pixels[0] == 0);
+//! # Ok::<(), String>(())
+//! ```
 
 pub mod bins;
 pub mod cloud_shadow;

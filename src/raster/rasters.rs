@@ -3,7 +3,6 @@
 use super::bins::Bins;
 use super::depth_map::{DepthMap, EMPTY};
 use super::fill::{CENTER, Visible, fill};
-use super::project::Projection;
 use super::triangle::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
@@ -21,18 +20,12 @@ pub struct Raster {
     pub bins: Bins,
 }
 
-/// Adds a raster for `bodies` bodies, of which those before `first` are left out. It is empty until [`set_up`].
-pub fn add(
-    rasters: &mut Vec<Raster>,
-    projection: &Projection,
-    back_faces: bool,
-    shaded: bool,
-    first: usize,
-    bodies: usize,
-) {
-    let setup = TriangleSetup { projection: *projection, back_faces, shaded };
-    let meshes = (0..bodies).map(|_| SetupMesh::default()).collect();
-    rasters.push(Raster { setup, first, meshes, bins: Bins::default() });
+impl Raster {
+    /// A raster for `bodies` bodies, of which those before `first` are left out. It is empty until [`set_up`].
+    pub fn new(setup: TriangleSetup, first: usize, bodies: usize) -> Raster {
+        let meshes = (0..bodies).map(|_| SetupMesh::default()).collect();
+        Raster { setup, first, meshes, bins: Bins::default() }
+    }
 }
 
 /// Sets up every body in every raster that may show it, and sorts its triangles into tiles.
@@ -41,13 +34,12 @@ pub fn set_up(workers: &Workers, rasters: &mut [Raster], bodies: &[Body]) {
     let mut tasks = Vec::new();
     for Raster { setup, first, meshes, .. } in rasters.iter_mut() {
         for (mesh, body) in meshes.iter_mut().zip(bodies).skip(*first) {
-            let (center, radius) = body.bound();
-            if !setup.projection.misses(center, radius) {
+            if !setup.projection.misses(body.bound.0, body.bound.1) {
                 tasks.push((&*setup, mesh, body));
             }
         }
     }
-    workers.each(tasks.iter_mut(), |(setup, mesh, body)| **mesh = setup.set_up(body.mesh(), body.place()));
+    workers.each(tasks.iter_mut(), |(setup, mesh, body)| **mesh = setup.set_up(&body.mesh, &body.place));
     workers.each(rasters.iter_mut(), |raster| {
         raster.bins = Bins::new(&raster.meshes, raster.setup.projection.size);
     });
@@ -61,7 +53,7 @@ pub fn draw_map(workers: &Workers, map: &mut DepthMap, rasters: &[Raster]) {
         // In 32 bits, as a division of 64 takes several times the code.
         let (index, bands) = (index as u32, (size / Tile::SIZE) as u32);
         let (Raster { meshes, bins, .. }, band) = (&rasters[(index / bands) as usize], (index % bands) as usize);
-        let mut visible = Visible::new();
+        let mut visible = Visible::default();
         for x in (0..size).step_by(Tile::SIZE) {
             let ids = bins.of(x / Tile::SIZE, band);
             visible.clear(EMPTY);

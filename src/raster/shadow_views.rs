@@ -44,6 +44,7 @@ pub struct ShadowViews {
 
 impl ShadowViews {
     /// Smooth shadows of all bodies, from maps of the faces that look towards the light.
+    #[inline(always)]
     pub fn new(views: Vec<Projection>, bias: Bias) -> ShadowViews {
         ShadowViews { views, bias, back_faces: false, traced: false, first_caster: 0, smooth: true }
     }

@@ -12,9 +12,12 @@ use std::sync::Arc;
 /// A mesh in the world.
 #[derive(Clone)]
 pub struct Body {
-    mesh: Arc<Mesh>,
-    place: Affine3A,
-    bound: (Vec3, f32),
+    /// Its surface.
+    pub(super) mesh: Arc<Mesh>,
+    /// From its own space to the world.
+    pub(super) place: Affine3A,
+    /// Centre and radius of a bounding sphere in the world, metres.
+    pub(super) bound: (Vec3, f32),
 }
 
 impl Body {
@@ -31,21 +34,6 @@ impl Body {
         let scale = place.matrix3.x_axis.length();
         (self.bound, self.place) = ((place.transform_point3(center), radius * scale), place);
     }
-
-    /// Its surface.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// The map from its own space to the world.
-    pub fn place(&self) -> &Affine3A {
-        &self.place
-    }
-
-    /// Centre and radius of a bounding sphere in the world, metres.
-    pub fn bound(&self) -> (Vec3, f32) {
-        self.bound
-    }
 }
 
 /// Bodies are equal if they are the same mesh in the same place.
@@ -56,7 +44,7 @@ impl PartialEq for Body {
 }
 
 /// All that a raster layer draws.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct World {
     /// The surfaces. Those after the first 16,384 are left out.
     pub bodies: Vec<Body>,
@@ -84,7 +72,26 @@ pub struct World {
 
 impl World {
     /// Bodies in the dark: without lights, ambient light, haze or background, and without film.
+    #[inline(always)] // So that fields which a caller sets at once are not made and dropped before.
     pub fn new(bodies: Vec<Body>) -> World {
-        World { bodies, ..World::default() }
+        World {
+            bodies,
+            textures: Vec::new(),
+            lights: Vec::new(),
+            cloud_shadow: None,
+            snow: None,
+            ambient: [Vec3::ZERO; 2],
+            haze: Haze::default(),
+            zenith: Vec3::ZERO,
+            film: false,
+            background: None,
+        }
+    }
+}
+
+/// Nothing in the dark.
+impl Default for World {
+    fn default() -> World {
+        World::new(Vec::new())
     }
 }
