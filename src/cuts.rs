@@ -31,3 +31,9 @@ pub const LIGHT_WITHOUT_FILM: bool = FULL;
 
 /// Whether the rasterizer can fill what solids leave open with a colour.
 pub const BACKGROUND: bool = FULL;
+
+/// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
+pub const SOFT_LIGHTS: bool = FULL;
+
+/// Whether textures can be checkers: the show has none.
+pub const CHECKER: bool = FULL;

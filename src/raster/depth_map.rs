@@ -1,8 +1,8 @@
-//! Shadow maps: the depths that a light sees \[Williams78\], looked up by percentage-closer filtering \[Reeves87\].
+//! Shadow maps: the depths that a light sees `[Williams78]`, looked up by percentage-closer filtering `[Reeves87]`.
 //!
 //! A lookup compares the depths of 3x3 texels with that of a point, and averages the outcomes. With `smooth` the 3x3
 //! texels are a window that moves with the point and meets 4x4 texels, whose borders count by how much of them it covers:
-//! bilinear interpolation of the averages. It is an approximation of [`super::exact_shadow`].
+//! bilinear interpolation of the averages. It is an approximation of `exact_shadow`.
 
 use crate::cuts;
 use crate::frame::Tile;

@@ -1,6 +1,6 @@
 //! Visibility: coverage and depth of triangles in a tile, a vector of pixels at a time.
 //!
-//! A pixel's sample is inside of a triangle where three edge functions are not negative \[Pineda88\]. They are whole
+//! A pixel's sample is inside of a triangle where three edge functions are not negative `[Pineda88]`. They are whole
 //! numbers, and the top-left rule is part of their constants, so each sample on a shared edge belongs to exactly one of
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 

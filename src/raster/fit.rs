@@ -9,7 +9,7 @@ use glam::Vec3;
 /// little before the end of its predecessor to its own. `aspect` is the picture's width over its height.
 ///
 /// Each map holds the ball around its slice of the view frustum, whose size stays the same when the camera turns, and
-/// moves by whole texels: while the light rests, so do the edges of shadows \[Valient08\].
+/// moves by whole texels: while the light rests, so do the edges of shadows `[Valient08]`.
 pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size: u32) -> Vec<Projection> {
     // Squared tangent of the angle between the view's axis and the farther of its corners.
     let wide = aspect + camera.shift.abs();

@@ -9,7 +9,7 @@
 //! scatter    add the light to the tile's pixels by coverage
 //! ```
 //!
-//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term \[Schlick94\].
+//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term `[Schlick94]`.
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::id::{Id, parts};

@@ -44,7 +44,7 @@ impl SnowCover {
     /// Whitens the surfaces of a queue, removes their gloss and adds the sky's light. `open` holds the openness of each in
     /// its first component, and `grain` the value of [`GRAIN`]. A surface that mirrors as water does keeps no snow.
     #[inline(always)]
-    pub fn whiten<S: Simd>(&self, simd: S, open: &Block3, grain: &Block3, queue: &mut FragmentQueue) {
+    pub(super) fn whiten<S: Simd>(&self, simd: S, open: &Block3, grain: &Block3, queue: &mut FragmentQueue) {
         let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

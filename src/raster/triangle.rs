@@ -156,7 +156,7 @@ impl TriangleSetup {
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
-    /// \[SutherlandHodgman74\]. New corners are appended to `corners`.
+    /// `[SutherlandHodgman74]`. New corners are appended to `corners`.
     fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
         for plane in CLIP..9 {
             let mut rest = Vec::new();
