@@ -1,7 +1,7 @@
 //! The command line: what was asked for, or one line that says what is wrong with it.
 //!
-//! The text of `--help` is the table of options too, so the two cannot disagree and the 64 kB build holds one of them. Words are
-//! bytes, because the name of a directory need not be Unicode.
+//! The text of `--help` is the table of options too, so the two cannot disagree and the 64 kB build holds one of them.
+//! Words are bytes, because the name of a directory need not be Unicode.
 
 #[cfg(target_os = "linux")]
 use crate::io::contents;
@@ -14,8 +14,8 @@ use paprsek::settings::Quality;
 use paprsek::view::Stereo;
 use std::ops::Range;
 
-/// The text of `--help`, which is the table of options too. Each line from the second on has an option and the name of its
-/// value, if it takes one, and from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
+/// The text of `--help`, which is the table of options too. Each line from the second on has an option and the name of
+/// its value, if it takes one, and from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
 macro_rules! help {
     ($play:literal, $exact:literal, $own:literal) => {
         concat!(
@@ -25,7 +25,7 @@ macro_rules! help {
   --from SECONDS              start at this time, up to 10^12
   --to SECONDS                end at this time, up to 10^12
   --fps N                     frames per second of a capture, or to hold while playing: up to 1000; default 30
-  --threads N                 1 to 1024, but no more than cores; default: all cores
+  --threads N                 1 to 1024, but no more than there are cores; default: all cores
   --size WxH                  pixels: 1 to 16384 each, 67108864 in all; default 1280x720, or less if that plays too slowly
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
@@ -83,14 +83,15 @@ const CLASHES: &str = "\
 --at excludes --from and --to
 --from is later than --to
 --from is later than the end: give --to
---to or --fps is too high: frames end at 1000000
+--to or --fps is too high: frame numbers have six digits
 ";
 
 /// The options that take a decimal number: their place, least value, largest value and default.
 ///
-/// A time in milliseconds is exact up to more than 10^12 seconds, and so is the name of its still. A lens that is shifted much
-/// farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean distance of adults' eyes is
-/// 0.063 m (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the show's subjects are 3 to 10 m away.
+/// A time in milliseconds is exact up to more than 10^12 seconds, and so is the name of its still. A lens that is
+/// shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean distance
+/// of adults' eyes is 0.063 m (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the show's
+/// subjects are 3 to 10 m away.
 const RANGES: [(usize, f64, f64, f64); 6] = [
     (AT, 0.0, MAX_TIME, 0.0),
     (FROM, 0.0, MAX_TIME, 0.0),
@@ -290,9 +291,9 @@ impl Args {
         if self.still { self.start } else { self.end }.unwrap_or(scene.duration)
     }
 
-    /// The numbers of the frames to capture. For one instant that is 0. Otherwise the n-th frame of the whole film is at
-    /// n / `fps` seconds, and those from the start of the range, but before its end, are captured. So pieces of a film share no
-    /// frame.
+    /// The numbers of the frames to capture. For one instant that is 0. Otherwise the n-th frame of the whole film is
+    /// at n / `fps` seconds, and those from the start of the range, but before its end, are captured. So pieces of a
+    /// film share no frame.
     pub fn frames(&self) -> Range<usize> {
         if self.still {
             return 0..1;
@@ -304,8 +305,8 @@ impl Args {
     }
 }
 
-/// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads, size, and
-/// quality. The error is the place of an option whose value will not do.
+/// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads,
+/// size, and quality. The error is the place of an option whose value will not do.
 #[allow(clippy::type_complexity)]
 #[inline(never)]
 fn parse(

@@ -1,7 +1,7 @@
 //! The benchmark: how long frames of a scene take.
 //!
-//! Frames at even steps through the scene are timed one by one; the median and the slowest hundredth are printed. Each scene
-//! gets enough frames and time for a steady median, but no more than some seconds.
+//! Frames at even steps through the scene are timed one by one; the median and the slowest hundredth are printed. Each
+//! scene gets enough frames and time for a steady median, but no more than some seconds.
 
 use crate::args::Args;
 use crate::capture;

@@ -1,7 +1,7 @@
 //! Frames in memory and on their way out: as PPM files, as a stream of them to stdout, or as one still.
 //!
-//! PPM (P6) because it is a header of three numbers and then the pixels: every encoder of films and every viewer reads it,
-//! and writing it takes no library.
+//! PPM (P6) because it is a header of three numbers and then the pixels: every encoder of films and every viewer reads
+//! it, and writing it takes no library.
 
 use crate::args::Args;
 use crate::io::{make_directory, save, stream};
@@ -20,8 +20,8 @@ pub fn open(args: &Args) -> Result<(Renderer, Frame), Vec<u8>> {
     Ok((Renderer::new(args.threads)?, black_frame(args.size)?))
 }
 
-/// A black frame of `size`, width and height in pixels. Not [`Frame::new`], which ends the process where there is no memory:
-/// sizes come from the command line, and too large a one is to be answered with a line.
+/// A black frame of `size`, width and height in pixels. Not [`Frame::new`], which ends the process where there is no
+/// memory: sizes come from the command line, and too large a one is to be answered with a line.
 #[inline(never)]
 pub fn black_frame(size: (usize, usize)) -> Result<Frame, &'static str> {
     let (width, height) = size;
@@ -35,7 +35,8 @@ pub fn black_frame(size: (usize, usize)) -> Result<Frame, &'static str> {
 #[inline(never)]
 pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
     let piped = target == b"-";
-    // Makes the directory and those above it. Most exist already; a failure shows when the first file cannot be written.
+    // Makes the directory and those above it. Most exist already; a failure shows when the first file cannot be
+    // written.
     for end in 1..=target.len() {
         if !piped && target.get(end).is_none_or(|&byte| byte == b'/') {
             make_directory(&target[..end]);
@@ -57,8 +58,8 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
     Ok(())
 }
 
-/// Saves a frame of `scene` at `time`, in seconds, into the working directory, named after both. Fails where a file of that
-/// name exists.
+/// Saves a frame of `scene` at `time`, in seconds, into the working directory, named after both. Fails where a file of
+/// that name exists.
 pub fn save_still(scene: &Scene, time: f64, frame: &Frame) -> Result<(), Vec<u8>> {
     let name = fill("paprsek-%-%.ppm", &[scene.name.as_bytes(), &figure(time)]);
     save(&name, ppm(frame), true)

@@ -6,6 +6,8 @@ use paprsek::frame::Scene;
 use paprsek::scenes::show::intro::{INTRO, PARTS};
 use std::time::Instant;
 
+/// How far an arrow key moves, seconds.
+pub const SEEK: f64 = 5.0;
 /// Shortest duration of a loop, seconds.
 const SHORTEST: f64 = 1e-3;
 

@@ -1,20 +1,21 @@
 //! The size of frames while they play: smaller ones where the machine is too slow for the frame rate.
 //!
-//! A governor is a pure function of the times that frames have taken. Late frames count up, light ones count down, and at a
-//! limit of either the size goes down or up by one step. The step down follows at once; a step up is only a trial, and each one
-//! that fails doubles the wait for the next.
+//! A governor is a pure function of the times that frames have taken. Late frames count up, light ones count down, and
+//! at a limit of either the size goes down or up by one step. A step up is a trial, for which light frames have to come
+//! for long, and each step down doubles how many of them.
 //!
-//! Only the size gives way, never the quality: at three quarters of each side a frame is nearer to the reference than `fast` is
-//! at the whole (41.6 against 40.3 dB in `lumen` at 9.2 s, 43.6 against 42.1 in `day` at 40 s, scaled up to 1280x720), and
+//! Only the size gives way, never the quality: at three quarters of each side a frame is nearer to the reference than
+//! `fast` is at the whole (41.6 against 40.3 dB in `lumen` at 9.2 s, 43.6 against 42.1 in `day` at 40 s, scaled up to
+//! 1280x720), and
 //! `fast` hardly helps where triangles and clouds are drawn.
 
-/// The sizes, in eighths of each side. Frames take 1, 0.73, 0.5 and 0.42 times as long; 16:9 stays 16:9; and with so few steps
-/// the size seldom changes.
+/// The sizes, in eighths of each side. Frames take 1, 0.73, 0.5 and 0.42 times as long; 16:9 stays 16:9; and with so
+/// few steps the size seldom changes.
 pub const EIGHTHS: [usize; 4] = [8, 6, 4, 3];
 /// The whole size's place in [`EIGHTHS`].
 pub const WHOLE: usize = 0;
-/// A frame that takes less than this share of its time is light: the next larger size fits too, because no step takes half as
-/// long again as the one below it.
+/// A frame that takes less than this share of its time is light: the next larger size fits too, because no step takes
+/// half as long again as the one below it.
 const LIGHT: f64 = 0.6;
 /// What a late frame adds to the sum.
 const LATE: i32 = 4;
@@ -32,8 +33,8 @@ pub struct Governor {
     pub step: usize,
     /// Late frames take it above zero, light ones below, and others bring it back to zero.
     sum: i32,
-    /// Light frames before a larger size is tried. Each step down doubles them, so that the size does not follow for long a load
-    /// that comes and goes.
+    /// Light frames before a larger size is tried. Each step down doubles them, so that the size does not follow for
+    /// long a load that comes and goes.
     trial: i32,
 }
 
@@ -71,14 +72,14 @@ mod tests {
     use super::*;
     use std::ops::RangeInclusive;
 
-    /// The time of each step as a share of the whole frame's, where every pixel costs the same, and where most of the cost is
-    /// fixed.
+    /// The time of each step as a share of the whole frame's, where every pixel costs the same, and where most of the
+    /// cost is fixed.
     const COSTS: [[f64; 4]; 2] = [[1.0, 0.5625, 0.25, 0.140625], [1.0, 0.73, 0.5, 0.42]];
     /// Frames of a minute at 30 per second, the rate to be held.
     const MINUTE: usize = 1800;
 
-    /// Plays frames of which the whole size would take `load` of the time. Gives how often the size changed, and how many frames
-    /// were late.
+    /// Plays frames of which the whole size would take `load` of the time. Gives how often the size changed, and how
+    /// many frames were late.
     fn play(governor: &mut Governor, costs: [f64; 4], frames: usize, load: impl Fn(usize) -> f64) -> (usize, usize) {
         let (mut changes, mut late) = (0, 0);
         for frame in 0..frames {

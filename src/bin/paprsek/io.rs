@@ -1,7 +1,7 @@
 //! Bytes to stdout, stderr and files, and from files.
 //!
-//! The standard library's locks, buffers and texts of errors for this take 1 kB packed. So on Unix these are calls of the
-//! system, and an error is its number.
+//! The standard library's locks, buffers and texts of errors for this take 1 kB packed. So on Unix these are calls of
+//! the system, and an error is its number.
 
 use crate::text::{digits, fill};
 #[cfg(target_os = "linux")]
@@ -48,8 +48,8 @@ mod system {
         CStr::from_bytes_until_nul(path).unwrap_or_default()
     }
 
-    /// The first megabyte of a file, which is all of any file that is read here. Nothing where it cannot be read; of a pipe or
-    /// a device what is there at this moment. The path ends with a zero.
+    /// The first megabyte of a file, which is all of any file that is read here. Nothing where it cannot be read; of a
+    /// pipe or a device what is there at this moment. The path ends with a zero.
     pub fn contents(path: &[u8]) -> Vec<u8> {
         let mut bytes = vec![0; MAX_CONTENTS];
         let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
@@ -110,7 +110,8 @@ mod system {
                 if fs::link(c_path(&part), c_path(&name)).is_ok() {
                     return Ok(());
                 }
-                // Either the name is taken, and this fails; or the file system has no links, and this reserves the name.
+                // Either the name is taken, and this fails; or the file system has no links, and this reserves the
+                // name.
                 create(&name)?;
             }
             fs::rename(c_path(&part), c_path(&name)).map_err(Errno::raw_os_error)
@@ -200,8 +201,8 @@ pub fn save(name: &[u8], pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> 
     system::save(&part, name, pieces, fresh).map_err(|error| failed(name, error))
 }
 
-/// A number that nobody can predict: in a directory that others may write to, nobody can have put a file or a link in the
-/// way of a name with it.
+/// A number that nobody can predict: in a directory that others may write to, nobody can have put a file or a link in
+/// the way of a name with it.
 #[cfg(target_os = "linux")]
 fn random() -> usize {
     let mut bytes = [0; 8];

@@ -1,7 +1,7 @@
 //! The executable of the intro: reads the command line, then plays, captures, measures or prints.
 //!
-//! Imports of the files beside this one run down only: window, terminal and playing stand on captures, the clock and the
-//! command line, and those on `io.rs` and `text.rs`, which read and write without the standard library's machinery.
+//! Imports of the files beside this one run down only: window, terminal and playing stand on captures, the clock and
+//! the command line, and those on `io.rs` and `text.rs`, which read and write without the standard library's machinery.
 
 mod args;
 #[cfg(feature = "full")]

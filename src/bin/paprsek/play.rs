@@ -1,12 +1,12 @@
 //! Plays in a window.
 //!
-//! The window belongs to the main thread, and the renderer to a thread of its own, which is one of its workers. So Esc ends at
-//! once however long a frame takes, and one frame is sent to the display while the next one renders. Three frames go round
-//! between the two threads, and neither waits for the other.
+//! The window belongs to the main thread, and the renderer to a thread of its own, which is one of its workers. So Esc
+//! ends at once however long a frame takes, and one frame is sent to the display while the next one renders. Three
+//! frames go round between the two threads, and neither waits for the other.
 
 use crate::args::Args;
 use crate::capture;
-use crate::clock::Clock;
+use crate::clock::{Clock, SEEK};
 use crate::governor::{EIGHTHS, Governor, WHOLE};
 use crate::io::complain;
 use crate::window::{Window, keysym};
@@ -22,9 +22,8 @@ const PERIOD: Duration = Duration::from_nanos(16_666_667);
 const POLL: Duration = Duration::from_millis(10);
 /// Polls after which a still is sent again, a fifth of a second: the display forgets what another window covers.
 const REFRESH: usize = 20;
-/// How far an arrow key moves, seconds.
-const SEEK: f64 = 5.0;
-/// A light runs along the middle of the window until there is a first frame: by this part of the width each [`REFRESH`].
+/// A light runs along the middle of the window until there is a first frame: by this part of the width each
+/// [`REFRESH`].
 const LIGHT_STEPS: usize = 16;
 /// The colour of the light.
 const LIGHT_COLOUR: u32 = 0x404040;
@@ -125,8 +124,8 @@ fn watch(mut window: Window, mut frame: Frame, shared: &Mutex<Shared>) -> Result
     }
 }
 
-/// Renders the frames that the clock asks for, and stills. Past the end of the clock it goes on with stills: it returns only
-/// with an error.
+/// Renders the frames that the clock asks for, and stills. Past the end of the clock it goes on with stills: it returns
+/// only with an error.
 fn render(args: &Args, shared: &Mutex<Shared>, window: &Thread) -> Result<(), Vec<u8>> {
     let (mut renderer, mut frame) = capture::open(args)?;
     let mut governor = Governor::new();

@@ -1,13 +1,13 @@
 //! Decimal numbers read and printed, and templates filled.
 //!
-//! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and code for
-//! that; its formatting brings more. A time on the command line and a figure in a table need neither.
+//! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and code
+//! for that; its formatting brings more. A time on the command line and a figure in a table need neither.
 
 /// What pads the first column of a table to 16 characters.
 pub const SPACES: &[u8] = &[b' '; 16];
 
-/// Fills a template: the next word takes the place of each `%`, and of each `#` too, but there it ends where the `#` stands
-/// and covers the spaces before it, which aligns a column to the right.
+/// Fills a template: the next word takes the place of each `%`, and of each `#` too, but there it ends where the `#`
+/// stands and covers the spaces before it, which aligns a column to the right.
 pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
     let (mut text, mut words) = (Vec::new(), words.iter());
     for byte in template.bytes() {
@@ -26,9 +26,9 @@ pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
 
 /// The value of a decimal such as `2` or `0.5`: no sign, no exponent, no `inf`, no `nan`.
 ///
-/// With up to 15 digits and 22 places the result is the nearest `f64`, since the digits as a whole number and the power of ten
-/// are both exact then and one division rounds once (Clinger, PLDI 1990). With more it may be off by a few units in the last
-/// place.
+/// With up to 15 digits and 22 places the result is the nearest `f64`, since the digits as a whole number and the power
+/// of ten are both exact then and one division rounds once (Clinger, PLDI 1990). With more it may be off by a few units
+/// in the last place.
 pub fn decimal(text: &[u8]) -> Option<f64> {
     let (mut mantissa, mut scale) = (0u64, 0);
     let (mut digits, mut point) = (false, false);

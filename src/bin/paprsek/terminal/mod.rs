@@ -7,7 +7,7 @@ mod signals;
 
 use crate::args::Args;
 use crate::capture;
-use crate::clock::Clock;
+use crate::clock::{Clock, SEEK};
 use paprsek::frame::{Frame, Renderer};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::termios::{
@@ -26,8 +26,6 @@ const PERIOD: Duration = Duration::from_millis(40);
 const MAX_SIDE: usize = 1000;
 /// Columns and rows of a terminal that reports none.
 const USUAL_SIZE: (usize, usize) = (80, 24);
-/// How far an arrow key moves, seconds.
-const SEEK: f64 = 5.0;
 /// How long putting the terminal back waits for it after a signal.
 const SECOND: Duration = Duration::from_secs(1);
 
@@ -141,8 +139,8 @@ enum Action {
     Part(usize),
 }
 
-/// A terminal that delivers keys one by one, with Ctrl-C among them. So playing ends between frames, with the screen put back,
-/// and not in the middle of an escape sequence.
+/// A terminal that delivers keys one by one, with Ctrl-C among them. So playing ends between frames, with the screen
+/// put back, and not in the middle of an escape sequence.
 struct Keyboard(Arc<Terminal>);
 
 struct Terminal {
@@ -159,7 +157,8 @@ impl Keyboard {
         let before = tcgetattr(&terminal).ok()?;
         let mut modes = before.clone();
         modes.local_modes -= LocalModes::ICANON | LocalModes::ECHO | LocalModes::ISIG;
-        // Ctrl-S becomes a key like any other. It would block the writing of the frame, and with that the reading of keys.
+        // Ctrl-S becomes a key like any other. It would block the writing of the frame, and with that the reading of
+        // keys.
         modes.input_modes -= InputModes::IXON;
         // A read returns at once with what is there, even if that is nothing.
         modes.special_codes[SpecialCodeIndex::VMIN] = 0;
@@ -196,8 +195,8 @@ impl Terminal {
         let _ = tcsetattr(&self.terminal, OptionalActions::Now, &self.before);
     }
 
-    /// Puts screen and modes back after a signal. Nobody else writes as long as the guard is kept. A terminal that takes nothing
-    /// for a second, or is in the middle of a frame for that long, gets back its modes alone.
+    /// Puts screen and modes back after a signal. Nobody else writes as long as the guard is kept. A terminal that
+    /// takes nothing for a second, or is in the middle of a frame for that long, gets back its modes alone.
     fn put_back_soon(&self) -> Option<MutexGuard<'static, ()>> {
         let began = Instant::now();
         let screen = loop {

@@ -1,7 +1,7 @@
 //! Signals that end the process, before which the terminal has to be put back.
 //!
-//! Little is allowed in a signal handler, and nothing that takes a lock or waits. So the handler only notes the signal, and a
-//! thread that polls the note does the work.
+//! Little is allowed in a signal handler, and nothing that takes a lock or waits. So the handler only notes the signal,
+//! and a thread that polls the note does the work.
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag::register_usize;
@@ -15,8 +15,9 @@ use std::time::Duration;
 /// How long a signal may wait until it is noticed.
 const INTERVAL: Duration = Duration::from_millis(20);
 
-/// Calls `first` when a signal is to end the process, and then lets it, so that whoever waits for the process learns of the
-/// signal. `first` must not wait for ever: nothing but SIGKILL ends the process meanwhile. What it returns is kept to the end.
+/// Calls `first` when a signal is to end the process, and then lets it, so that whoever waits for the process learns of
+/// the signal. `first` must not wait for ever: nothing but SIGKILL ends the process meanwhile. What it returns is kept
+/// to the end.
 pub fn before_the_end<T>(first: impl FnOnce() -> T + Send + 'static) -> io::Result<()> {
     let caught = Arc::new(AtomicUsize::new(0));
     let seen = Arc::clone(&caught);

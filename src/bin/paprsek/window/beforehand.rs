@@ -1,8 +1,8 @@
 //! What minifb needs of an X server, checked before minifb starts.
 //!
-//! When minifb 0.29 has reached the display and then finds anything amiss, it frees a graphics context that is Xlib's own,
-//! and the process dies by a signal without a word. Xlib in its turn reads whatever the name of the authority file leads to,
-//! and asks an input method that nobody needs here.
+//! When minifb 0.29 has reached the display and then finds anything amiss, it frees a graphics context that is Xlib's
+//! own, and the process dies by a signal without a word. Xlib in its turn reads whatever the name of the authority file
+//! leads to, and asks an input method that nobody needs here.
 
 use super::protocol::{Server, UNFIT};
 use nix::unistd::execve;
@@ -15,7 +15,8 @@ use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
-/// File descriptors that have to be free: more than Xlib's connection, its libraries and files, and our own use at once.
+/// File descriptors that have to be free: more than Xlib's connection, its libraries and files, and our own use at
+/// once.
 const DESCRIPTORS: usize = 16;
 /// The variable of the environment that names an input method.
 const INPUT_METHOD: &str = "XMODIFIERS";
@@ -57,8 +58,8 @@ fn server() -> Result<(), String> {
     }
 }
 
-/// Starts the program again without an input method where the environment names one: changing the environment of a running
-/// process is unsafe code.
+/// Starts the program again without an input method where the environment names one: changing the environment of a
+/// running process is unsafe code.
 fn input_method() -> Result<(), String> {
     if env::var_os(INPUT_METHOD).is_none_or(|named| named == NO_INPUT_METHOD) {
         return Ok(());

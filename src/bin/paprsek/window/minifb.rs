@@ -1,7 +1,8 @@
 //! minifb's window; the only file that names minifb.
 //!
-//! Each call into minifb may wait for the display or lose it, and then Xlib waits for ever or ends the process. So every call
-//! is watched (`patience.rs`, `xlib_exit.rs`), and what minifb cannot survive is looked for first (`beforehand.rs`).
+//! Each call into minifb may wait for the display or lose it, and then Xlib waits for ever or ends the process. So
+//! every call is watched (`patience.rs`, `xlib_exit.rs`), and what minifb cannot survive is looked for first
+//! (`beforehand.rs`).
 
 #[cfg(all(unix, not(feature = "wayland")))]
 use super::beforehand;
@@ -59,8 +60,8 @@ impl Window {
             .map_err(|error| error.to_string())
     }
 
-    /// Fills the screen, or goes back to the usual size. minifb cannot, but an X server of this machine lets any client ask
-    /// for it.
+    /// Fills the screen, or goes back to the usual size. minifb cannot, but an X server of this machine lets any client
+    /// ask for it.
     #[cfg(all(unix, not(feature = "wayland")))]
     pub fn toggle_fullscreen(&mut self) {
         self.server = self.server.take().or_else(|| Server::find(&mut ""));

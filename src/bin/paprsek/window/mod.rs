@@ -1,8 +1,8 @@
 //! The window, and displays that fail.
 //!
-//! `Window` is minifb's; in the 64 kB build, which has no minifb, one that speaks X11 itself. Both open with a size, show a
-//! frame as large as it fits, fill the screen, and give one key after another. The README beside this file says what each
-//! does when a display is slow, odd or gone.
+//! `Window` is minifb's; in the 64 kB build, which has no minifb, one that speaks X11 itself. Both open with a size,
+//! show a frame as large as it fits, fill the screen, and give one key after another. The README beside this file says
+//! what each does when a display is slow, odd or gone.
 
 #[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
 mod beforehand;

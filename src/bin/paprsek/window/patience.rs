@@ -1,7 +1,6 @@
 //! A limit on how long a call into Xlib may take.
 //!
-//! Xlib waits for its server for ever. So a thread watches the calls, and ends the process when one lasts too long: a thread
-//! that waits inside Xlib cannot be woken by other means.
+//! Xlib waits for its server for ever. So a thread watches the calls, and ends the process when one lasts too long.
 
 use crate::io::complain;
 use std::env;
@@ -11,8 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Time from one check to the next. Checks are counted rather than timed, so that a process that was stopped for a while
-/// gives up nothing.
+/// Time from one check to the next. Checks are counted rather than timed, so that a process that was stopped for a
+/// while gives up nothing.
 const INTERVAL: Duration = Duration::from_millis(500);
 /// Checks that a call to a server of this machine may outlast: less than 5 s.
 const CHECKS: usize = 9;

@@ -1,11 +1,12 @@
-//! A connection to the X server of this machine, by its protocol ("X Window System Protocol", X.Org, version 11), and how a
-//! window fills the screen (`Extended Window Manager Hints`, freedesktop.org, version 1.5).
+//! A connection to the X server of this machine, by its protocol ("X Window System Protocol", X.Org, version 11), and
+//! how a window fills the screen (`Extended Window Manager Hints`, freedesktop.org, version 1.5).
 //!
-//! A request consists of little-endian words of 32 bits. The first holds the code, a byte that depends on the code, and the
-//! length in words. Replies, events and errors are eight words; a reply may have more behind them, and says how many.
+//! A request consists of little-endian words of 32 bits. The first holds the code, a byte that depends on the code, and
+//! the length in words. Replies, events and errors are eight words; a reply may have more behind them, and says how
+//! many.
 //!
-//! Nothing that the server says is taken on trust, and nothing is waited for long: the socket never blocks, waits are counted,
-//! and what a length names is there, as zeros if need be.
+//! Nothing that the server says is taken on trust, and nothing is waited for long: the socket never blocks, waits are
+//! counted, and what a length names is there, as zeros if need be.
 
 use crate::io::{c_path, contents};
 use crate::text::fill;
@@ -34,7 +35,8 @@ pub const CLIENT_MESSAGE: u32 = 33;
 
 /// The size of the numbers of a message or a property.
 pub const BITS_32: u32 = 32;
-/// Who hears an event that is sent to the root window: the window manager (SubstructureNotify and SubstructureRedirect).
+/// Who hears an event that is sent to the root window: the window manager (SubstructureNotify and
+/// SubstructureRedirect).
 const TO_WINDOW_MANAGER: u32 = 1 << 19 | 1 << 20;
 /// What a request to configure a window sets: x, y, width and height.
 const PLACE_AND_SIZE: u32 = 0b1111;
@@ -67,21 +69,22 @@ const SCREEN_DEPTH: usize = 9;
 
 /// Bytes of a cookie.
 const COOKIE: usize = 16;
-/// What a client says first, before the cookie: little-endian, version 11.0, and the lengths and the name of the method.
+/// What a client says first, before the cookie: little-endian, version 11.0, and the lengths and the name of the
+/// method.
 const HELLO: &[u8] = b"l\0\x0b\0\0\0\x12\0\x10\0\0\0MIT-MAGIC-COOKIE-1\0\0";
 /// Words of the answer: the first byte says whether the server agrees, the last two say how many words follow.
 const ANSWER: usize = 2;
 const AGREED: u32 = 1;
-/// An entry of an authority file from the display's number on, big-endian: it is for any display, and its cookie is of zeros,
-/// which a server that wants no cookie ignores.
+/// An entry of an authority file from the display's number on, big-endian: it is for any display, and its cookie is of
+/// zeros, which a server that wants no cookie ignores.
 const LAST: &[u8] = b"\0\0\0\x12MIT-MAGIC-COOKIE-1\0\x10\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
 /// The same up to the cookie.
 const ANY: &[u8] = LAST.split_at(LAST.len() - COOKIE).0;
 
 /// Most words that are believed to follow a packet. A set-up has no more, and 255 keys of 255 symbols have fewer.
 const MOST: usize = 0xffff;
-/// How often the server is waited for: 5 s in all for the opening, and 5 s for each request of a frame. Waits are counted rather
-/// than timed, so that a process that was stopped for a while gives up nothing.
+/// How often the server is waited for: 5 s in all for the opening, and 5 s for each request of a frame. Waits are
+/// counted rather than timed, so that a process that was stopped for a while gives up nothing.
 pub const WAITS: u32 = 500;
 /// The longest single wait, a hundredth of a second.
 const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
@@ -106,8 +109,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// Connects to the server that `DISPLAY` names, trying each cookie that may be for it. Without success `why` has the reason,
-    /// if one is known.
+    /// Connects to the server that `DISPLAY` names, trying each cookie that may be for it. Without success `why` has
+    /// the reason, if one is known.
     pub fn find(why: &mut &'static str) -> Option<Server> {
         // What is read here is leaked: dropping it would be code.
         let environment = contents(b"/proc/self/environ\0").leak();
@@ -207,8 +210,8 @@ impl Server {
         Some(self.receive(PACKET)?[REPLY])
     }
 
-    /// The root window, the black pixel and the depth (bits of a pixel that are shown) of the first screen, where its pixels
-    /// have 32 bits, little-endian.
+    /// The root window, the black pixel and the depth (bits of a pixel that are shown) of the first screen, where its
+    /// pixels have 32 bits, little-endian.
     pub fn screen(&self) -> Option<[u32; 3]> {
         let (formats, screen) = self.formats();
         let (order, depth) = (self.setup[SETUP_COUNTS] >> 16 & 255, screen[SCREEN_DEPTH] >> 16 & 255);
@@ -239,7 +242,8 @@ impl Server {
         self.waits = WAITS;
         // Errors are ignored: a lost display is noticed when the next frame is shown.
         let _ = self.send(&[
-            // A message to the window manager, which listens at the root window: it adds the state (1) or removes it (0).
+            // A message to the window manager, which listens at the root window: it adds the state (1) or removes it
+            // (0).
             request(SEND_EVENT, 0, 11),
             root,
             TO_WINDOW_MANAGER,

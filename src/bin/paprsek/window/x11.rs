@@ -1,5 +1,5 @@
-//! A window on this machine's X server by the protocol itself ([`super::protocol`]). It takes 1 kB packed, where minifb, Xlib's
-//! table of functions and what they take of the standard library are 6.
+//! A window on this machine's X server by the protocol itself ([`super::protocol`]). It takes 1 kB packed, where
+//! minifb, Xlib's table of functions and what they take of the standard library are 6.
 
 use super::common::{TITLE, keysym};
 use super::protocol::{BITS_32, CLIENT_MESSAGE, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes, request};
@@ -53,14 +53,14 @@ const Z_PIXMAP: u32 = 2;
 /// What is set when a window is created: background, events and cursor.
 const BACKGROUND_EVENTS_CURSOR: u32 = 1 << 1 | 1 << 11 | 1 << 14;
 /// The events that are heard: key down, key up, and what happens to the window (StructureNotify).
-const EVENTS: u32 = 1 << 0 | 1 << 1 | 1 << 17;
+const EVENTS: u32 = 1 | 1 << 1 | 1 << 17;
 /// Width and height of one pixel.
 const ONE_PIXEL: u32 = 1 | 1 << 16;
 
 /// Words of a PutImage request before its pixels.
 const PUT_IMAGE_HEAD: usize = 6;
-/// Largest side of what is drawn, pixels: that of a frame. In a larger window the picture is in the upper left corner, since X
-/// counts pixels up to 32,767.
+/// Largest side of what is drawn, pixels: that of a frame. In a larger window the picture is in the upper left corner,
+/// since X counts pixels up to 32,767.
 const MAX_SIDE: usize = 16384;
 /// Most events that are heard at once, so that a server that never stops talking does not keep us.
 const EVENTS_AT_ONCE: usize = 64;
@@ -190,7 +190,8 @@ impl Window {
     }
 
     fn put(&mut self, frame: &Frame) -> Option<()> {
-        // Pixels that the longest request has room for. A picture is no wider, so that one row fits, and no higher either.
+        // Pixels that the longest request has room for. A picture is no wider, so that one row fits, and no higher
+        // either.
         let room = (self.server.setup[SETUP_LENGTHS] >> 16) as usize;
         let room = room.saturating_sub(PUT_IMAGE_HEAD).clamp(1, MAX_SIDE);
         let size = (self.size.0.min(room), self.size.1.min(room));

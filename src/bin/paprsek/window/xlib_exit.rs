@@ -1,9 +1,9 @@
 //! One line on stderr where Xlib ends the process.
 //!
-//! Xlib answers a lost display, and a window that another client destroys, with lines of its own and `exit(1)` in the middle
-//! of a call. Its handlers can be replaced only by unsafe code. But `exit` still runs the destructors of the calling thread's
-//! locals (glibc's does, and glibc is what Xlib is loaded with), and stderr can be a pipe while a call lasts. So the
-//! destructor of a thread local reads what Xlib said, and says it in the program's own words.
+//! Xlib answers a lost display, and a window that another client destroys, with lines of its own and `exit(1)` in the
+//! middle of a call. Its handlers can be replaced only by unsafe code. But `exit` still runs the destructors of the
+//! calling thread's locals (glibc's does, and glibc is what Xlib is loaded with), and stderr can be a pipe while a call
+//! lasts. So the destructor of a thread local reads what Xlib said, and says it in the program's own words.
 
 use crate::io::{complain, keep_stderr};
 use rustix::io::ioctl_fionbio;
@@ -49,8 +49,8 @@ impl Drop for Stderr {
         }
         let mut said = [0; SAID];
         let said = self.pipe.0.read(&mut said).ok().and_then(|count| said.get(..count)).unwrap_or_default();
-        // "X Error of failed request:  BadDrawable ...": the window was closed, if not in the polite way, and closing it ends
-        // the program well.
+        // "X Error of failed request:  BadDrawable ...": the window was closed, if not in the polite way, and closing
+        // it ends the program well.
         if WINDOW_IS_GONE.iter().any(|name| said.windows(name.len()).any(|part| part == *name)) {
             process::exit(0);
         }
