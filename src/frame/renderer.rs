@@ -1,4 +1,8 @@
-//! From a scene at an instant to finished pixels.
+//! The renderer: from a scene at an instant to finished pixels.
+//!
+//! A frame is cut into bands of 64 rows and these into tiles. Threads take one band after another; each draws all layers
+//! of the picture into a tile, encodes it, and goes on to the next. A frame is a pure function of what is asked for:
+//! neither the number of threads, nor the SIMD level, nor the frames before it change a byte.
 
 use super::cache::Cache;
 use super::encode::{self, Transfer};
@@ -36,14 +40,21 @@ impl Frame {
 }
 
 /// How a frame is asked for, beside its scene and its time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options<'a> {
     /// Speed against error.
-    pub quality: Quality,
+    pub quality: &'a Quality,
     /// Two pictures side by side, for two eyes.
     pub stereo: Option<Stereo>,
     /// What the scene's parameters are set to.
     pub values: Values<'a>,
+}
+
+impl Default for Options<'_> {
+    /// The default quality, one eye, the scene as it is shown.
+    fn default() -> Self {
+        Options { quality: &Quality::DEFAULT, stereo: None, values: &[] }
+    }
 }
 
 /// Renders frames on a fixed number of threads at one SIMD level.
@@ -53,9 +64,9 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer on `threads` threads (0: all cores) at the best SIMD level of this machine.
+    /// A renderer on `threads` threads, or one per core if 0, at the best SIMD level of this machine.
     ///
-    /// The calling thread becomes a worker where it can. Fails where threads cannot be started.
+    /// The calling thread is one of them where it can be. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
         Ok(Renderer { workers: Workers::new(threads)?, cache: Cache::default() })
     }
@@ -93,7 +104,7 @@ impl Renderer {
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
-        self.render_with(scene, time, &Options { quality: *quality, ..Options::default() }, frame)
+        self.render_with(scene, time, &Options { quality, ..Options::default() }, frame)
     }
 
     /// Renders `scene` at `time` seconds into `frame`, with all that can be asked for.
@@ -119,12 +130,12 @@ impl Renderer {
     }
 
     /// The request for the frame of `time`, `width` x `height` pixels, with everything else as usual.
-    pub fn spec(&self, time: f64, quality: Quality, (width, height): (usize, usize)) -> FrameSpec<'_> {
+    pub fn spec<'a>(&'a self, time: f64, quality: &'a Quality, (width, height): (usize, usize)) -> FrameSpec<'a> {
         let (workers, cache) = (&self.workers, &self.cache);
         FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, values: &[], workers, cache }
     }
 
-    /// Draws a picture that was made for a frame of that size.
+    /// Draws a picture that was made for the frame's size.
     pub fn draw(&mut self, picture: Picture, frame: &mut Frame) -> Stats {
         self.draw_at(picture, 0, frame.width, frame)
     }
@@ -136,8 +147,8 @@ impl Renderer {
         }
         let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
         let columns = width.div_ceil(Tile::SIZE);
-        // A band of the frame is one row of tiles: its pixels are contiguous, so threads never share a line of memory.
-        // Bands are handed out one at a time: a few dear ones at the end must not stay with one thread.
+        // The pixels of a band are contiguous, so threads never share a cache line. Bands are handed out one at a time, so
+        // that a few expensive ones do not all fall to one thread.
         let bands = frame.pixels.chunks_mut((stride * Tile::SIZE).max(1)).enumerate();
         let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
@@ -155,7 +166,7 @@ impl Renderer {
     }
 }
 
-/// From the tile's light to the screen's codes.
+/// Encodes the pixels of a tile into a band of the frame.
 #[inline(always)]
 fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
     for row in 0..tile.height {

@@ -1,14 +1,15 @@
-//! How a frame is cut into tiles.
+//! Tiles: 64 x 64 pixels of linear light, small enough to stay in the first levels of the cache while layer after layer
+//! draws into them.
 
-/// A piece of the picture that stays in the first levels of the cache: linear light, and what lies in front of what.
+/// A square of the picture: linear light, and where its solids are.
 ///
-/// All planes have rows of [`Tile::SIZE`] pixels, whatever the width.
+/// Every plane has rows of [`Tile::SIZE`] pixels, also where fewer are in use.
 pub struct Tile {
     /// Left edge in the picture, pixels.
     pub x: usize,
     /// Top edge in the picture, pixels.
     pub y: usize,
-    /// Pixels in use in a row.
+    /// Pixels in use per row.
     pub width: usize,
     /// Rows in use.
     pub height: usize,
@@ -18,28 +19,29 @@ pub struct Tile {
     pub green: Box<[f32; Tile::AREA]>,
     /// Linear blue.
     pub blue: Box<[f32; Tile::AREA]>,
-    /// 1 / distance along the view axis of the nearest solid, 0 for none: affine on planes, and empty space needs no infinity.
+    /// 1 / distance along the view axis of the nearest solid, 1/metres; 0 where there is none. The inverse is affine on
+    /// planes, and empty space needs no infinity.
     pub inv_depth: Box<[f32; Tile::AREA]>,
-    /// Share of the pixel that solids cover.
+    /// Share of the pixel that solids cover, 0 to 1.
     pub coverage: Box<[f32; Tile::AREA]>,
-    /// Will a later layer read `inv_depth` and `coverage`? Else they are not written.
+    /// Whether a later layer may read `inv_depth` and `coverage`. Where none does they need not be written.
     pub solids_matter: bool,
 }
 
 impl Tile {
-    /// Pixels along an edge.
+    /// Pixels along an edge of a tile.
     pub const SIZE: usize = 64;
-    /// Pixels.
+    /// Pixels of a tile.
     pub const AREA: usize = Tile::SIZE * Tile::SIZE;
 
-    /// The tile of a picture of `width` x `height` pixels in that column and row of tiles.
+    /// The tile in a column and row of tiles, of a picture of `width` x `height` pixels.
     pub fn at(column: usize, row: usize, width: usize, height: usize) -> Tile {
         let mut tile = Tile::new();
         tile.place(column, row, width, height);
         tile
     }
 
-    /// Moves the tile over the picture.
+    /// Moves the tile to another column and row.
     pub(super) fn place(&mut self, column: usize, row: usize, width: usize, height: usize) {
         (self.x, self.y) = (column * Tile::SIZE, row * Tile::SIZE);
         self.width = Tile::SIZE.min(width - self.x);
@@ -52,7 +54,7 @@ impl Tile {
         Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, inv_depth, coverage, solids_matter: true }
     }
 
-    /// Black and empty.
+    /// Makes the tile black and empty.
     pub fn clear(&mut self) {
         for plane in [&mut self.red, &mut self.green, &mut self.blue] {
             plane.fill(0.0);

@@ -1,4 +1,4 @@
-//! The threads that make a frame.
+//! The threads of a renderer, and how work is shared among them.
 
 use super::pool::Pool;
 use crate::simd::level;
@@ -12,7 +12,7 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// `threads` threads (0: all cores) at the best SIMD level of this machine. Fails where they cannot be started.
+    /// `threads` threads, or one per core if 0, at the best SIMD level of this machine. Fails where they cannot be started.
     pub fn new(threads: usize) -> Result<Workers, String> {
         Ok(Workers { pool: Pool::new(threads)?, level: level::best() })
     }
@@ -54,7 +54,7 @@ impl Workers {
         make: impl Fn() -> M + Sync,
         work: impl Fn(&mut M, T) -> u64 + Sync,
     ) -> u64 {
-        // A thread without a job would start for nothing.
+        // No more threads than jobs: one without a job would be started for nothing.
         let most = jobs.size_hint().1.unwrap_or(usize::MAX);
         let jobs = Mutex::new(jobs);
         self.pool.sum(most, &|| {

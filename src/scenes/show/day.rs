@@ -163,7 +163,7 @@ pub(in crate::scenes) fn show(
     let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
     let backdrop = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
     let mut layers: Vec<Box<dyn Layer>> =
-        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, spec.quality))];
+        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
     layers.extend(between);
     layers.push(Box::new(backdrop));
     Picture { layers, transfer: Transfer::Srgb }

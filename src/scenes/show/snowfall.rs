@@ -138,7 +138,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         fields.push(Emitter::Snow(snow));
     }
     let flakes = ParticleLayer::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, spec.width, spec.height);
-    let drawn = RasterLayer::new(world, view, spec.width, spec.height, spec.quality);
+    let drawn = RasterLayer::new(world, view, spec.width, spec.height, *spec.quality);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {
         layers.push(Box::new(fog));
