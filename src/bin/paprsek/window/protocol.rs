@@ -92,7 +92,7 @@ const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
 /// Why there is no window: the server is silent, makes no sense, or has other pixels.
 pub const UNFIT: &str = "no X server with 32 bits per pixel";
 /// Why there is no window: the server accepts none of the cookies.
-const REFUSED: &str = "the display refused us";
+const REFUSED: &str = "the display refused access";
 
 /// A connection.
 pub struct Server {
