@@ -43,3 +43,6 @@ pub const SOFT_LIGHTS: bool = FULL;
 
 /// Whether textures can be checkers: the show has none.
 pub const CHECKER: bool = FULL;
+
+/// Whether the command line has the options beyond playing and capturing, and `--help` names them.
+pub const ALL_OPTIONS: bool = FULL;
