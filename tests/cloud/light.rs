@@ -1,11 +1,11 @@
 //! What grows, and what the sun lights of it.
 
-use super::common::levels;
 use super::oracle::{cumulus, depth, lit};
 use fearless_simd::{Level, dispatch};
 use glam::vec3;
 use paprsek::cloud::{CloudKind, sunlight};
 use paprsek::scenes::bench::cumulus_set::{shape, sun};
+use testkit::levels;
 
 const KINDS: [CloudKind; 2] = [CloudKind::CUMULUS, CloudKind::CONGESTUS];
 /// Every so many voxels are looked at: no divisor of 64.
