@@ -19,3 +19,9 @@ pub const REFERENCE: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
+
+/// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
+pub const SOFT_LIGHTS: bool = FULL;
+
+/// Whether textures can be checkers: the show has none.
+pub const CHECKER: bool = FULL;

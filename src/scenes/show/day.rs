@@ -13,7 +13,7 @@ use crate::scenes::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
 };
 use crate::sky::dome::{Dome, Sky};
-use crate::sky::layer::{Look, SkyLayer};
+use crate::sky::layer::SkyLayer;
 use crate::sky::place::Place;
 use crate::texture::Texture;
 use crate::timeline::{self, ease};
@@ -148,7 +148,7 @@ pub(in crate::scenes) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Text
 /// The sky of a day, from J2000.
 #[inline(never)]
 pub(in crate::scenes) fn sky(spec: &FrameSpec, day: f64) -> Dome {
-    Dome::new(Sky::new(day, &Place::PLZEN), spec.quality.sky)
+    Dome::new(Sky::new(day, &Place::PLZEN), &spec.quality.sky)
 }
 
 /// The picture of a world under a sky, with what is between.
@@ -160,12 +160,11 @@ pub(in crate::scenes) fn show(
     view: View,
     between: Option<Box<dyn Layer>>,
 ) -> Picture {
-    let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
-    let backdrop = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
+    let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
     let mut layers: Vec<Box<dyn Layer>> =
         vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
     layers.extend(between);
-    layers.push(Box::new(backdrop));
+    layers.push(Box::new(sky));
     Picture { layers, transfer: Transfer::Srgb }
 }
 
