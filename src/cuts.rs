@@ -20,6 +20,12 @@ pub const REFERENCE: bool = FULL;
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
 
+/// Whether imposters can stand for clouds.
+pub const IMPOSTERS: bool = FULL;
+
+/// Whether particles can be drawn as streaks along their way, as rain is.
+pub const STREAKS: bool = FULL;
+
 /// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
 pub const SOFT_LIGHTS: bool = FULL;
 

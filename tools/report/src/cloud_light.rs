@@ -10,9 +10,7 @@ use crate::options::{Quick, Result};
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
-use paprsek::cloud::shape::Kind;
-use paprsek::cloud::sunlight;
-use paprsek::cloud::voxels::Voxels;
+use paprsek::cloud::{CloudKind, Voxels, sunlight};
 use paprsek::simd::block::{BLOCK, load, store};
 use paprsek::simd::lanes::{F, V3};
 use paprsek::simd::math::exp2;
@@ -114,8 +112,8 @@ pub fn run(options: &Quick) -> Result {
         let (sin, cos) = height.to_radians().sin_cos();
         let towards = vec3(cos * 0.8, sin, cos * 0.6);
         let mut squares = vec![0.0; MODES.len()];
-        for (kind, seed) in [(Kind::CUMULUS, 0), (Kind::CUMULUS, 1), (Kind::CONGESTUS, 4)] {
-            let mut voxels = dispatch!(level, simd => Kind::grow(simd, &kind, seed, 64));
+        for (kind, seed) in [(CloudKind::CUMULUS, 0), (CloudKind::CUMULUS, 1), (CloudKind::CONGESTUS, 4)] {
+            let mut voxels = dispatch!(level, simd => CloudKind::grow(simd, &kind, seed, 64));
             let start = Instant::now();
             dispatch!(level, simd => sunlight::bake(simd, &mut voxels, towards, EXTINCTION));
             bake = bake.min(start.elapsed().as_secs_f32() * 1e3);

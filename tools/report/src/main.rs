@@ -24,9 +24,6 @@ mod shadows;
 mod show;
 mod stills;
 
-#[path = "../../../tests/common/mod.rs"]
-mod common;
-
 use clap::{Parser, Subcommand};
 use options::{Common, Quick, Result};
 use program::{intro_speed, opt_level, pace, start};

@@ -4,10 +4,7 @@ use super::{SIZE, THREADS};
 use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
-use paprsek::cloud::march::{Cloud, Look};
-use paprsek::cloud::shape::Kind;
-use paprsek::cloud::voxels::Voxels;
-use paprsek::cloud::{CloudLayer, sunlight};
+use paprsek::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels, sunlight};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::scenes::bench::cumulus_set as set;
@@ -52,7 +49,7 @@ struct Way {
 }
 
 fn grow(kind: u32) -> Voxels {
-    dispatch!(Level::new(), simd => Kind::grow(simd, &Kind::CUMULUS, kind, EDGE))
+    dispatch!(Level::new(), simd => CloudKind::grow(simd, &CloudKind::CUMULUS, kind, EDGE))
 }
 
 fn bake(voxels: &mut Voxels) {
@@ -65,7 +62,7 @@ fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], coun
     let mut shapes = shapes.to_vec();
     if way.bakes {
         for shape in &mut shapes {
-            let mut voxels = Voxels::new(EDGE, shape.density.clone());
+            let mut voxels = Voxels::new(EDGE, shape.density().to_vec());
             bake(&mut voxels);
             *shape = Arc::new(voxels);
         }
@@ -83,13 +80,13 @@ fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], coun
             clouds.push(Cloud { voxels: shapes[i as usize % 4].clone(), centre, size, extinction: EXTINCTION });
         }
     }
-    let look = Look {
+    let light = CloudLight {
         ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
         towards: set::sun(),
         sun: vec3(0.86, 0.78, 0.68),
         phase: [0.85, 0.5],
     };
-    let clouds = CloudLayer::new(clouds, look, |_| Vec3::ONE, 1400.0, view, way.quality);
+    let clouds = CloudLayer::new(clouds, light, &view, &way.quality).in_air(1400.0, |_| Vec3::ONE);
     renderer.draw(Picture { layers: vec![Box::new(Alone(clouds))], transfer: Transfer::Linear }, frame);
     began.elapsed().as_secs_f64() * 1e3
 }

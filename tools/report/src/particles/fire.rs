@@ -4,10 +4,9 @@ use super::{SIZE, Stage, camera};
 use glam::{Vec3, vec3};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::Layer;
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
+use paprsek::particles::{Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::{FIRE_SKY, fires, over};
-use paprsek::settings::Quality;
+use paprsek::settings::{ParticleSettings, Quality};
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -44,9 +43,9 @@ fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
     let view = View::new(camera(middle, middle + Vec3::NEG_Z), SIZE.0, SIZE.1);
     let fire = |(number, (before, right)): (usize, &(f32, f32))| {
         let place = vec3(*right, 0.0, -before);
-        Fire { place, first: 2000 * number as u32, ..torch(shot.time) }.detailed(&view, detail)
+        Fire { place, first: 2000 * number as u32, ..torch(shot.time) }
     };
-    ParticleLayer::fire(case.places.iter().enumerate().map(fire).collect(), 1.6, &view, SIZE.0, SIZE.1)
+    ParticleLayer::new(case.places.iter().enumerate().map(fire), &view, &ParticleSettings { detail })
 }
 
 /// Appends the table.

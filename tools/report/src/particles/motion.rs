@@ -2,16 +2,13 @@
 
 use super::limits::{self, NUMBERS};
 use super::{SIZE, START, STEP, THREADS, camera};
-use crate::common;
 use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Vec3, vec3};
 use paprsek::frame::{Layer, Renderer};
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
-use paprsek::particles::snow::Flakes;
-use paprsek::particles::sprite::Lens;
+use paprsek::particles::{Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{FLAKES, fires, flakes};
+use paprsek::settings::Quality;
 use paprsek::view::View;
 use std::error::Error;
 use std::fmt::Write;
@@ -37,11 +34,11 @@ fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
-        ParticleLayer::snow(vec![flakes(&of, time, Vec3::ZERO)], Vec3::ONE, &view, SIZE.0, SIZE.1)
+        ParticleLayer::new([flakes(&of, time, Vec3::ZERO)], &view, &Quality::EXACT.particles)
     } else {
         let fire = fires(time)[0];
         let fire = Fire { place: Vec3::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
-        ParticleLayer::fire(vec![fire], 1.6, &view, SIZE.0, SIZE.1)
+        ParticleLayer::new([fire], &view, &Quality::EXACT.particles)
     }
 }
 
@@ -94,7 +91,7 @@ pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dy
     for threads in [1, THREADS] {
         let on = if threads == 1 { "1 thread".to_string() } else { format!("{threads} threads") };
         let mut lines = KINDS.map(|kind| Curve { name: format!("{kind}, {on}"), points: Vec::new() });
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let renderer = Renderer::new(threads)?.at_level(level);
             let rate = limits::arithmetic(&renderer, level, rounds);
             write!(text, "| {threads} | {name} | {:.2}", rate * 1e-9)?;

@@ -3,7 +3,7 @@
 use super::{START, STEP, Stage};
 use crate::plot::{self, Axis, Curve};
 use paprsek::frame::Layer;
-use paprsek::particles::snow::Flakes;
+use paprsek::particles::Flakes;
 use paprsek::scenes::bench::particles::{FLAKES, SNOW_SKY, over, snowfall};
 use std::error::Error;
 use std::fmt::Write;

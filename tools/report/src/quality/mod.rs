@@ -9,8 +9,8 @@ mod measure;
 mod subject;
 mod sweep;
 
+use crate::machine;
 use crate::options::{Common, Result};
-use crate::{common, machine};
 use markdown::Setting;
 use measure::{Bench, Effort, Renderers};
 use std::time::Instant;
@@ -57,7 +57,7 @@ pub fn run(options: &Options) -> Result {
     let simd = renderers.with(effort.threads, None).simd();
     let mut sweeps = sweep::knobs();
     for group in [Group::Tracer, Group::Raster] {
-        sweeps.push(sweep::levels(&common::levels(), group));
+        sweeps.push(sweep::levels(&testkit::levels(), group));
         sweeps.push(sweep::threads(effort.threads, group));
     }
     let mut results: Vec<_> = sweeps.into_iter().map(|sweep| (sweep, Vec::new())).collect();
