@@ -31,7 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let flakes = Flakes { radius: [0.009, 0.016], lens, ..FLAKES };
     let flakes = Snow::new(&flakes, spec.time, camera.eye.as_dvec3(), dvec3(9.6, 0.0, 4.2), 0.5);
     let solids = TraceLayer::new(world, &spec.view(camera), &spec.quality.trace);
-    let flakes = ParticleLayer::new([flakes], &spec.view(camera), &spec.quality.particles).colored(dusk * 2.2);
+    let flakes =
+        ParticleLayer::new(vec![flakes.into()], &spec.view(camera), &spec.quality.particles).colored(dusk * 2.2);
     renderer.draw(Picture { layers: vec![Box::new(solids), Box::new(flakes)], transfer: Transfer::Srgb }, &mut frame);
     let path = std::env::args().nth(1).unwrap_or("target/snow.png".into());
     Ok(image::save_buffer(path, &frame.to_rgb(), 1280, 720, image::ColorType::Rgb8)?)

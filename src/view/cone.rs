@@ -19,9 +19,10 @@ impl Cone {
     /// Its axis is the ray through the point, and its angle that of the corner which is farthest from it.
     pub fn new(view: &View, (x, y): (f32, f32), half: f32) -> Cone {
         let axis = view.ray(x, y).normalize();
-        let corners = [(-half, -half), (half, -half), (-half, half), (half, half)];
-        let cosine = |(dx, dy)| axis.dot(view.ray(x + dx, y + dy).normalize());
-        let cosine = corners.map(cosine).into_iter().fold(1.0f32, f32::min);
+        let mut cosine = 1.0f32;
+        for (dx, dy) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
+            cosine = cosine.min(axis.dot(view.ray(x + dx, y + dy).normalize()));
+        }
         Cone { axis, cosine, sine: (1.0 - cosine * cosine).sqrt() }
     }
 
