@@ -58,6 +58,7 @@ impl Cache {
 }
 
 /// Locks a value. A panic of another thread leaves it intact, as values are only ever replaced as a whole.
+#[inline(never)] // Each type has its own, but the packer folds equal ones.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

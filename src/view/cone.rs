@@ -18,10 +18,10 @@ impl Cone {
     ///
     /// Its axis is the ray through the point, and its angle that of the corner which is farthest from it.
     pub fn new(view: &View, (x, y): (f32, f32), half: f32) -> Cone {
-        let axis = view.ray(x, y).normalize();
+        let axis = view.direction(x, y);
         let mut cosine = 1.0f32;
         for (dx, dy) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
-            cosine = cosine.min(axis.dot(view.ray(x + dx, y + dy).normalize()));
+            cosine = cosine.min(axis.dot(view.direction(x + dx, y + dy)));
         }
         Cone { axis, cosine, sine: (1.0 - cosine * cosine).sqrt() }
     }
