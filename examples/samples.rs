@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut frame = Frame::new(1280, 720);
     let stats = renderer.render(&scene, time, &quality, &mut frame);
     let Frame { width, height, pixels } = &mut frame;
-    let picture = (scene.picture)(&renderer.spec(time, quality, (*width, *height)));
+    let picture = (scene.picture)(&renderer.spec(time, &quality, (*width, *height)));
     // Darker, so that the dots show.
     for pixel in pixels.iter_mut() {
         *pixel = (*pixel >> 1) & 0x7f7f7f;

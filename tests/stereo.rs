@@ -33,7 +33,7 @@ fn render(
     let mut frame = Frame::new(size.0, size.1);
     // No scene is of this colour, and what is left over must be black.
     frame.pixels.fill(0xff00_0000);
-    let options = Options { quality: *quality, stereo, ..Options::default() };
+    let options = Options { quality, stereo, ..Options::default() };
     renderer.render_with(scene, 2.0, &options, &mut frame);
     frame
 }

@@ -43,7 +43,7 @@ struct Stage {
 impl Stage {
     /// An instant of a scene at `fast`.
     fn shot(&self, time: f64) -> FrameSpec<'_> {
-        self.renderer.spec(time, Quality::FAST, SIZE)
+        self.renderer.spec(time, &Quality::FAST, SIZE)
     }
 
     /// Median frames a second of each case from time to finished picture; all take turns at each instant.

@@ -77,7 +77,7 @@ impl Subject {
     ) -> Picture {
         let (time, quality) = (self.times[instant], point.quality);
         if let Some(scene) = self.scene {
-            return (scene.picture)(&renderer.spec(time, quality, (width, height)));
+            return (scene.picture)(&renderer.spec(time, &quality, (width, height)));
         }
         let (sin, cos) = (time as f32).to_radians().sin_cos();
         let sky = Sky {

@@ -40,14 +40,21 @@ impl Frame {
 }
 
 /// How a frame is asked for, beside its scene and its time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options<'a> {
     /// Speed against error.
-    pub quality: Quality,
+    pub quality: &'a Quality,
     /// Two pictures side by side, for two eyes.
     pub stereo: Option<Stereo>,
     /// What the scene's parameters are set to.
     pub values: Values<'a>,
+}
+
+impl Default for Options<'_> {
+    /// The default quality, one eye, the scene as it is shown.
+    fn default() -> Self {
+        Options { quality: &Quality::DEFAULT, stereo: None, values: &[] }
+    }
 }
 
 /// Renders frames on a fixed number of threads at one SIMD level.
@@ -97,7 +104,7 @@ impl Renderer {
 
     /// Renders `scene` at `time` seconds into `frame`: the same bytes after any history, on any number of threads.
     pub fn render(&mut self, scene: &Scene, time: f64, quality: &Quality, frame: &mut Frame) -> Stats {
-        self.render_with(scene, time, &Options { quality: *quality, ..Options::default() }, frame)
+        self.render_with(scene, time, &Options { quality, ..Options::default() }, frame)
     }
 
     /// Renders `scene` at `time` seconds into `frame`, with all that can be asked for.
@@ -123,7 +130,7 @@ impl Renderer {
     }
 
     /// The request for the frame of `time`, `width` x `height` pixels, with everything else as usual.
-    pub fn spec(&self, time: f64, quality: Quality, (width, height): (usize, usize)) -> FrameSpec<'_> {
+    pub fn spec<'a>(&'a self, time: f64, quality: &'a Quality, (width, height): (usize, usize)) -> FrameSpec<'a> {
         let (workers, cache) = (&self.workers, &self.cache);
         FrameSpec { time, width, height, quality, eye: Eye::MIDDLE, values: &[], workers, cache }
     }

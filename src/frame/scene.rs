@@ -65,7 +65,7 @@ pub struct FrameSpec<'a> {
     /// Rows.
     pub height: usize,
     /// Speed against error.
-    pub quality: Quality,
+    pub quality: &'a Quality,
     /// The eye that the picture is for. [`FrameSpec::view`] moves a scene's camera to it.
     pub eye: Eye,
     /// What the scene's parameters are set to.

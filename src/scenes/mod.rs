@@ -18,7 +18,7 @@ use crate::view::View;
 
 /// A picture that is all ray tracing.
 fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, spec.quality);
+    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
     Picture { layers: vec![Box::new(traced)], transfer }
 }
 
@@ -26,7 +26,7 @@ fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) ->
 #[cfg(feature = "full")]
 fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
     let view = View::new(spec.camera(camera), spec.width, spec.height);
-    Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, spec.quality))], transfer }
+    Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))], transfer }
 }
 
 /// Every scene, the intro's own first; in the 64 kB build that alone.

@@ -29,7 +29,8 @@ fn table(renderer: &mut Renderer) -> String {
         let mut line = |share: f64, name: &str, (width, height), stereo| {
             let time = (share * scene.duration * 100.0).round() / 100.0;
             let mut frame = Frame::new(width, height);
-            let options = Options { quality: Quality::named(name).unwrap(), stereo, ..Options::default() };
+            let quality = &Quality::named(name).unwrap();
+            let options = Options { quality, stereo, ..Options::default() };
             renderer.render_with(scene, time, &options, &mut frame);
             let eyes = if stereo.is_some() { "two" } else { "one" };
             writeln!(table, "{} {time} {name} {width}x{height} {eyes} {:016x}", scene.name, hash(&frame)).unwrap();

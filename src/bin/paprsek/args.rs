@@ -191,7 +191,7 @@ impl Args {
     #[inline(never)]
     fn read(scene: Option<&'static Scene>, values: [Option<&'static [u8]>; OPTIONS]) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].unwrap_or_default());
-        let (numbers, threads, size, &(_quality_name, quality)) = understood(&values).map_err(refused)?;
+        let (numbers, threads, size, (_quality_name, quality)) = understood(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
         let mut is = [false; 17];
         for (is, value) in is.iter_mut().zip(values) {

@@ -5,7 +5,7 @@ use crate::frame::{FrameSpec, Scene};
 use crate::particles::ParticleLayer;
 use crate::particles::snow::{Flakes, Snow};
 use crate::particles::sprite::Lens;
-use crate::scenes::show::day;
+use crate::scenes::show::valley;
 use crate::timeline::ease;
 use crate::view::Camera;
 use crate::view::View;
@@ -40,8 +40,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     let eye = vec3(14.0, 12.0, 34.0 - 0.8 * t as f32);
     let camera = spec.camera(Camera::look_at(eye, eye + vec3(-0.35 * cos, sin, -cos), 1.0, 0.0));
     let view = View::new(camera, spec.width, spec.height);
-    let dome = day::sky(spec, 9671.5 + 86.0 + 9.0 / 24.0);
-    let mut world = day::world(&dome, day::plan(1, 0.0).2, Mat3::IDENTITY, Vec3::new(0.0, -900.0, 0.0), t);
+    let dome = valley::sky(spec, 9671.5 + 86.0 + 9.0 / 24.0);
+    let mut world = valley::world(&dome, valley::season(1).1, Mat3::IDENTITY, Vec3::new(0.0, -900.0, 0.0), t);
     let sky = dome.lighting().sky;
     world.lights.clear();
     let wind = vec3(1.8, 0.0, 0.9);
@@ -50,7 +50,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let mut rain = Snow::new(&DROPS, t, camera.eye.as_dvec3(), way, 0.3 + 0.7 * ease(0.0, 6.0, t));
     rain.streak = (wind - Vec3::Y * DROPS.fall[0] as f32) * (0.5 * SHUTTER);
     let rain = ParticleLayer::snow(vec![rain], sky * 1.6, &view, spec.width, spec.height);
-    let mut picture = day::show(spec, dome, world, view, None);
+    let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));
     picture
 }

@@ -1,6 +1,6 @@
 //! The third part of the intro: by aeroplane through a morning's clouds, from dawn to noon.
 
-use super::day;
+use super::valley;
 use crate::cloud::field::Field;
 use crate::cloud::march::Look;
 use crate::cloud::shape::Kind;
@@ -103,10 +103,10 @@ fn picture(spec: &FrameSpec) -> Picture {
     // Whoever looks far ahead sits in it.
     let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * 0.01);
     let camera = spec.camera(camera);
-    let dome = day::sky(spec, 9671.5 + (hour - 1.0) / 24.0);
+    let dome = valley::sky(spec, 9671.5 + (hour - 1.0) / 24.0);
     let now = dome.lighting();
     let clouds = FIELD.around(eye, spec.time as f32, &shapes(spec.workers, now.direction));
-    let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, spec.time);
+    let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
     // It moves by whole texels, and its slope ends before the sun is level.
     let texel = 80.0;
     let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - CloudShadow::SIDE as u32 as f32 * 0.5) * texel;
@@ -133,5 +133,5 @@ fn picture(spec: &FrameSpec) -> Picture {
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
     let mut seen = CloudLayer::new(clouds.clone(), look, air, 9000.0, view, spec.quality.cloud);
     seen.shade(&clouds);
-    day::show(spec, dome, world, view, Some(Box::new(seen)))
+    valley::show(spec, dome, world, view, Some(Box::new(seen)))
 }

@@ -1,6 +1,6 @@
 //! A walk to the chapel of `day` at the end of November: it begins to snow, and it gets dark.
 
-use super::day;
+use super::valley;
 use crate::effects::Fog;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
@@ -101,9 +101,9 @@ fn picture(spec: &FrameSpec) -> Picture {
     let camera = Camera::look_at(eye, eye + vec3(sin, pitch.tan(), -cos), 0.82, 0.0);
     let camera = spec.camera(camera);
     // The land on 2026-11-28 in autumn's colours. Clouds hide the sky of that day, and its light is put aside.
-    let dome = day::sky(spec, 9827.5);
-    let textures = day::plan(1, 0.0).2;
-    let mut world = day::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    let dome = valley::sky(spec, 9827.5);
+    let textures = valley::season(1).1;
+    let mut world = valley::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
     // No aeroplane flies.
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
@@ -123,7 +123,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
-    day::lamp(&mut world, ease(20.0, 26.0, spec.time));
+    valley::lamp(&mut world, ease(20.0, 26.0, spec.time));
     let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
     world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
@@ -138,7 +138,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         fields.push(Emitter::Snow(snow));
     }
     let flakes = ParticleLayer::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, spec.width, spec.height);
-    let drawn = RasterLayer::new(world, view, spec.width, spec.height, spec.quality);
+    let drawn = RasterLayer::new(world, view, spec.width, spec.height, *spec.quality);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {
         layers.push(Box::new(fog));

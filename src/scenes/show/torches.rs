@@ -1,7 +1,7 @@
 //! Fires in the ruin on the hill, in a winter's night: a ring of them before the altar, torches on the walls, and outside
 //! the moon over the lake.
 
-use super::day;
+use super::valley;
 use crate::cuts::BENCH;
 use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
@@ -120,7 +120,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, 0.4));
     // 1 / (1 + 0.0004 D + 0.000028 D^2) as in the thesis, if a unit of its game is half a centimetre.
     let traced = BENCH && spec.quality.raster.shadow_map == 0;
-    day::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
+    valley::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
 }
 
 /// Flames and sparks of a bowl.
@@ -183,10 +183,10 @@ fn picture(spec: &FrameSpec) -> Picture {
     let (keys, since) = timeline::cut(SHOTS, LENGTH, spec.time);
     let [_, x, y, z, tx, ty, tz, fov] = timeline::sample(keys, since);
     let camera = spec.camera(Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0));
-    let mut dome = day::sky(spec, NIGHT);
+    let mut dome = valley::sky(spec, NIGHT);
     // Eyes have got used to the fires.
     dome.exposure *= 0.6;
-    let mut world = day::world(&dome, day::plan(2, 0.0).2, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    let mut world = valley::world(&dome, valley::season(2).1, Mat3::IDENTITY, Vec3::ZERO, 0.0);
     // Of the chapel and what it holds lamps cast shadows, of the land they do not. Nobody flies.
     let from = world.bodies.len() - 3;
     world.bodies.truncate(from + 1);
@@ -194,13 +194,13 @@ fn picture(spec: &FrameSpec) -> Picture {
     let moon = &mut world.lights[0];
     // Silver, as beside fires it seems.
     moon.color *= vec3(0.9, 1.1, 1.5);
-    moon.shadow = day::cascades(spec, &camera, dome.lighting().direction, &[45.0, 240.0]);
+    moon.shadow = valley::cascades(spec, &camera, dome.lighting().direction, &[45.0, 240.0]);
     for number in 0..FIRES.len() as u32 {
         world.lights.push(light(spec, number, from as u32));
     }
     let view = View::new(camera, spec.width, spec.height);
     let flames = flames(spec, &view);
-    let mut picture = day::show(spec, dome, world, view, None);
+    let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(flames));
     picture
 }

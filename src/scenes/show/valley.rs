@@ -47,6 +47,14 @@ pub(in crate::scenes) const HOUR: f64 = 1.0 / 24.0;
 /// Degrees per radian.
 const DEGREES: f64 = 57.295_779_513_082_32;
 
+/// Midnight UT at the start of a date, in days since J2000.
+pub(in crate::scenes) const fn days(year: i64, month: i64, day: i64) -> f64 {
+    let months = year * 12 + month - 3;
+    let (year, month) = (months.div_euclid(12), months.rem_euclid(12));
+    let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
+    (year * 365 + leaps + (month * 153 + 2) / 5 + day - 730_426) as f64 - 0.5
+}
+
 // The days of the show, midnight UT.
 /// In June, when the days are longest.
 pub(in crate::scenes) const SUMMER: f64 = days(2026, 6, 25);
@@ -196,7 +204,7 @@ pub(in crate::scenes) fn show(
     let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
     let sky = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
     let mut layers: Vec<Box<dyn Layer>> =
-        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, spec.quality))];
+        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
     layers.extend(between);
     layers.push(Box::new(sky));
     Picture { layers, transfer: Transfer::Srgb }
