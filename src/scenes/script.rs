@@ -101,13 +101,12 @@ pub const COUNT: Word = variable(3);
 /// caller's module `op`, `push(operands);`, `VARIABLE = (expression);`, `..array_of_words;` or `repeat(count) { ... }`.
 macro_rules! script {
     (@bytes [$($part:expr,)*]) => {{
-        const PARTS: &[&[$crate::scenes::script::Word]] = &[$($part),*];
-        const SIZE: usize = $crate::scenes::script::bytes::<0>(PARTS).1;
-        static BYTES: [u8; SIZE] = $crate::scenes::script::bytes(PARTS).0;
-        &BYTES
+        const SCRIPT_PARTS: &[&[$crate::scenes::script::Word]] = &[$($part),*];
+        const SCRIPT_SIZE: usize = $crate::scenes::script::bytes::<0>(SCRIPT_PARTS).1;
+        static SCRIPT_BYTES: [u8; SCRIPT_SIZE] = $crate::scenes::script::bytes(SCRIPT_PARTS).0;
+        &SCRIPT_BYTES
     }};
     (@words [$($part:expr,)*]) => { $crate::scenes::script::join(&[$($part),*]) };
-    (@ $form:ident [$($parts:tt)*]) => { $crate::scenes::script::script!(@$form [$($parts)*]) };
     (@ $form:ident [$($parts:tt)*] .. $words:expr; $($rest:tt)*) => {
         $crate::scenes::script::script!(@ $form [$($parts)* &$words,] $($rest)*)
     };

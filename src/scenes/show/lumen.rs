@@ -353,7 +353,7 @@ const COLUMNS: &[u8] = script! {
     world(0.14, 0.19, 0.28, 0.58, 0.52, 0.46, 0.0, 0.08, 0.4, 0.5, 0.35, 0.15, 0.6, 4.0);
 };
 /// A column of a row, by the count.
-const TURNING_COLUMN: [Word; 71] = fragment! {
+const TURNING_COLUMN: [Word; 70] = fragment! {
     at(SIDE, 0.0, COUNT * -3.4 + 1.0);
     push(SIDE * 0.2 * TIME + COUNT); ..ANGLE; ..YAW; ..VEINED; ..COLUMN_POLISH;
     column(5.4, 0.55);
