@@ -3,6 +3,7 @@
 
 use super::Batch;
 use super::sprite::Lens;
+use crate::cuts;
 use crate::simd::hash::{STEP, wide};
 use crate::simd::lanes::{F, Lane, U, V3, float};
 use crate::simd::math;
@@ -57,6 +58,8 @@ pub struct Fire {
     pub count: f32,
     /// How bright each is: what is drawn for several has the light of all.
     pub weight: f32,
+    /// Wind that carries its particles along, metres per second. None in the 64 kB build.
+    pub wind: Vec3,
     /// How they are seen.
     pub lens: Lens,
 }
@@ -129,8 +132,12 @@ impl Fire {
         let left = one - x;
         let order = (-float(simd, i) + self.count).max(zero).min(one);
         let glow = x * left * left * (30.0 * self.weight) * order;
+        let mut at = at * Lane(F::<S>::splat(simd, self.scale)) + V3::splat(simd, self.place);
+        if cuts::PARAMETERS {
+            at = at + V3::splat(simd, self.wind) * Lane(age);
+        }
         Batch {
-            at: at * Lane(F::<S>::splat(simd, self.scale)) + V3::splat(simd, self.place),
+            at,
             radius: (x * (radius[1] - radius[0]) + radius[0]) * self.scale,
             light: (V3::splat(simd, light[0]) + V3::splat(simd, light[1] - light[0]) * Lane(x)) * Lane(glow),
             alpha: (glow * alpha).min(one),

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "full")]
 pub mod bench;
+mod flakes;
 pub mod models;
 mod script;
 pub mod show;

@@ -3,10 +3,9 @@
 //! Ray traced as in thesis A: spheres, boxes, cylinders and planes with noise textures, mirrors and glass. Five shots, each
 //! with its own set, its own light and one camera move, and each written as a [script](crate::scenes::script).
 
-use crate::cuts::BENCH;
-use crate::frame::Picture;
+use crate::cuts;
 use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Scene};
+use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::scenes::script::kind::{self, CLOUDS, VEINS, WOOD};
 use crate::scenes::script::op::{cos, sin};
 use crate::scenes::script::{
@@ -14,6 +13,7 @@ use crate::scenes::script::{
     variable, words,
 };
 use crate::scenes::traced;
+use crate::texture::Texture;
 use crate::timeline::{self, ease};
 use crate::trace::shape::Shape;
 use crate::trace::world::{Light, Material, Object, Sky, Source, World};
@@ -25,10 +25,14 @@ pub const LUMEN: Scene = Scene {
     name: "lumen",
     about: "a ray of light: glass, marble, wood, mirrors",
     duration: END,
-    parameters: &[],
+    parameters: &[BODIES, DEPTH, TEXTURES],
     picture,
 }
 .part();
+
+const BODIES: Parameter = Parameter::new("bodies", "count", (1.0, 64.0), 64.0, "the most bodies; those that a set lists last are left out first");
+const DEPTH: Parameter = Parameter::new("depth", "count", (1.0, 8.0), 8.0, "the most rays in a path; 1 is the eye's alone. Sets ask for 4 to 6");
+const TEXTURES: Parameter = Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with textures, 0 with their mean colours");
 
 /// The length of the scene, seconds.
 const END: f64 = 56.0;
@@ -37,7 +41,7 @@ const END: f64 = 56.0;
 pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, MIDDLE[0]), (33.0, MIDDLE[1]), (45.0, SUNSET)];
 
 /// The shots that the show does not play; the 64 kB build leaves them out.
-const MIDDLE: [&[u8]; 2] = if BENCH { [COLUMNS, DANCE] } else { [TABLE, TABLE] };
+const MIDDLE: [&[u8]; 2] = if cuts::SCENES { [COLUMNS, DANCE] } else { [TABLE, TABLE] };
 
 operations! {
     /// The camera's keys, of nine numbers each: see [`key`].
@@ -92,8 +96,22 @@ const SIZE: Word = variable(9);
 const MIRROR: Word = variable(5);
 
 fn picture(spec: &FrameSpec) -> Picture {
-    let (world, camera) = stage(spec.time);
+    let (mut world, camera) = stage(spec.time);
+    if cuts::PARAMETERS {
+        alter(spec, &mut world);
+    }
     traced(spec, world, camera, Transfer::Srgb)
+}
+
+/// Applies the parameters to a set.
+fn alter(spec: &FrameSpec, world: &mut World) {
+    world.objects.truncate(spec.get(&BODIES) as usize);
+    world.max_level = world.max_level.min(spec.get(&DEPTH) as u32);
+    if spec.get(&TEXTURES) == 0.0 {
+        for object in &mut world.objects {
+            object.material.albedo = Texture::plain(object.material.albedo.mean());
+        }
+    }
 }
 
 /// What is seen at `time` seconds, and from where.

@@ -26,21 +26,9 @@ use std::f32::consts::TAU;
 use std::sync::{Arc, Mutex};
 
 /// Where the valley lies: the sun's path and the stars follow from it.
-pub const LATITUDE: Parameter = Parameter {
-    name: "latitude",
-    unit: "degrees",
-    range: (-90.0, 90.0),
-    default: 49.75,
-    about: "where the valley lies, north positive",
-};
+pub const LATITUDE: Parameter = Parameter::new("latitude", "degrees", (-90.0, 90.0), 49.75, "where the valley lies, north positive");
 /// Where the valley lies: the local time of the sun follows from it.
-pub const LONGITUDE: Parameter = Parameter {
-    name: "longitude",
-    unit: "degrees",
-    range: (-180.0, 180.0),
-    default: 13.38,
-    about: "where the valley lies, east positive; clocks stay at UT + 1",
-};
+pub const LONGITUDE: Parameter = Parameter::new("longitude", "degrees", (-180.0, 180.0), 13.38, "where the valley lies, east positive; clocks stay at UT + 1");
 
 /// Days per hour.
 pub(in crate::scenes) const HOUR: f64 = 1.0 / 24.0;
