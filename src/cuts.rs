@@ -19,3 +19,6 @@ pub const REFERENCE: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
+
+/// Whether the command line has the options beyond playing and capturing, and `--help` names them.
+pub const ALL_OPTIONS: bool = FULL;
