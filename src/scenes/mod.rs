@@ -1,4 +1,12 @@
-//! One file a scene; only scenes know more than one renderer.
+//! The scenes, one file each: what is shown at an instant, from where, and by which renderers.
+//!
+//! A scene is a function from a [`FrameSpec`] to a [`Picture`], and a table of the [`Parameter`](crate::frame::Parameter)s that
+//! it can be changed by. Only scenes know more than one renderer.
+//!
+//! - [`show`] is what the intro plays: [`show::intro`], and the parts that it is made of.
+//! - [`bench`] are scenes that other renderers are compared by. Each follows a specification.
+//! - [`models`] are the meshes that scenes share.
+//! - `script` is the byte code that sets and models are written in.
 
 #[cfg(feature = "full")]
 pub mod bench;
@@ -17,20 +25,20 @@ use crate::view::Camera;
 #[cfg(feature = "full")]
 use crate::view::View;
 
-/// A picture that is all ray tracing.
+/// A picture that is ray traced alone.
 fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
     let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
     Picture { layers: vec![Box::new(traced)], transfer }
 }
 
-/// A picture that is all triangles.
+/// A picture of triangles alone.
 #[cfg(feature = "full")]
 fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
     let view = View::new(spec.camera(camera), spec.width, spec.height);
     Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))], transfer }
 }
 
-/// Every scene, the intro's own first; in the 64 kB build that alone.
+/// Every scene, the show first. The 64 kB build has the show alone.
 pub const ALL: &[Scene] = &[
     show::intro::INTRO,
     #[cfg(feature = "full")]
@@ -69,10 +77,10 @@ pub const ALL: &[Scene] = &[
     bench::rain::RAIN,
 ];
 
-/// The intro's own show: what plays when no scene is named.
+/// The show: what plays when no scene is named.
 pub const INTRO: Scene = ALL[0];
 
-/// Every scene.
+/// Every scene, the show first.
 pub fn all() -> &'static [Scene] {
     ALL
 }

@@ -37,7 +37,7 @@ pub mod paint {
     pub const WATER: u16 = 13;
 }
 
-/// The paints of everything but the aeroplane.
+/// The paints of everything but the aeroplane: an albedo, and the number of the texture that it is multiplied by.
 pub static PAINTS: [Paint; 14] = [
     solid(MEADOW, 0),
     solid(Vec3::ONE, 1),
