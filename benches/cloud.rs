@@ -14,9 +14,6 @@ use paprsek::simd::lanes::{F, Lane, V3};
 use std::hint::black_box;
 use std::sync::Arc;
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 /// Points along an edge.
 const EDGE: usize = 64;
 /// Rays along each side of the picture, and steps of each.
@@ -40,7 +37,7 @@ fn grow(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(kind_name);
         group.throughput(Throughput::Elements((EDGE * EDGE * EDGE) as u64)).sample_size(10);
         let mut first = None;
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let grow = || dispatch!(level, simd => Kind::grow(simd, &kind, 0, EDGE));
             let light = |voxels: &mut Voxels| dispatch!(level, simd => sunlight::bake(simd, voxels, SUN, EXTINCTION));
             let mut voxels = grow();
@@ -80,7 +77,7 @@ fn sum<S: Simd>(simd: S, cloud: &Cloud, opaque: f32) -> f32 {
 }
 
 fn rays(criterion: &mut Criterion) {
-    let level = common::levels()[0].1;
+    let level = testkit::levels()[0].1;
     let mut grown = dispatch!(level, simd => Kind::grow(simd, &Kind::CUMULUS, 0, EDGE));
     dispatch!(level, simd => sunlight::bake(simd, &mut grown, SUN, EXTINCTION));
     let full = Voxels::new(EDGE, vec![255; EDGE * EDGE * EDGE]);
@@ -91,7 +88,7 @@ fn rays(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("steps of rays, {name}"));
         group.throughput(Throughput::Elements((SIDE * SIDE * STEPS) as u64)).sample_size(20);
         let mut first = None;
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let sum = || dispatch!(level, simd => sum(simd, &cloud, opaque));
             assert_eq!(*first.get_or_insert_with(sum), sum(), "{level_name}");
             group.bench_function(level_name, |bencher| bencher.iter(|| black_box(sum())));

@@ -14,9 +14,6 @@ mod motion;
 mod plot;
 mod snow;
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
 use lexopt::{Arg, Parser};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::{Frame, Picture, Renderer};

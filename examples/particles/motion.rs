@@ -2,7 +2,7 @@
 
 use crate::limits::{self, NUMBERS};
 use crate::plot::{self, Axis, Curve};
-use crate::{SIZE, START, STEP, THREADS, camera, common};
+use crate::{SIZE, START, STEP, THREADS, camera};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Vec3, vec3};
 use paprsek::frame::{Layer, Renderer};
@@ -93,7 +93,7 @@ pub fn report(text: &mut String, out: &Path, rounds: usize) -> Result<(), Box<dy
     for threads in [1, THREADS] {
         let on = if threads == 1 { "1 thread".to_string() } else { format!("{threads} threads") };
         let mut lines = KINDS.map(|kind| Curve { name: format!("{kind}, {on}"), points: Vec::new() });
-        for (name, level) in common::levels() {
+        for (name, level) in testkit::levels() {
             let renderer = Renderer::new(threads)?.at_level(level);
             let rate = limits::arithmetic(&renderer, level, rounds);
             write!(text, "| {threads} | {name} | {:.2}", rate * 1e-9)?;

@@ -16,9 +16,6 @@ mod machine;
 #[path = "../common/maps.rs"]
 mod maps;
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
 use lexopt::{Arg, Parser, ValueExt};
 use markdown::Setting;
 use measure::{Bench, Effort, Renderers};
@@ -58,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let simd = renderers.with(effort.threads, None).simd();
     let mut sweeps = sweep::knobs();
     for group in [Group::Tracer, Group::Raster] {
-        sweeps.push(sweep::levels(&common::levels(), group));
+        sweeps.push(sweep::levels(&testkit::levels(), group));
         sweeps.push(sweep::threads(effort.threads, group));
     }
     let mut results: Vec<_> = sweeps.into_iter().map(|sweep| (sweep, Vec::new())).collect();

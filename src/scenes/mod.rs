@@ -14,29 +14,9 @@ mod flakes;
 pub mod models;
 mod script;
 pub mod show;
+mod single;
 
-use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Picture, Scene};
-#[cfg(feature = "full")]
-use crate::raster::{self, RasterLayer};
-use crate::trace::TraceLayer;
-use crate::trace::world::World;
-use crate::view::Camera;
-#[cfg(feature = "full")]
-use crate::view::View;
-
-/// A picture that is ray traced alone.
-fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
-    Picture { layers: vec![Box::new(traced)], transfer }
-}
-
-/// A picture of triangles alone.
-#[cfg(feature = "full")]
-fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-    let view = View::new(spec.camera(camera), spec.width, spec.height);
-    Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))], transfer }
-}
+use crate::frame::Scene;
 
 /// Every scene, the show first. The 64 kB build has the show alone.
 pub const ALL: &[Scene] = &[

@@ -1,7 +1,7 @@
 //! Elementary functions over lanes: polynomials without tables and without fused multiply-add, so that every SIMD
 //! level gives the same bits.
 //!
-//! Errors are against f64, measured in `tests/color.rs`. Where not said otherwise, arguments out of range and NaN give
+//! Errors are against f64, measured in `tests/frame/color.rs`. Where not said otherwise, arguments out of range and NaN give
 //! an unspecified number.
 
 use fearless_simd::{Simd, prelude::*};

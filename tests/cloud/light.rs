@@ -1,12 +1,12 @@
 //! What grows, and what the sun lights of it.
 
-use super::common::levels;
 use super::oracle::{cumulus, depth, lit};
 use fearless_simd::{Level, dispatch};
 use glam::vec3;
 use paprsek::cloud::shape::Kind;
 use paprsek::cloud::sunlight;
 use paprsek::scenes::bench::cumulus_set::{shape, sun};
+use testkit::levels;
 
 const KINDS: [Kind; 4] = [Kind::CUMULUS, Kind::CONGESTUS, Kind::ALTOCUMULUS, Kind::STRATUS];
 /// Every so many voxels are looked at: no divisor of 64.

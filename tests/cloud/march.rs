@@ -1,6 +1,5 @@
 //! One cloud, ray by ray.
 
-use super::common::levels;
 use super::oracle::{DAY, FURNACE, aim, ball, cloud, filled, ray, rays, span, truth};
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
@@ -10,6 +9,7 @@ use paprsek::cloud::sunlight;
 use paprsek::cloud::voxels::Voxels;
 use proptest::prelude::*;
 use std::sync::Arc;
+use testkit::levels;
 
 /// Transmittance is a sum of a hundred roundings of numbers up to 1.
 const ROUNDING: f64 = 100.0 * 6e-8;

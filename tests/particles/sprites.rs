@@ -1,6 +1,5 @@
 //! Sprites in awkward places, before and in solids, across tiles, in colours and in great numbers.
 
-use super::common::levels;
 use super::layer::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth, view, worst};
 use super::oracle::{FLAKES, random, snow_beside};
 use glam::{DVec3, Vec3, vec3};
@@ -10,6 +9,7 @@ use paprsek::particles::fire::Fire;
 use paprsek::particles::snow::Flakes;
 use paprsek::particles::sprite::Lens;
 use paprsek::scenes::bench::particles::{self, fires, flakes};
+use testkit::levels;
 
 /// Light, where places on the screen are good to some 1e-5 pixels and sprites are about a pixel large, or larger.
 const PLACES: f64 = 1e-4;

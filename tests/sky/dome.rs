@@ -1,6 +1,5 @@
 //! The light of the air: against an integral in f64 and without seams.
 
-use crate::common;
 use glam::{DVec3, Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
@@ -243,7 +242,7 @@ fn the_same_bytes_at_every_level_and_on_any_threads() {
             for size in [(200, 130), (67, 3), (1, 1)] {
                 let look = Look { moon: 12.0, ..Look::default() };
                 let truth = frame(&mut Renderer::new(1).unwrap(), sky, quality, look, size);
-                for (name, level) in common::levels() {
+                for (name, level) in testkit::levels() {
                     for threads in [1, 3] {
                         let mut renderer = Renderer::new(threads).unwrap().at_level(level);
                         assert!(frame(&mut renderer, sky, quality, look, size) == truth, "{name}, {threads} threads");
@@ -284,7 +283,7 @@ fn fills_what_solids_leave() {
             let look = Look { behind, ..Look::default() };
             SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look)
         };
-        for (_, level) in common::levels() {
+        for (_, level) in testkit::levels() {
             let (mut all, mut rest) = (Tile::at(0, 0, 64, 64), Tile::at(0, 0, 64, 64));
             for plane in [&mut all.red, &mut rest.red] {
                 plane.fill(0.25);
@@ -354,7 +353,7 @@ fn the_moon_is_lit_where_the_sun_is() {
         let look = Look { moon: 10.0, ..Look::default() };
         let mut tile = Tile::at(0, 0, 64, 64);
         let layer = SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look);
-        layer.draw(common::levels()[0].1, &mut tile);
+        layer.draw(testkit::levels()[0].1, &mut tile);
         let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
         for i in 0..Tile::AREA {
             if tile.green[i] > 0.15 {
@@ -381,7 +380,7 @@ fn the_sun_reddens_towards_the_horizon() {
         let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
         let dome = Dome::new(sky, Quality::FAST.sky);
-        SkyLayer::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
+        SkyLayer::new(dome, camera, 64, 64, Look::default()).draw(testkit::levels()[0].1, &mut tile);
         let middle = 32 * Tile::SIZE + 32;
         let (red, blue) = (tile.red[middle], tile.blue[middle]);
         assert!(red > 0.9 && red <= 1.0, "{altitude}: {red}");

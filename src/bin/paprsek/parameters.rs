@@ -67,9 +67,14 @@ fn table(scenes: &[Scene]) -> String {
 fn object(scene: &Scene) -> String {
     let parameter = |parameter: &Parameter| {
         let Parameter { name, unit, range: (least, most), default, about } = parameter;
-        format!(r#"{{"name":"{name}","unit":"{unit}","least":{least},"most":{most},"default":{default},"about":"{about}"}}"#)
+        format!(
+            r#"{{"name":"{name}","unit":"{unit}","least":{least},"most":{most},"default":{default},"about":"{about}"}}"#
+        )
     };
     let parameters: Vec<String> = scene.parameters.iter().map(parameter).collect();
     let Scene { name, about, duration, .. } = scene;
-    format!("{{\"scene\":\"{name}\",\"about\":\"{about}\",\"duration\":{duration},\"parameters\":[{}]}}\n", parameters.join(","))
+    format!(
+        "{{\"scene\":\"{name}\",\"about\":\"{about}\",\"duration\":{duration},\"parameters\":[{}]}}\n",
+        parameters.join(",")
+    )
 }

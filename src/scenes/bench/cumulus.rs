@@ -45,18 +45,23 @@ pub const SKY_OF_CLOUDS: Scene = Scene {
     picture: |spec| picture(spec, 2, many(spec)),
 };
 
-const KIND: Parameter = Parameter::new("kind", "count", (0.0, 3.0), 0.0, "0 cumulus, 1 congestus, 2 altocumulus, 3 stratus");
+const KIND: Parameter =
+    Parameter::new("kind", "count", (0.0, 3.0), 0.0, "0 cumulus, 1 congestus, 2 altocumulus, 3 stratus");
 const SHAPE: Parameter = Parameter::new("seed", "count", (0.0, 1e4), 0.0, "another number, another cloud of that kind");
 const HEIGHT: Parameter = Parameter::new("height", "m", (0.0, 200.0), 60.0, "height of the cloud's centre");
 const SIZE: Parameter = Parameter::new("size", "m", (5.0, 90.0), 50.0, "half of the edge of the cloud's cube");
-const THICKNESS: Parameter = Parameter::new("thickness", "1", (1.0, 100.0), 30.0, "optical depth through half of the cube where it is densest");
+const THICKNESS: Parameter =
+    Parameter::new("thickness", "1", (1.0, 100.0), 30.0, "optical depth through half of the cube where it is densest");
 const THIN: Parameter = Parameter { default: 10.0, ..THICKNESS };
-const LIGHT: Parameter = Parameter::new("light", "1", (0.0, 4.0), 1.0, "the sun's light on the clouds, times what it is");
+const LIGHT: Parameter =
+    Parameter::new("light", "1", (0.0, 4.0), 1.0, "the sun's light on the clouds, times what it is");
 const COUNT: Parameter = Parameter::new("number", "count", (0.0, 1000.0), 100.0, "clouds in the sky");
 const SEED: Parameter = Parameter::new("seed", "count", (0.0, 1e6), 1.0, "another number, other places and sizes");
 const SKY_HEIGHT: Parameter = Parameter::new("height", "m", (60.0, 2000.0), 130.0, "height of the clouds' bases");
-const EAST: Parameter = Parameter::new("wind-east", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the east");
-const SOUTH: Parameter = Parameter::new("wind-south", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the south");
+const EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the east");
+const SOUTH: Parameter =
+    Parameter::new("wind-south", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the south");
 
 /// The shapes that were grown, by kind and seed.
 #[derive(Default)]

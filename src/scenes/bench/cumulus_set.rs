@@ -65,13 +65,7 @@ pub fn one(voxels: Arc<Voxels>, height: f32, size: f32, extinction: f32) -> Vec<
 }
 
 /// A sky of `count` clouds above `height`, metres, whose places and sizes are by the random numbers of `seed`.
-pub fn many(
-    shape: impl Fn(usize) -> Arc<Voxels>,
-    count: u32,
-    seed: u32,
-    height: f32,
-    extinction: f32,
-) -> Vec<Cloud> {
+pub fn many(shape: impl Fn(usize) -> Arc<Voxels>, count: u32, seed: u32, height: f32, extinction: f32) -> Vec<Cloud> {
     let cloud = |i: u32| {
         let r = |k: u32| rnd(seed, i, k);
         let size = 45.0 + 55.0 * r(3) * r(3);

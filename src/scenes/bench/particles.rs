@@ -41,11 +41,20 @@ pub const FIRE: Scene = Scene {
 };
 
 const TORCHES: Parameter = Parameter::new("torches", "count", (0.0, 32.0), 5.0, "torches in a ring");
-const EMITTER: Parameter = Parameter::new("radius", "m", (0.0, 1.0), 0.14, "radius of the disc that particles start from");
+const EMITTER: Parameter =
+    Parameter::new("radius", "m", (0.0, 1.0), 0.14, "radius of the disc that particles start from");
 const SPRITES: Parameter = Parameter::new("particles", "count", (0.0, 100_000.0), 2000.0, "particles of each torch");
-const LIFE: Parameter = Parameter::new("life", "s", (0.1, 10.0), 0.8, "life of the shortest-lived; the spread of the others scales with it");
-const FIRE_EAST: Parameter = Parameter::new("wind-east", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the east");
-const FIRE_SOUTH: Parameter = Parameter::new("wind-south", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the south");
+const LIFE: Parameter = Parameter::new(
+    "life",
+    "s",
+    (0.1, 10.0),
+    0.8,
+    "life of the shortest-lived; the spread of the others scales with it",
+);
+const FIRE_EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the east");
+const FIRE_SOUTH: Parameter =
+    Parameter::new("wind-south", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the south");
 
 /// The flakes, as specified.
 pub const FLAKES: Flakes = Flakes {
@@ -135,8 +144,7 @@ fn ring(time: f64, torches: f64, sprites: f64, flame: Flame, wind: Vec3) -> Vec<
 
 fn fire(spec: &FrameSpec) -> Picture {
     let longer = spec.get(&LIFE) / LIFE.default;
-    let flame =
-        Flame { life: FLAME.life.map(|life| life * longer), ring: [0.0, spec.get(&EMITTER) as f32], ..FLAME };
+    let flame = Flame { life: FLAME.life.map(|life| life * longer), ring: [0.0, spec.get(&EMITTER) as f32], ..FLAME };
     let wind = vec3(spec.get(&FIRE_EAST) as f32, 0.0, spec.get(&FIRE_SOUTH) as f32);
     let torches = ring(spec.time, spec.get(&TORCHES), spec.get(&SPRITES), flame, wind);
     let a = 0.3 * spec.time;

@@ -18,9 +18,7 @@ pub const RAIN: Scene = Scene {
     name: "rain",
     about: "a shower in autumn, looking ahead and up",
     duration: 20.0,
-    parameters: &[
-        HEIGHT, RADIUS, COUNT, EAST, SOUTH, FALL, SHARE, SIZE, SHUTTER, DATE, START, LATITUDE, LONGITUDE,
-    ],
+    parameters: &[HEIGHT, RADIUS, COUNT, EAST, SOUTH, FALL, SHARE, SIZE, SHUTTER, DATE, START, LATITUDE, LONGITUDE],
     picture,
 };
 
@@ -32,7 +30,13 @@ const SOUTH: Parameter = flakes::wind("wind-south", 0.9, "wind towards the south
 const FALL: Parameter = flakes::fall(6.0);
 const SHARE: Parameter = flakes::share("how hard it rains, of what the shower would");
 const SIZE: Parameter = flakes::size(0.004);
-const SHUTTER: Parameter = Parameter::new("shutter", "s", (0.0, 0.1), 0.012, "time that the shutter is open: drops are as long as their way in it");
+const SHUTTER: Parameter = Parameter::new(
+    "shutter",
+    "s",
+    (0.0, 0.1),
+    0.012,
+    "time that the shutter is open: drops are as long as their way in it",
+);
 const DATE: Parameter = Parameter::new("date", "days", (1.0, 366.0), 262.0, "the day's number in the year 2026");
 const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 10.0, "time of day, UT + 1");
 

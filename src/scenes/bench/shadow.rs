@@ -10,7 +10,7 @@ use crate::raster::light::{Haze, Light, Source};
 use crate::raster::project::Projection;
 use crate::raster::shadow::{Bias, ShadowViews};
 use crate::raster::{Body, World};
-use crate::scenes::drawn;
+use crate::scenes::single::drawn;
 use crate::view::Camera;
 use glam::{Affine3A, Vec2, Vec3, vec3};
 use std::sync::{Arc, OnceLock};
@@ -34,12 +34,21 @@ pub const SHADOW_CUBE: Scene = Scene {
 
 const SPEED: Parameter = Parameter::new("speed", "rad/s", (-10.0, 10.0), 0.15, "speed at which the sun goes round");
 const SLOPE: Parameter = Parameter::new("slope", "1", (0.05, 20.0), 0.62, "tangent of the sun's altitude");
-const TEXELS: Parameter = Parameter::new("texels", "count", (16.0, 4096.0), 1024.0, "texels along an edge of the depth map");
-const TORCH_SPEED: Parameter = Parameter::new("speed", "rad/s", (-10.0, 10.0), 0.5, "speed at which the torch goes round");
+const TEXELS: Parameter =
+    Parameter::new("texels", "count", (16.0, 4096.0), 1024.0, "texels along an edge of the depth map");
+const TORCH_SPEED: Parameter =
+    Parameter::new("speed", "rad/s", (-10.0, 10.0), 0.5, "speed at which the torch goes round");
 const RADIUS: Parameter = Parameter::new("radius", "m", (0.0, 24.0), 5.0, "radius of the torch's circle");
 const ABOVE: Parameter = Parameter::new("height", "m", (0.5, 20.0), 2.6, "height of the torch above the ground");
-const FALLOFF: Parameter = Parameter::new("falloff", "1/m2", (0.001, 1.0), 0.06, "how fast its light fades: 1 / (1 + falloff D^2) at D metres");
-const FACE_TEXELS: Parameter = Parameter::new("texels", "count", (16.0, 2048.0), 512.0, "texels along an edge of each of the six depth maps");
+const FALLOFF: Parameter = Parameter::new(
+    "falloff",
+    "1/m2",
+    (0.001, 1.0),
+    0.06,
+    "how fast its light fades: 1 / (1 + falloff D^2) at D metres",
+);
+const FACE_TEXELS: Parameter =
+    Parameter::new("texels", "count", (16.0, 2048.0), 512.0, "texels along an edge of each of the six depth maps");
 
 fn sun(spec: &FrameSpec) -> Picture {
     let towards = shadow_set::sun_at(spec.get(&SPEED) * spec.time, spec.get(&SLOPE)).as_vec3();
@@ -59,7 +68,8 @@ fn sun(spec: &FrameSpec) -> Picture {
 }
 
 fn torch(spec: &FrameSpec) -> Picture {
-    let position = shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3();
+    let position =
+        shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3();
     let texels = spec.get(&FACE_TEXELS) as u32;
     let plan = ShadowViews {
         views: fit::cube(position, texels),

@@ -27,9 +27,16 @@ pub const SKY: Scene = Scene {
 
 /// Hours per radian of the sun's circle.
 const HOURS: f64 = 12.0 / PI;
-const HOUR: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 6.0 - 0.53 * HOURS, "time of day at the start; the sun rises at 6 and sets at 18");
+const HOUR: Parameter = Parameter::new(
+    "hour",
+    "h",
+    (0.0, 24.0),
+    6.0 - 0.53 * HOURS,
+    "time of day at the start; the sun rises at 6 and sets at 18",
+);
 const SPEED: Parameter = Parameter::new("speed", "h/s", (-24.0, 24.0), 0.3 * HOURS, "hours of a day per second");
-const TILT: Parameter = Parameter::new("tilt", "1", (-2.0, 2.0), 0.1, "how far the sun's circle leans to the east, tangent");
+const TILT: Parameter =
+    Parameter::new("tilt", "1", (-2.0, 2.0), 0.1, "how far the sun's circle leans to the east, tangent");
 const STARS: Parameter = Parameter::new("stars", "1", (0.0, 4.0), 1.0, "light of the stars, times what it is");
 
 fn picture(spec: &FrameSpec) -> Picture {
@@ -120,7 +127,14 @@ impl Cycle {
                 }
             }
         }
-        Cycle { view, cells, gradient: Gradient { sun, zenith, horizon, dusk }, disc, stars, night: (1.0 - day) * spec.get(&STARS) as f32 }
+        Cycle {
+            view,
+            cells,
+            gradient: Gradient { sun, zenith, horizon, dusk },
+            disc,
+            stars,
+            night: (1.0 - day) * spec.get(&STARS) as f32,
+        }
     }
 
     /// Adds `light` of a direction to the pixels of a tile around a point of the picture, averaged over each pixel.

@@ -4,7 +4,7 @@
 
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
-use crate::scenes::traced;
+use crate::scenes::single::traced;
 use crate::texture::{Palette, Pattern, Texture};
 use crate::trace::shape::Shape;
 use crate::trace::world::{Light, Material, Object, Sky, Source, World};
@@ -38,11 +38,14 @@ pub const SPHERES_GLASS: Scene = Scene {
 };
 
 const BODIES: Parameter = Parameter::new("bodies", "count", (0.0, 64.0), 8.0, "small spheres around the large one");
-const DEPTH: Parameter = Parameter::new("depth", "count", (1.0, 8.0), 4.0, "the most rays in a path; 1 is the eye's alone");
+const DEPTH: Parameter =
+    Parameter::new("depth", "count", (1.0, 8.0), 4.0, "the most rays in a path; 1 is the eye's alone");
 const DEPTH_OF_GLASS: Parameter = Parameter { default: 6.0, ..DEPTH };
-const TEXTURES: Parameter = Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with noise textures, 0 in plain colours");
+const TEXTURES: Parameter =
+    Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with noise textures, 0 in plain colours");
 const TEXTURES_OFF: Parameter = Parameter { default: 0.0, ..TEXTURES };
-const GLASS: Parameter = Parameter::new("glass", "count", (0.0, 1.0), 0.0, "1 with a ball of glass in the middle, 0 with a mirror");
+const GLASS: Parameter =
+    Parameter::new("glass", "count", (0.0, 1.0), 0.0, "1 with a ball of glass in the middle, 0 with a mirror");
 const GLASS_ON: Parameter = Parameter { default: 1.0, ..GLASS };
 
 fn picture(spec: &FrameSpec, depth: &Parameter, textures: &Parameter, glass: &Parameter) -> Picture {

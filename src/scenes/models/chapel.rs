@@ -3,8 +3,8 @@
 //! Some 60 boxes, a gable, a spire and four pillars, all flat-shaded: its walls stand around the origin, the altar to the
 //! north, the door to the south. Noise moves the corners by some centimetres, so that no edge looks drawn with a ruler.
 
-use super::paint::{BARK, ROOF, STONE};
-use super::{PAINT, PAINTS, build, op};
+use super::build::{PAINT, build, op};
+use super::paint::{BARK, PAINTS, ROOF, STONE};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::Mesh;
 use crate::scenes::script::{COUNT, Script, Word, instruction, script};

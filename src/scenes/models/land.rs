@@ -3,7 +3,7 @@
 //! A height field of noise ([`height`]), sampled on rings around the middle. Rings and their points are the farther apart the
 //! farther out they are, as only the middle is seen from close by.
 
-use super::{PAINTS, paint};
+use super::paint::{self, PAINTS};
 use crate::noise::octaves;
 use crate::raster::mesh::Mesh;
 use glam::{Mat3, Vec3, vec3};

@@ -4,7 +4,7 @@
 //! scoop, wing, stabiliser, fin, and boxes for exhausts and guns. The left half is the mirror image, and normals are
 //! averaged over faces, so that the skin is smooth. The propeller is a mesh of its own, since it turns.
 
-use super::{build, op};
+use super::build::{build, op};
 use crate::raster::form::{Body, SQUARE};
 use crate::raster::mesh::{Mesh, Paint};
 use crate::scenes::script::{COUNT, Script, Word, script, variable};

@@ -4,8 +4,9 @@
 //! away each is a single body of some twenty triangles. Noise moves the points, so that no two trees are alike. They stand
 //! where a hash and the noise of [`wooded`] say, more densely near the middle of the valley.
 
+use super::build::{CHANCE, STREAM, build, op};
 use super::land::{self, height, wooded};
-use super::{CHANCE, PAINTS, STREAM, build, op, paint};
+use super::paint::{self, PAINTS};
 use crate::raster::form::Body;
 use crate::raster::mesh::Mesh;
 use crate::scenes::script::{Script, Word, fragment, script, variable, words};

@@ -30,17 +30,43 @@ pub const CLOUDS: Scene = Scene {
 }
 .part();
 
-const KIND: Parameter = Parameter::new("kind", "count", (0.0, 4.0), 0.0, "0 cumulus and congestus, 1 cumulus, 2 congestus, 3 altocumulus, 4 stratus");
+const KIND: Parameter = Parameter::new(
+    "kind",
+    "count",
+    (0.0, 4.0),
+    0.0,
+    "0 cumulus and congestus, 1 cumulus, 2 congestus, 3 altocumulus, 4 stratus",
+);
 const SHARE: Parameter = Parameter::new("share", "1", (0.0, 1.0), 0.55, "share of the places that hold a cloud");
 const SPACING: Parameter = Parameter::new("spacing", "m", (260.0, 5000.0), 520.0, "distance from place to place");
-const HEIGHT: Parameter = Parameter::new("height", "m", (300.0, 3000.0), 640.0, "height of the clouds above the lake; the flight stays where it is");
+const HEIGHT: Parameter = Parameter::new(
+    "height",
+    "m",
+    (300.0, 3000.0),
+    640.0,
+    "height of the clouds above the lake; the flight stays where it is",
+);
 const SEED: Parameter = Parameter::new("seed", "count", (0.0, 1e6), 5.0, "another number, another sky");
-const THICKNESS: Parameter = Parameter::new("thickness", "1", (1.0, 100.0), 26.0, "optical depth of the densest cloud through half of its width");
-const EAST: Parameter = Parameter::new("wind-east", "m/s", (-50.0, 50.0), 8.0, "wind towards the east at 500 m, less below and more above");
+const THICKNESS: Parameter = Parameter::new(
+    "thickness",
+    "1",
+    (1.0, 100.0),
+    26.0,
+    "optical depth of the densest cloud through half of its width",
+);
+const EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-50.0, 50.0), 8.0, "wind towards the east at 500 m, less below and more above");
 const SOUTH: Parameter = Parameter::new("wind-south", "m/s", (-50.0, 50.0), 4.0, "wind towards the south at 500 m");
-const LIGHT: Parameter = Parameter::new("light", "1", (0.0, 4.0), 1.0, "the sun's light on the clouds, times what it is; the rest comes from sky and ground");
+const LIGHT: Parameter = Parameter::new(
+    "light",
+    "1",
+    (0.0, 4.0),
+    1.0,
+    "the sun's light on the clouds, times what it is; the rest comes from sky and ground",
+);
 const DATE: Parameter = Parameter::new("date", "days", (1.0, 366.0), 176.0, "the day's number in the year 2026");
-const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 4.1, "time of day at the start, UT + 1; it ends 7.9 hours later");
+const START: Parameter =
+    Parameter::new("hour", "h", (0.0, 24.0), 4.1, "time of day at the start, UT + 1; it ends 7.9 hours later");
 
 /// The length of the scene, seconds.
 pub const LENGTH: f64 = 50.0;
@@ -189,11 +215,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     let now = dome.lighting();
     let field = if cuts::PARAMETERS { altered(spec) } else { FIELD };
     let shapes = lock(&spec.cache.get::<Shapes>()).lit(spec, now.direction, field.extinction);
-    let clouds = if cuts::PARAMETERS {
-        blown(spec, &field, eye, &shapes)
-    } else {
-        field.around(eye, spec.time as f32, &shapes)
-    };
+    let clouds =
+        if cuts::PARAMETERS { blown(spec, &field, eye, &shapes) } else { field.around(eye, spec.time as f32, &shapes) };
     let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
     // The map of the clouds' shadows moves by whole texels, and its slope is limited before the sun is level.
     let texel = 80.0;

@@ -22,11 +22,19 @@ pub const DAY: Scene = Scene {
 .part();
 
 /// The date of the first day.
-const DATE: Parameter = Parameter::new("date", "days", (1.0, 366.0), 176.0, "the first day's number in the year 2026; the others follow after 86, 180 and 258 days");
+const DATE: Parameter = Parameter::new(
+    "date",
+    "days",
+    (1.0, 366.0),
+    176.0,
+    "the first day's number in the year 2026; the others follow after 86, 180 and 258 days",
+);
 /// The hour at which the sky's clock starts. The camera's always starts at 4.
-const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), FIRST_HOUR, "time of day at which a day begins, UT + 1");
+const START: Parameter =
+    Parameter::new("hour", "h", (0.0, 24.0), FIRST_HOUR, "time of day at which a day begins, UT + 1");
 /// How fast both clocks run.
-const SPEED: Parameter = Parameter::new("speed", "h/s", (0.0, 24.0), 24.0 / LENGTH, "hours of a day per second; the camera goes with them");
+const SPEED: Parameter =
+    Parameter::new("speed", "h/s", (0.0, 24.0), 24.0 / LENGTH, "hours of a day per second; the camera goes with them");
 
 /// The length of a day, seconds. It lasts from four in the morning to four in the morning.
 pub const LENGTH: f64 = 60.0;

@@ -12,7 +12,7 @@ use crate::scenes::script::{
     COUNT, Script, VARIABLES, Word, assign, assign_all, fragment, instruction, operations, pattern, script, texture,
     variable, words,
 };
-use crate::scenes::traced;
+use crate::scenes::single::traced;
 use crate::texture::Texture;
 use crate::timeline::{self, ease};
 use crate::trace::shape::Shape;
@@ -30,9 +30,22 @@ pub const LUMEN: Scene = Scene {
 }
 .part();
 
-const BODIES: Parameter = Parameter::new("bodies", "count", (1.0, 64.0), 64.0, "the most bodies; those that a set lists last are left out first");
-const DEPTH: Parameter = Parameter::new("depth", "count", (1.0, 8.0), 8.0, "the most rays in a path; 1 is the eye's alone. Sets ask for 4 to 6");
-const TEXTURES: Parameter = Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with textures, 0 with their mean colours");
+const BODIES: Parameter = Parameter::new(
+    "bodies",
+    "count",
+    (1.0, 64.0),
+    64.0,
+    "the most bodies; those that a set lists last are left out first",
+);
+const DEPTH: Parameter = Parameter::new(
+    "depth",
+    "count",
+    (1.0, 8.0),
+    8.0,
+    "the most rays in a path; 1 is the eye's alone. Sets ask for 4 to 6",
+);
+const TEXTURES: Parameter =
+    Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with textures, 0 with their mean colours");
 
 /// The length of the scene, seconds.
 const END: f64 = 56.0;

@@ -28,9 +28,7 @@ pub const SNOWFALL: Scene = Scene {
     name: "snowfall",
     about: "a walk through the first snow, into the dusk",
     duration: LENGTH,
-    parameters: &[
-        HEIGHT, NEAR_RADIUS, FAR_RADIUS, NEAR_COUNT, FAR_COUNT, EAST, SOUTH, FALL, SHARE, SIZE,
-    ],
+    parameters: &[HEIGHT, NEAR_RADIUS, FAR_RADIUS, NEAR_COUNT, FAR_COUNT, EAST, SOUTH, FALL, SHARE, SIZE],
     picture,
 }
 .part();
@@ -118,8 +116,7 @@ fn weather_in([east, south]: [f64; 2], time: f64) -> Weather {
 /// The fields as the parameters say.
 fn altered(spec: &FrameSpec) -> [Flakes; 2] {
     let [near, far] = &FIELDS;
-    let (height, faster, larger) =
-        (spec.get(&HEIGHT), spec.get(&FALL) / FALL.default, spec.get(&SIZE) / SIZE.default);
+    let (height, faster, larger) = (spec.get(&HEIGHT), spec.get(&FALL) / FALL.default, spec.get(&SIZE) / SIZE.default);
     [
         flakes::altered(near, height, spec.get(&NEAR_RADIUS), spec.get(&NEAR_COUNT), faster, larger),
         flakes::altered(far, 2.5 * height, spec.get(&FAR_RADIUS), spec.get(&FAR_COUNT), faster, larger),

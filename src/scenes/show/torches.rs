@@ -14,7 +14,7 @@ use crate::particles::{Emitter, ParticleLayer};
 use crate::raster::light::Light;
 use crate::raster::mesh::Mesh;
 use crate::raster::{Body, form};
-use crate::scenes::models::{PAINTS, paint};
+use crate::scenes::models::paint::{self, PAINTS};
 use crate::timeline::{self, Key};
 use crate::view::{Camera, View};
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
@@ -31,14 +31,26 @@ pub const TORCHES: Scene = Scene {
 .part();
 
 const RADIUS: Parameter = Parameter::new("radius", "1", (0.1, 4.0), 1.0, "radius of each emitter, times what it is");
-const PARTICLES: Parameter = Parameter::new("particles", "count", (0.0, 20_000.0), 1800.0, "flames of a fire; sparks are a 75th of that");
+const PARTICLES: Parameter =
+    Parameter::new("particles", "count", (0.0, 20_000.0), 1800.0, "flames of a fire; sparks are a 75th of that");
 const LIFE: Parameter = Parameter::new("life", "1", (0.2, 5.0), 1.0, "life of each particle, times what it is");
-const EAST: Parameter = Parameter::new("wind-east", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the east");
-const SOUTH: Parameter = Parameter::new("wind-south", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the south");
-const LIGHTS: Parameter = Parameter::new("lights", "count", (0.0, FIRES.len() as f64), FIRES.len() as f64, "fires that light the ruin, in the order of the table");
-const REACH: Parameter = Parameter::new("reach", "m", (0.5, 50.0), 5.0, "distance that the light of a fire of size 1 reaches");
-const STEADY: Parameter = Parameter::new("steady", "1", (0.0, 1.0), 0.4, "the least light of a fire as it flickers, of the most");
-const DATE: Parameter = Parameter::new("date", "days", (1.0, 731.0), 448.0, "the day's number, counted from 1 January 2026");
+const EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the east");
+const SOUTH: Parameter =
+    Parameter::new("wind-south", "m/s", (-10.0, 10.0), 0.0, "wind that carries the particles towards the south");
+const LIGHTS: Parameter = Parameter::new(
+    "lights",
+    "count",
+    (0.0, FIRES.len() as f64),
+    FIRES.len() as f64,
+    "fires that light the ruin, in the order of the table",
+);
+const REACH: Parameter =
+    Parameter::new("reach", "m", (0.5, 50.0), 5.0, "distance that the light of a fire of size 1 reaches");
+const STEADY: Parameter =
+    Parameter::new("steady", "1", (0.0, 1.0), 0.4, "the least light of a fire as it flickers, of the most");
+const DATE: Parameter =
+    Parameter::new("date", "days", (1.0, 731.0), 448.0, "the day's number, counted from 1 January 2026");
 const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 0.5, "time of day, UT + 1");
 
 /// The length of the scene, seconds.
@@ -86,35 +98,50 @@ const fn key(time: f32, [x, y, z]: [f32; 3], [tx, ty, tz]: [f32; 3], fov: f32) -
 /// The shots, by the second at which each starts.
 pub static SHOTS: &[(f64, [Key<8>; 3])] = &[
     // The hill.
-    (0.0, [
-        key(0.0, [8.0, 17.0, -32.0], [3.5, 18.0, 2.0], 56.0),
-        key(4.0, [5.0, 16.5, -30.0], [2.0, 17.5, 2.0], 54.0),
-        key(8.0, [1.0, 15.5, -27.0], [0.5, 17.0, 2.0], 52.0),
-    ]),
+    (
+        0.0,
+        [
+            key(0.0, [8.0, 17.0, -32.0], [3.5, 18.0, 2.0], 56.0),
+            key(4.0, [5.0, 16.5, -30.0], [2.0, 17.5, 2.0], 54.0),
+            key(8.0, [1.0, 15.5, -27.0], [0.5, 17.0, 2.0], 52.0),
+        ],
+    ),
     // Along the torches.
-    (8.0, [
-        key(0.0, [-1.25, 11.75, 3.5], [-2.75, 12.25, 1.5], 45.0),
-        key(2.5, [-1.0, 12.0, 2.5], [-2.75, 12.0, 0.0], 50.0),
-        key(5.0, [-0.5, 12.25, 1.5], [-2.5, 11.75, -3.0], 55.0),
-    ]),
+    (
+        8.0,
+        [
+            key(0.0, [-1.25, 11.75, 3.5], [-2.75, 12.25, 1.5], 45.0),
+            key(2.5, [-1.0, 12.0, 2.5], [-2.75, 12.0, 0.0], 50.0),
+            key(5.0, [-0.5, 12.25, 1.5], [-2.5, 11.75, -3.0], 55.0),
+        ],
+    ),
     // Past the pillars.
-    (13.0, [
-        key(0.0, [6.0, 10.5, -4.5], [1.0, 11.25, 1.5], 60.0),
-        key(3.0, [5.75, 10.5, 0.0], [0.0, 11.25, 0.5], 60.0),
-        key(6.0, [6.0, 10.75, 4.5], [0.0, 11.25, -1.0], 60.0),
-    ]),
+    (
+        13.0,
+        [
+            key(0.0, [6.0, 10.5, -4.5], [1.0, 11.25, 1.5], 60.0),
+            key(3.0, [5.75, 10.5, 0.0], [0.0, 11.25, 0.5], 60.0),
+            key(6.0, [6.0, 10.75, 4.5], [0.0, 11.25, -1.0], 60.0),
+        ],
+    ),
     // Up the nave.
-    (19.0, [
-        key(0.0, [0.5, 11.75, 5.0], [0.0, 11.25, -4.0], 56.0),
-        key(2.5, [0.0, 11.25, 4.0], [0.0, 11.0, -4.0], 58.0),
-        key(5.0, [-1.5, 10.5, 2.5], [0.25, 11.0, -4.0], 60.0),
-    ]),
+    (
+        19.0,
+        [
+            key(0.0, [0.5, 11.75, 5.0], [0.0, 11.25, -4.0], 56.0),
+            key(2.5, [0.0, 11.25, 4.0], [0.0, 11.0, -4.0], 58.0),
+            key(5.0, [-1.5, 10.5, 2.5], [0.25, 11.0, -4.0], 60.0),
+        ],
+    ),
     // From behind the altar, to the moon.
-    (24.0, [
-        key(0.0, [-0.5, 10.75, -7.75], [0.75, 13.0, 2.0], 60.0),
-        key(3.5, [-0.25, 11.0, -7.0], [1.0, 13.5, 2.0], 62.0),
-        key(6.0, [0.0, 11.5, -6.0], [1.5, 14.75, 2.0], 66.0),
-    ]),
+    (
+        24.0,
+        [
+            key(0.0, [-0.5, 10.75, -7.75], [0.75, 13.0, 2.0], 60.0),
+            key(3.5, [-0.25, 11.0, -7.0], [1.0, 13.5, 2.0], 62.0),
+            key(6.0, [0.0, 11.5, -6.0], [1.5, 14.75, 2.0], 66.0),
+        ],
+    ),
 ];
 
 /// The bowls, staffs and torches that fires burn in.

@@ -14,7 +14,9 @@ use crate::raster::shadow::{Bias, ShadowViews};
 use crate::raster::{Body, RasterLayer, World};
 use crate::scenes::models::{chapel, land, mustang, tree};
 use crate::scenes::script::kind::{self, CLOUDS, LAYERS};
-use crate::scenes::script::{Script, VARIABLES, Word, assign_all, operations, pattern, script, texture, variable, words};
+use crate::scenes::script::{
+    Script, VARIABLES, Word, assign_all, operations, pattern, script, texture, variable, words,
+};
 use crate::sky::dome::{Dome, Sky};
 use crate::sky::layer::{Look, SkyLayer};
 use crate::sky::place::Place;
@@ -26,9 +28,16 @@ use std::f32::consts::TAU;
 use std::sync::{Arc, Mutex};
 
 /// Where the valley lies: the sun's path and the stars follow from it.
-pub const LATITUDE: Parameter = Parameter::new("latitude", "degrees", (-90.0, 90.0), 49.75, "where the valley lies, north positive");
+pub const LATITUDE: Parameter =
+    Parameter::new("latitude", "degrees", (-90.0, 90.0), 49.75, "where the valley lies, north positive");
 /// Where the valley lies: the local time of the sun follows from it.
-pub const LONGITUDE: Parameter = Parameter::new("longitude", "degrees", (-180.0, 180.0), 13.38, "where the valley lies, east positive; clocks stay at UT + 1");
+pub const LONGITUDE: Parameter = Parameter::new(
+    "longitude",
+    "degrees",
+    (-180.0, 180.0),
+    13.38,
+    "where the valley lies, east positive; clocks stay at UT + 1",
+);
 
 /// Days per hour.
 pub(in crate::scenes) const HOUR: f64 = 1.0 / 24.0;
@@ -292,4 +301,3 @@ pub(in crate::scenes) fn cascades(
         smooth: true,
     })
 }
-
