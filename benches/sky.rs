@@ -10,8 +10,8 @@ use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
-use paprsek::view::Camera;
+use paprsek::sky::layer::SkyLayer;
+use paprsek::view::{Camera, View};
 use std::hint::black_box;
 
 const SIZE: (usize, usize) = (640, 360);
@@ -33,10 +33,9 @@ fn picture(altitude: f32, cell: f32) -> Picture {
         turn: Mat3::IDENTITY,
         air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
     };
-    let steps = Quality::DEFAULT.sky.steps;
-    let dome = Dome::new(sky, SkySettings { steps, cell, grid: 1 });
+    let settings = SkySettings { cell, ..Quality::DEFAULT.sky };
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-    let layer = SkyLayer::new(dome, camera, SIZE.0, SIZE.1, Look::default());
+    let layer = SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, SIZE.0, SIZE.1), &settings);
     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
 }
 

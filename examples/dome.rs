@@ -10,10 +10,10 @@ use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::sky::layer::SkyLayer;
 use paprsek::sky::place::Place;
 use paprsek::sky::time;
-use paprsek::view::Camera;
+use paprsek::view::{Camera, View};
 
 const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
 
@@ -30,10 +30,10 @@ fn sky(altitude: f32, haze: f32) -> Sky {
     }
 }
 
-fn render(dome: Dome, target: Vec3, fov: f32, size: (usize, usize), look: Look) -> RgbImage {
+fn render(dome: Dome, settings: &SkySettings, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
     let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
-    let layer = SkyLayer::new(dome, camera, size.0, size.1, look);
+    let layer = SkyLayer::new(dome, &View::new(camera, size.0, size.1), settings);
     Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     RgbImage::from_fn(size.0 as u32, size.1 as u32, |x, y| {
         let p = frame.pixels[y as usize * size.0 + x as usize];
@@ -55,7 +55,8 @@ fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32)
     for _ in 0..repeat {
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let start = std::time::Instant::now();
-        let layer = SkyLayer::new(Dome::new(sky(altitude, 1.3), quality), camera, size.0, size.1, Look::default());
+        let layer =
+            SkyLayer::new(Dome::new(sky(altitude, 1.3), &quality), &View::new(camera, size.0, size.1), &quality);
         for row in 0..size.1.div_ceil(Tile::SIZE) {
             for column in 0..size.0.div_ceil(Tile::SIZE) {
                 layer.draw(Level::new(), &mut Tile::at(column, row, size.0, size.1));
@@ -63,8 +64,8 @@ fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32)
         }
         best = best.min(start.elapsed().as_secs_f64() * 1000.0);
     }
-    let dome = Dome::new(sky(altitude, 1.3), quality);
-    let views = [-1.0, 1.0].map(|side| render(dome, vec3(0.0, 0.35, side), 50.0, size, Look::default()));
+    let dome = Dome::new(sky(altitude, 1.3), &quality);
+    let views = [-1.0, 1.0].map(|side| render(dome, &quality, vec3(0.0, 0.35, side), 50.0, size));
     (views.to_vec(), best)
 }
 
@@ -104,10 +105,10 @@ fn main() {
             let size = (320, 200);
             let mut sheet = RgbImage::new(size.0 as u32 * 4, size.1 as u32 * 6);
             for (i, altitude) in ALTITUDES.into_iter().enumerate() {
-                let dome = Dome::new(sky(altitude, haze), quality);
+                let dome = Dome::new(sky(altitude, haze), &quality);
                 println!("{altitude}: level {:.3e} exposure {:.3e}", dome.level, dome.exposure);
                 for (j, side) in [-1.0, 1.0].into_iter().enumerate() {
-                    let picture = render(dome, vec3(0.0, 0.45, side), 75.0, size, Look::default());
+                    let picture = render(dome, &quality, vec3(0.0, 0.45, side), 75.0, size);
                     let (x, y) = (i % 2 * 2 + j, i / 2);
                     imageops::replace(&mut sheet, &picture, (x * size.0) as i64, (y * size.1) as i64);
                 }
@@ -116,18 +117,18 @@ fn main() {
         }
         "day" => {
             // Plzen through 2026-06-29 and the night after, with a full moon; each towards the sun, the moon, the north.
-            let days = time::days(&time::Date { year: 2026, month: 6, day: 29, second: 0.0 });
+            let days = time::days(2026, 6, 29);
             let size = (480, 270);
             let hours = [11.0, 18.0, 18.9, 19.4, 19.8, 20.5, 21.5, 23.5];
             let mut sheet = RgbImage::new(size.0 as u32 * 3, size.1 as u32 * hours.len() as u32);
             for (row, hour) in hours.into_iter().enumerate() {
                 let sky = Sky::new(days + hour / 24.0, &Place::PLZEN);
-                let dome = Dome::new(sky, quality);
+                let dome = Dome::new(sky, &quality);
                 let light = dome.lighting();
                 println!("{hour}: sun {:.1} {:.2?}", sky.sun.y.asin().to_degrees(), light);
                 for (column, d) in [sky.sun, sky.moon, vec3(0.1, 0.0, -1.0)].into_iter().enumerate() {
                     let d = vec3(d.x, d.y.max(0.35), d.z);
-                    let picture = render(dome, d, 50.0, size, Look::default());
+                    let picture = render(dome, &quality, d, 50.0, size);
                     imageops::replace(&mut sheet, &picture, (column * size.0) as i64, (row * size.1) as i64);
                 }
             }
@@ -138,15 +139,15 @@ fn main() {
             let size = (200, 200);
             let mut sheet = RgbImage::new(size.0 as u32 * 5, size.1 as u32 * 2);
             for i in 0..10 {
-                let mut days = 9662.0 + i as f64 * 2.9;
+                let mut days = time::days(2026, 6, 15) + 0.5 + i as f64 * 2.9;
                 let height = |t: f64| Sky::new(t, &Place::PLZEN).moon.y;
                 days += (0..96)
                     .map(|q| q as f64 / 96.0)
                     .max_by(|a, b| height(days + a).total_cmp(&height(days + b)))
                     .unwrap();
                 let sky = Sky::new(days, &Place::PLZEN);
-                let look = Look { moon: 10.0, ..Look::default() };
-                let picture = render(Dome::new(sky, quality), sky.moon, 8.0, size, look);
+                let dome = Dome::new(sky, &quality).with_sizes(2.0, 10.0);
+                let picture = render(dome, &quality, sky.moon, 8.0, size);
                 println!("lit {:.2} sun {:.0}", sky.lit, sky.sun.y.asin().to_degrees());
                 imageops::replace(&mut sheet, &picture, (i % 5 * size.0) as i64, (i / 5 * size.1) as i64);
             }

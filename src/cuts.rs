@@ -22,3 +22,9 @@ pub const PARAMETERS: bool = FULL;
 
 /// Whether the command line has the options beyond playing and capturing, and `--help` names them.
 pub const ALL_OPTIONS: bool = FULL;
+
+/// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
+pub const SOFT_LIGHTS: bool = FULL;
+
+/// Whether textures can be checkers: the show has none.
+pub const CHECKER: bool = FULL;

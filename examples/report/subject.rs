@@ -7,8 +7,8 @@ use paprsek::frame::{Picture, Renderer, Scene};
 use paprsek::scenes;
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
-use paprsek::view::Camera;
+use paprsek::sky::layer::SkyLayer;
+use paprsek::view::{Camera, View};
 
 /// Something to draw.
 pub struct Subject {
@@ -89,9 +89,9 @@ impl Subject {
             turn: Mat3::IDENTITY,
             air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
         };
-        let dome = Dome::new(sky, point.dome.unwrap_or(quality.sky));
+        let settings = point.dome.unwrap_or(quality.sky);
         let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-        let layer = SkyLayer::new(dome, camera, width, height, Look::default());
+        let layer = SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, width, height), &settings);
         Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
     }
 }

@@ -4,15 +4,14 @@ use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Picture};
 #[cfg(feature = "full")]
 use crate::raster::{self, RasterLayer};
-use crate::trace::TraceLayer;
-use crate::trace::world::World;
+use crate::trace::{TraceLayer, World};
 use crate::view::Camera;
 #[cfg(feature = "full")]
 use crate::view::View;
 
 /// A picture that is ray traced alone.
 pub fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
+    let traced = TraceLayer::new(world, &spec.view(camera), &spec.quality.trace);
     Picture { layers: vec![Box::new(traced)], transfer }
 }
 

@@ -5,9 +5,7 @@ use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
-use paprsek::texture::Texture;
-use paprsek::trace::shape::Shape;
-use paprsek::trace::world::{Material, Object, Sky, World};
+use paprsek::trace::{Material, Object, Shape, World};
 use paprsek::view::View;
 use paprsek::view::{Camera, Eye, Stereo};
 use testkit::picture::traced;
@@ -139,15 +137,8 @@ fn one_eye_in_the_middle_is_the_camera() {
 
 /// The middle of the light in the picture of a glowing ball, pixels.
 fn middle(ball: Vec3, radius: f32, camera: Camera) -> (f64, f64) {
-    let glow = Material::matt(Texture::plain(Vec3::ONE));
-    let shape = Shape::Sphere { center: ball, radius };
-    let world = World {
-        objects: vec![Object { shape, material: glow, casts_shadow: false }],
-        lights: vec![],
-        ambient: Vec3::ONE,
-        sky: Sky { horizon: Vec3::ZERO, zenith: Vec3::ZERO, glow: (Vec3::Y, Vec3::ZERO, 0.0) },
-        max_level: 1,
-    };
+    let ball = Object::new(Shape::Sphere { center: ball, radius }, Material::plain(Vec3::ONE));
+    let world = World { objects: vec![ball], ambient: Vec3::ONE, max_level: 1, ..World::EMPTY };
     let light = traced(&world, camera, (200, 150), Quality::REFERENCE, fearless_simd::Level::new());
     let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
     for (i, pixel) in light.pixels.iter().enumerate() {

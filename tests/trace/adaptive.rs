@@ -8,8 +8,7 @@ use paprsek::scenes;
 use paprsek::scenes::bench::spheres;
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
-use paprsek::trace::shape::Shape;
-use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
+use paprsek::trace::{Background, Emitter, Light, Material, Object, Shape, World};
 use paprsek::view::Camera;
 use testkit::metrics::{Difference, gaps, ssim};
 use testkit::picture::traced;
@@ -84,14 +83,13 @@ fn antialiased_textures_meet_their_target() {
 }
 
 fn object(shape: Shape, color: Vec3) -> Object {
-    Object { shape, material: Material::matt(Texture::plain(color)), casts_shadow: true }
+    Object::new(shape, Material::plain(color))
 }
 
 /// An even grey sky and light from everywhere: flat colours, and whatever differs is the thing itself.
 fn flat(objects: Vec<Object>) -> World {
-    let grey = Vec3::splat(0.4);
-    let sky = Sky { horizon: grey, zenith: grey, glow: (Vec3::Y, Vec3::ZERO, 0.0) };
-    World { objects, lights: vec![], ambient: Vec3::ONE, sky, max_level: 3 }
+    let background = Background::even(Vec3::splat(0.4));
+    World { objects, lights: vec![], ambient: Vec3::ONE, background, max_level: 3 }
 }
 
 /// Size of the small pictures: two tiles and a part of a square.
@@ -236,20 +234,20 @@ impl Floor {
 }
 
 fn ground(material: Material) -> Object {
-    Object { shape: Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material, casts_shadow: false }
+    Object::new(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material).without_shadow()
 }
 
 /// A plain floor under a light, and things over it.
-fn sunlit(floor: Material, sources: &[Source], objects: Vec<Object>) -> World {
+fn sunlit(floor: Material, sources: &[Emitter], objects: Vec<Object>) -> World {
     let mut world = flat(objects);
     world.objects.push(ground(floor));
     world.ambient = Vec3::splat(0.2);
-    world.lights = sources.iter().map(|s| Light { source: *s, color: Vec3::splat(0.6), radius: 0.0 }).collect();
+    world.lights = sources.iter().map(|s| Light { emitter: *s, color: Vec3::splat(0.6), radius: 0.0 }).collect();
     world
 }
 
 fn plain_floor() -> Material {
-    Material::matt(Texture::plain(Vec3::splat(0.8)))
+    Material::plain(Vec3::splat(0.8))
 }
 
 /// Small balls high over a plain floor, beyond the picture's edge; their shadows in it.
@@ -262,10 +260,10 @@ fn shadows(slanting: bool) -> Tally {
             let radius = radius as f32 * floor.pixel();
             let (source, center) = if slanting {
                 let towards = vec3(0.7, 0.5, 0.5).normalize();
-                (Source::Directional(towards), spot + towards * 120.0)
+                (Emitter::Directional(towards), spot + towards * 120.0)
             } else {
                 let lamp = vec3(200.0, 150.0, 0.0);
-                (Source::Point(lamp), spot + (lamp - spot) * 0.5)
+                (Emitter::Point(lamp), spot + (lamp - spot) * 0.5)
             };
             let ball = object(Shape::Sphere { center, radius }, Vec3::ONE);
             let world = sunlit(plain_floor(), &[source], vec![ball]);
@@ -297,8 +295,8 @@ fn mirrored(floor_material: Material) -> Tally {
             let radius = radius as f32 * floor.pixel() * 1.6;
             let mut ball = object(Shape::Sphere { center, radius }, Vec3::ZERO);
             ball.casts_shadow = false;
-            let world = sunlit(floor_material, &[Source::Directional(Vec3::Y)], vec![ball]);
-            let empty = sunlit(floor_material, &[Source::Directional(Vec3::Y)], vec![]);
+            let world = sunlit(floor_material, &[Emitter::Directional(Vec3::Y)], vec![ball]);
+            let empty = sunlit(floor_material, &[Emitter::Directional(Vec3::Y)], vec![]);
             tally.add(|| format!("radius {radius} at {x}, {y}"), &world, &empty, floor.camera, 0.0);
         }
     }
@@ -315,7 +313,7 @@ fn small_mirrored_balls_are_never_missed() {
 #[test]
 fn small_balls_in_lacquer_are_never_missed() {
     // Mirrored by Fresnel's share alone, which is small but for a grazing eye: a lower one than the others'.
-    let lacquer = Material { fresnel: 1.0, ..Material::matt(Texture::plain(Vec3::ZERO)) };
+    let lacquer = Material::plain(Vec3::ZERO).lacquered(1.0);
     let eye = vec3(0.0, 12.0, 60.0);
     let fov = 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan();
     let camera = Camera::look_at(eye, Vec3::ZERO, fov, 0.0);
@@ -340,7 +338,7 @@ fn small_balls_in_lacquer_are_never_missed() {
 #[test]
 fn small_balls_in_a_mirror_ball_are_never_missed() {
     // A mirror ball of 100 pixels; a small one beside the eye, its image a spot in the middle of it.
-    let mirror = Material { reflectance: Vec3::ONE, ..Material::matt(Texture::plain(Vec3::ZERO)) };
+    let mirror = Material::mirror(Vec3::ONE);
     let big = Object {
         shape: Shape::Sphere { center: on_screen(42.0, 30.0), radius: 50.0 },
         material: mirror,
@@ -366,7 +364,7 @@ fn shadows_that_fall_on_two_bodies_are_never_missed() {
     // Half on a table whose edge runs through it, half on the floor far below.
     let floor = Floor::new();
     let towards = vec3(0.5, 0.7, 0.5).normalize();
-    let source = [Source::Directional(towards)];
+    let source = [Emitter::Directional(towards)];
     let mut verdict = Verdict::default();
     for radius in [1.0f32, 2.0, 3.0, 5.0] {
         let mut tally = Tally::default();
@@ -457,7 +455,7 @@ fn tips_are_not_cut_off() {
 fn tips_of_shadows_are_not_cut_off() {
     let floor = Floor::new();
     let towards = vec3(0.7, 0.5, -0.5).normalize();
-    let source = [Source::Directional(towards)];
+    let source = [Emitter::Directional(towards)];
     let mut verdict = Verdict::default();
     for angle in TURNS {
         let mut tally = Tally::default();
@@ -484,10 +482,10 @@ fn small_highlights_are_found() {
         for (x, y) in places() {
             let center = on_screen(38.0 + x, 26.0 + y);
             let shape = Shape::Sphere { center, radius: 15.0 };
-            let source = [Source::Point(center + vec3(60.0, 80.0, 90.0))];
+            let source = [Emitter::Point(center + vec3(60.0, 80.0, 90.0))];
             let world = |specular| {
                 let material = Material { specular, exponent, ..plain_floor() };
-                let mut world = sunlit(plain_floor(), &source, vec![Object { shape, material, casts_shadow: true }]);
+                let mut world = sunlit(plain_floor(), &source, vec![Object::new(shape, material)]);
                 world.objects.pop();
                 world
             };
@@ -505,7 +503,7 @@ fn textures_finer_than_a_square_stay_whole() {
     let floor = Floor::new();
     for scale in [0.1f32, 0.3, 0.9] {
         let checker = Texture::new(Pattern::Checker, Palette::Mix(Vec3::splat(0.1), Vec3::splat(0.9)), scale);
-        let world = sunlit(Material::matt(checker), &[Source::Point(vec3(30.0, 90.0, 10.0))], vec![]);
+        let world = sunlit(Material::matte(checker), &[Emitter::Point(vec3(30.0, 90.0, 10.0))], vec![]);
         let size = (320, 240);
         let draw = |quality| traced(&world, floor.camera, size, quality, Level::new());
         let (exact, fast) = (draw(Quality::EXACT), draw(Quality::FAST));

@@ -8,11 +8,10 @@ use super::span::{Crossing, span as exact_span};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::simd::lanes::{F, M, U, V3};
-use paprsek::texture::Texture;
-use paprsek::trace::packet::{self, NOWHERE, nearest};
+use paprsek::trace::ray::{NOWHERE, RayPacket, Search, nearest};
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{Ball, FAR, Shape};
-use paprsek::trace::world::{Material, Object, Sky, World};
+use paprsek::trace::{Background, Material, Object, World};
 use proptest::prelude::*;
 use testkit::{ULP, random::Random};
 
@@ -43,10 +42,10 @@ fn wide<S: Simd>(simd: S, case: &Case, roughly: bool) -> Option<(f32, f32)> {
 #[inline(always)]
 fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let (o, d) = (V3::splat(simd, case.o), V3::splat(simd, case.d));
-    let world = alone(case.shape, Material::matt(Texture::plain(Vec3::ONE)), 1);
+    let world = alone(case.shape, Material::plain(Vec3::ONE), 1);
     let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
-    let ray = packet::Ray { origin: o, direction: d, from, inward };
-    let (object, _) = nearest(simd, &world, &[0], &ray, !inward, F::<S>::splat(simd, reach), true);
+    let ray = RayPacket { origin: o, direction: d, from, inward };
+    let (object, _) = nearest(simd, &world, &[0], &ray, !inward, F::<S>::splat(simd, reach), Search::Shadow);
     object[0] != NOWHERE
 }
 
@@ -543,11 +542,10 @@ fn normals_are_unit_outward_and_right() {
 /// One body alone under a sky of light 1.
 fn alone(shape: Shape, material: Material, max_level: u32) -> World {
     World {
-        objects: vec![Object { shape, material, casts_shadow: true }],
-        lights: vec![],
-        ambient: Vec3::ZERO,
-        sky: Sky { horizon: Vec3::ONE, zenith: Vec3::ONE, glow: (Vec3::Y, Vec3::ZERO, 0.0) },
+        objects: vec![Object::new(shape, material)],
+        background: Background::even(Vec3::ONE),
         max_level,
+        ..World::EMPTY
     }
 }
 
@@ -569,7 +567,7 @@ fn arrivals(seed: u64, mut each: impl FnMut(Shape, Vec3, Vec3)) {
 #[test]
 fn reflected_rays_never_meet_their_own_body() {
     // A perfect mirror under an even sky: the mirrored ray brings 1, and black if it met the mirror a second time.
-    let mirror = Material { reflectance: Vec3::ONE, ..Material::matt(Texture::plain(Vec3::ZERO)) };
+    let mirror = Material::mirror(Vec3::ONE);
     let mut count = 0;
     arrivals(10, |shape, o, d| {
         let light = reference::radiance(&alone(shape, mirror, 2), Ray::new(o, d), 1);

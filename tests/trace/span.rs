@@ -4,7 +4,7 @@
 
 use super::exact::{Exact, Exact3};
 use glam::Vec3;
-use paprsek::trace::shape::Shape;
+use paprsek::trace::Shape;
 
 /// One crossing of a surface.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,7 @@ use paprsek::scenes::bench::spheres;
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
 use paprsek::trace::reference::{self, Ray};
-use paprsek::trace::shape::Shape;
-use paprsek::trace::world::{Light, Material, Object, Sky, Source, World};
+use paprsek::trace::{Background, Emitter, Glow, Light, Material, Object, Shape, World};
 use paprsek::view::Camera;
 use std::f64::consts::FRAC_1_SQRT_2;
 use testkit::metrics::gaps;
@@ -18,13 +17,12 @@ const LIGHT: f64 = 2e-6;
 
 /// A world without lights under an even sky of light 1.
 fn furnace(objects: Vec<(Shape, Material)>, max_level: u32) -> World {
-    let object = |(shape, material)| Object { shape, material, casts_shadow: true };
+    let object = |(shape, material)| Object::new(shape, material);
     World {
         objects: objects.into_iter().map(object).collect(),
-        lights: vec![],
-        ambient: Vec3::ZERO,
-        sky: Sky { horizon: Vec3::ONE, zenith: Vec3::ONE, glow: (Vec3::Y, Vec3::ZERO, 0.0) },
+        background: Background::even(Vec3::ONE),
         max_level,
+        ..World::EMPTY
     }
 }
 
@@ -33,11 +31,11 @@ fn glass(ior: f64) -> Material {
 }
 
 fn mirror(share: f32) -> Material {
-    Material { reflectance: Vec3::splat(share), ..Material::matt(Texture::plain(Vec3::ZERO)) }
+    Material::mirror(Vec3::splat(share))
 }
 
 fn white() -> Material {
-    Material::matt(Texture::plain(Vec3::ONE))
+    Material::plain(Vec3::ONE)
 }
 
 fn ball(center: Vec3, radius: f32) -> Shape {
@@ -70,7 +68,7 @@ fn fresnel(n: f64, angle: f64) -> f64 {
 fn reflected(ior: f64, angle: f64) -> f64 {
     // Light 1 straight up and none at the horizon or below: the mirrored ray brings its own height.
     let mut world = furnace(vec![(floor(), glass(ior))], 2);
-    world.sky.horizon = Vec3::ZERO;
+    world.background.horizon = Vec3::ZERO;
     let d = vec3(angle.sin() as f32, -(angle.cos() as f32), 0.0);
     look(&world, vec3(0.0, 1.0, 0.0), d) / angle.cos()
 }
@@ -108,7 +106,7 @@ fn reflection_is_total_beyond_the_critical_angle() {
     for n in [1.01, 1.333, 1.5, 2.417] {
         let mut world = furnace(vec![(floor(), glass(n))], 2);
         // From below: light 1 comes from below only, all of it mirrored; what passes looks up, where there is less.
-        world.sky.zenith = Vec3::ZERO;
+        world.background.zenith = Vec3::ZERO;
         let critical = (1.0 / n).asin();
         for k in -4000..=4000 {
             let angle = critical + k as f64 * if k % 2 == 0 { 1e-7 } else { 1e-10 };
@@ -343,10 +341,10 @@ fn shadow_edge(world: &World, from: DVec3, to: DVec3) -> f64 {
 }
 
 /// A white floor, a black ball over it, and one light.
-fn shadow_play(center: Vec3, radius: f32, source: Source) -> World {
+fn shadow_play(center: Vec3, radius: f32, emitter: Emitter) -> World {
     let mut world = furnace(vec![(floor(), white()), (ball(center, radius), mirror(0.0))], 1);
     world.ambient = Vec3::splat(0.1);
-    world.lights = vec![Light { source, color: Vec3::ONE, radius: 0.0 }];
+    world.lights = vec![Light { emitter, color: Vec3::ONE, radius: 0.0 }];
     world
 }
 
@@ -356,7 +354,7 @@ fn shadows_end_where_geometry_says() {
     let center = vec3(0.0, height, 0.0);
     // A light above: the cone around the ball meets the floor in a circle.
     for above in [4.0f32, 10.0, 100.0] {
-        let world = shadow_play(center, radius, Source::Point(vec3(0.0, above, 0.0)));
+        let world = shadow_play(center, radius, Emitter::Point(vec3(0.0, above, 0.0)));
         let (gap, r, h) = ((above - height) as f64, radius as f64, above as f64);
         let truth = h * r / (gap * gap - r * r).sqrt();
         for k in 0..16 {
@@ -368,7 +366,7 @@ fn shadows_end_where_geometry_says() {
     // A light without distance, slanting: an ellipse as wide as the ball, longer by 1 / sin of the light's height.
     for elevation in [0.2f64, 0.5, 1.0, 1.5] {
         let towards = vec3(elevation.cos() as f32, elevation.sin() as f32, 0.0);
-        let world = shadow_play(center, radius, Source::Directional(towards));
+        let world = shadow_play(center, radius, Emitter::Directional(towards));
         let middle = DVec3::new(-height as f64 / elevation.tan(), 0.0, 0.0);
         let (long, wide) = (radius as f64 / elevation.sin(), radius as f64);
         for k in 0..16 {
@@ -390,8 +388,8 @@ fn light_falls_by_lamberts_law() {
     for k in 0..=90 {
         let a = (k as f64).to_radians();
         let towards = vec3(a.cos() as f32, a.sin() as f32, 0.0);
-        for source in [Source::Directional(towards), Source::Point(towards * 50.0)] {
-            world.lights = vec![Light { source, color: Vec3::splat(0.5), radius: 0.0 }];
+        for emitter in [Emitter::Directional(towards), Emitter::Point(towards * 50.0)] {
+            world.lights = vec![Light { emitter, color: Vec3::splat(0.5), radius: 0.0 }];
             let found = look(&world, vec3(0.0, 1.0, 0.0), Vec3::NEG_Y);
             assert!((found - 0.25 - 0.5 * a.sin()).abs() < 2e-7, "{k}: {found}");
         }
@@ -400,10 +398,10 @@ fn light_falls_by_lamberts_law() {
 
 #[test]
 fn highlights_peak_in_the_mirror_direction() {
-    let material = Material { specular: 0.8, exponent: 48.0, ..Material::matt(Texture::plain(Vec3::ZERO)) };
+    let material = Material::plain(Vec3::ZERO).shiny(0.8, 48.0);
     let mut world = furnace(vec![(floor(), material)], 1);
     let (eye, light) = (vec3(-3.0, 2.0, 1.0), vec3(4.0, 5.0, -2.0));
-    world.lights = vec![Light { source: Source::Point(light), color: Vec3::splat(0.5), radius: 0.0 }];
+    world.lights = vec![Light::point(light, Vec3::splat(0.5))];
     // The light's image below the floor, seen from the eye.
     let (e, image) = (eye.as_dvec3(), DVec3::new(4.0, -5.0, -2.0));
     let peak = e + (image - e) * (e.y / (e.y - image.y));
@@ -430,7 +428,7 @@ fn highlights_peak_in_the_mirror_direction() {
 fn everything() -> (World, Camera) {
     let colors = [vec3(0.1, 0.05, 0.02), vec3(0.8, 0.3, 0.1), vec3(0.9, 0.8, 0.3), vec3(0.2, 0.5, 0.9)];
     let mix = Palette::Mix(colors[0], colors[2]);
-    let matt = |pattern, palette, scale| Material::matt(Texture::new(pattern, palette, scale));
+    let matte = |pattern, palette, scale| Material::matte(Texture::new(pattern, palette, scale));
     let lacquer = |material: Material| Material { fresnel: 0.8, ..material.polished(0.05, 0.5, 40.0) };
     let turn = Mat3::from_rotation_y(0.6) * Mat3::from_rotation_x(0.3);
     let (block, axis) = (vec3(-2.0, 0.8, 0.5), vec3(0.2, 0.9, 0.3).normalize());
@@ -438,36 +436,35 @@ fn everything() -> (World, Camera) {
     let wood = Texture::new(Pattern::Wood { warp: 0.6, octaves: 2 }, Palette::Ramp(colors), 6.0).on(block, turn);
     let bodies = [
         (ball(vec3(0.0, 1.0, 0.0), 1.0), glass(1.5)),
-        (ball(vec3(1.9, 0.6, 0.9), 0.6), lacquer(matt(marble, mix, 3.0))),
-        (ball(vec3(0.7, 0.3, 1.8), 0.3), matt(Pattern::Turbulence { octaves: 3 }, Palette::Ramp(colors), 5.0)),
-        (Shape::Block { center: block, half: vec3(0.6, 0.7, 0.4), turn }, Material::matt(wood)),
+        (ball(vec3(1.9, 0.6, 0.9), 0.6), lacquer(matte(marble, mix, 3.0))),
+        (ball(vec3(0.7, 0.3, 1.8), 0.3), matte(Pattern::Turbulence { octaves: 3 }, Palette::Ramp(colors), 5.0)),
+        (Shape::Block { center: block, half: vec3(0.6, 0.7, 0.4), turn }, Material::matte(wood)),
         (Shape::Block { center: vec3(-0.6, 0.25, 2.0), half: vec3(0.25, 0.25, 0.25), turn }, glass(1.3)),
         (
             Shape::Cylinder { center: vec3(2.4, 0.9, -1.2), axis, half: 0.9, radius: 0.4 },
-            matt(Pattern::Clouds { octaves: 4 }, mix, 4.0).polished(0.3, 0.4, 20.0),
+            matte(Pattern::Clouds { octaves: 4 }, mix, 4.0).polished(0.3, 0.4, 20.0),
         ),
         (
             Shape::Cylinder { center: vec3(-0.9, 0.5, -1.6), axis: Vec3::Y, half: 0.5, radius: 0.5 },
             Material { reflectance: vec3(0.9, 0.6, 0.3), specular: 0.6, exponent: 80.0, ..white() },
         ),
-        (Shape::Plane { normal: vec3(0.0, 0.0, 1.0), offset: -4.0 }, Material::matt(Texture::plain(colors[3]))),
+        (Shape::Plane { normal: vec3(0.0, 0.0, 1.0), offset: -4.0 }, Material::plain(colors[3])),
         (
             Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 1e5 },
-            matt(Pattern::Checker, Palette::Mix(Vec3::splat(0.2), Vec3::splat(0.8)), 1.3).polished(0.1, 0.1, 10.0),
+            matte(Pattern::Checker, Palette::Mix(Vec3::splat(0.2), Vec3::splat(0.8)), 1.3).polished(0.1, 0.1, 10.0),
         ),
     ];
     let mut world = furnace(bodies.to_vec(), 5);
     for body in &mut world.objects {
         body.casts_shadow = !body.material.is_glass() && !matches!(body.shape, Shape::Globe { .. });
     }
-    let lamp = |source, color| Light { source, color, radius: 0.0 };
     world.lights = vec![
-        lamp(Source::Point(vec3(3.0, 5.0, 4.0)), vec3(0.6, 0.5, 0.4)),
-        lamp(Source::Directional(vec3(-0.5, FRAC_1_SQRT_2 as f32, 0.5)), vec3(0.2, 0.3, 0.4)),
+        Light::point(vec3(3.0, 5.0, 4.0), vec3(0.6, 0.5, 0.4)),
+        Light::directional(vec3(-0.5, FRAC_1_SQRT_2 as f32, 0.5), vec3(0.2, 0.3, 0.4)),
     ];
     world.ambient = Vec3::splat(0.1);
-    let glow = (vec3(0.0, 0.6, -0.8), vec3(0.5, 0.3, 0.1), 20.0);
-    world.sky = Sky { horizon: vec3(0.6, 0.6, 0.7), zenith: vec3(0.1, 0.3, 0.6), glow };
+    let glow = Glow { direction: vec3(0.0, 0.6, -0.8), color: vec3(0.5, 0.3, 0.1), exponent: 20.0 };
+    world.background = Background { horizon: vec3(0.6, 0.6, 0.7), zenith: vec3(0.1, 0.3, 0.6), glow };
     (world, Camera::look_at(vec3(0.5, 1.8, 6.5), vec3(0.0, 0.8, 0.0), 0.8, 0.05))
 }
 
@@ -523,7 +520,7 @@ fn tiles_leave_nothing_out() {
                 1 => Shape::Block { center, half: size * vec3(1.0, 0.1, 3.0), turn },
                 _ => Shape::Cylinder { center, axis, half: 4.0 * size, radius: 0.3 * size },
             };
-            bodies.push((shape, Material::matt(Texture::plain(color(&mut random)))));
+            bodies.push((shape, Material::plain(color(&mut random))));
         }
         let mut world = furnace(bodies, 1);
         world.ambient = Vec3::ONE;

@@ -6,6 +6,7 @@
 use super::sky_grid::{self as grid, Cells, Field};
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile};
+use crate::simd::hash::pcg;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
 use crate::view::Camera;
@@ -13,7 +14,6 @@ use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use glam::{Vec3, vec3};
 use std::f32::consts::LOG2_E;
-use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 /// The scene.
@@ -21,20 +21,13 @@ pub const SKY: Scene = Scene {
     name: "sky",
     about: "bench: a sunrise, stars",
     duration: 20.0,
-    parameters: &[HOUR, SPEED, TILT, STARS],
+    parameters: &[START, SPEED, TILT, STARS],
     picture,
 };
 
-/// Hours per radian of the sun's circle.
-const HOURS: f64 = 12.0 / PI;
-const HOUR: Parameter = Parameter::new(
-    "hour",
-    "h",
-    (0.0, 24.0),
-    6.0 - 0.53 * HOURS,
-    "time of day at the start; the sun rises at 6 and sets at 18",
-);
-const SPEED: Parameter = Parameter::new("speed", "h/s", (-24.0, 24.0), 0.3 * HOURS, "hours of a day per second");
+const START: Parameter =
+    Parameter::new("start", "rad", (-3.2, 3.2), -0.53, "the sun's angle at the start, from where it rises");
+const SPEED: Parameter = Parameter::new("speed", "rad/s", (-6.3, 6.3), 0.3, "how fast the sun goes round");
 const TILT: Parameter =
     Parameter::new("tilt", "1", (-2.0, 2.0), 0.1, "how far the sun's circle leans to the east, tangent");
 const STARS: Parameter = Parameter::new("stars", "1", (0.0, 4.0), 1.0, "light of the stars, times what it is");
@@ -51,10 +44,9 @@ pub fn camera(time: f64) -> Camera {
     Camera::look_at(Vec3::ZERO, vec3(sin as f32, 0.36, cos as f32), 50f32.to_radians(), 0.0)
 }
 
-/// `u^2 (3 - 2 u)`, from 0 at `a` to 1 at `b`.
+/// Smoothstep from 0 at `a` to 1 at `b`.
 fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
-    let u = ((x - a) / (b - a)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
+    math::smooth1((x - a) / (b - a))
 }
 
 /// The sky's colours at an instant, without stars and the sun's disc.
@@ -108,9 +100,7 @@ pub struct Cycle {
 
 impl Cycle {
     fn new(spec: &FrameSpec, view: View, cells: Cells) -> Cycle {
-        // Differences from the specified 0.3 t - 0.53, so that hours round nothing off.
-        let [start, speed] = [&HOUR, &SPEED].map(|parameter| (spec.get(parameter) - parameter.default) / HOURS);
-        let (sin, cos) = ((0.3 + speed) * spec.time - (0.53 - start)).sin_cos();
+        let (sin, cos) = (spec.get(&SPEED) * spec.time + spec.get(&START)).sin_cos();
         let sun = vec3(spec.get(&TILT) as f32 * cos as f32, sin as f32, cos as f32).normalize();
         let day = smoothstep(-0.15, 0.25, sun.y);
         let dusk = 0.75 * (-18.0 * sun.y * sun.y).exp();
@@ -204,11 +194,4 @@ fn catalogue() -> &'static [(Vec3, f32)] {
         }
         stars
     })
-}
-
-/// The specified hash: one step of O'Neill's PCG-RXS-M-XS, 2014.
-fn pcg(n: u32) -> u32 {
-    let s = n.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let w = ((s >> ((s >> 28) + 4)) ^ s).wrapping_mul(277_803_737);
-    (w >> 22) ^ w
 }

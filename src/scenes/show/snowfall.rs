@@ -3,7 +3,7 @@
 //! Two fields of flakes around the eye, as in thesis C, a near one of crystals and a far one of tufts; fog that thickens with
 //! the shower; and snow that settles on what the sky sees.
 
-use super::valley::{self, days};
+use super::valley;
 use crate::cuts;
 use crate::effects::Fog;
 use crate::frame::encode::Transfer;
@@ -18,6 +18,7 @@ use crate::raster::shadow::{Bias, ShadowViews};
 use crate::raster::snow_cover::SnowCover;
 use crate::scenes::flakes;
 use crate::scenes::models::land;
+use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
 use crate::view::View;

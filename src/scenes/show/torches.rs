@@ -4,7 +4,7 @@
 //! The subject of thesis D: particles that live and die by closed forms of time, and a flickering point light per fire, whose
 //! falloff is the thesis's. All lights are applied in one pass, each with a cube of depth maps.
 
-use super::valley::{self, HOUR, LATITUDE, LONGITUDE, days};
+use super::valley::{self, HOUR, LATITUDE, LONGITUDE};
 use crate::cuts;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::particles::fire::{Fire, Flame};
@@ -15,6 +15,7 @@ use crate::raster::light::Light;
 use crate::raster::mesh::Mesh;
 use crate::raster::{Body, form};
 use crate::scenes::models::paint::{self, PAINTS};
+use crate::sky::time::days;
 use crate::timeline::{self, Key};
 use crate::view::{Camera, View};
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};

@@ -18,8 +18,9 @@ use crate::scenes::script::{
     Script, VARIABLES, Word, assign_all, operations, pattern, script, texture, variable, words,
 };
 use crate::sky::dome::{Dome, Sky};
-use crate::sky::layer::{Look, SkyLayer};
+use crate::sky::layer::SkyLayer;
 use crate::sky::place::Place;
+use crate::sky::time::days;
 use crate::texture::Texture;
 use crate::timeline::ease;
 use crate::view::{Camera, View};
@@ -43,14 +44,6 @@ pub const LONGITUDE: Parameter = Parameter::new(
 pub(in crate::scenes) const HOUR: f64 = 1.0 / 24.0;
 /// Degrees per radian.
 const DEGREES: f64 = 57.295_779_513_082_32;
-
-/// Midnight UT at the start of a date, in days since J2000.
-pub(in crate::scenes) const fn days(year: i64, month: i64, day: i64) -> f64 {
-    let months = year * 12 + month - 3;
-    let (year, month) = (months.div_euclid(12), months.rem_euclid(12));
-    let leaps = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    (year * 365 + leaps + (month * 153 + 2) / 5 + day - 730_426) as f64 - 0.5
-}
 
 // The days of the show, midnight UT.
 /// In June, when the days are longest.
@@ -186,7 +179,7 @@ pub(in crate::scenes) fn season(number: usize) -> (f32, Vec<Texture>) {
 #[inline(never)]
 pub(in crate::scenes) fn sky(spec: &FrameSpec, time: f64) -> Dome {
     let place = Place { latitude: spec.get(&LATITUDE) / DEGREES, longitude: spec.get(&LONGITUDE) / DEGREES };
-    Dome::new(Sky::new(time, &place), spec.quality.sky)
+    Dome::new(Sky::new(time, &place), &spec.quality.sky)
 }
 
 /// The picture of a world under a sky, with a layer that lies between them, such as clouds.
@@ -198,8 +191,7 @@ pub(in crate::scenes) fn show(
     view: View,
     between: Option<Box<dyn Layer>>,
 ) -> Picture {
-    let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
-    let sky = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
+    let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
     let mut layers: Vec<Box<dyn Layer>> =
         vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
     layers.extend(between);

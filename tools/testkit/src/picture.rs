@@ -8,7 +8,7 @@ use paprsek::settings::Quality;
 use paprsek::trace::TraceLayer;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::world::World;
-use paprsek::view::Camera;
+use paprsek::view::{Camera, View};
 
 /// A picture of linear light, row by row from the top left.
 #[derive(Clone)]
@@ -31,7 +31,7 @@ fn tile() -> Tile {
 /// What the renderer makes of a world, tile by tile.
 pub fn traced(world: &World, camera: Camera, size: (usize, usize), quality: Quality, level: Level) -> Light {
     let (width, height) = size;
-    let layer = TraceLayer::new(world.clone(), camera, width, height, quality);
+    let layer = TraceLayer::new(world.clone(), &View::new(camera, width, height), &quality.trace);
     let mut pixels = vec![Vec3::ZERO; width * height];
     let (mut tile, mut samples) = (tile(), 0);
     for y in (0..height).step_by(Tile::SIZE) {
