@@ -165,8 +165,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     let density = 8e-4 + 8e-3 * snow;
     let fog = Fog { view, light: air, density, end: 1e5 };
     let mut fields = Vec::new();
-    let altered = altered(spec);
-    for flakes in if cuts::PARAMETERS { &altered } else { &FIELDS } {
+    let altered = cuts::PARAMETERS.then(|| altered(spec));
+    for flakes in altered.as_ref().unwrap_or(&FIELDS) {
         let mut field = Snow::new(flakes, spec.time, camera.eye.as_dvec3(), weather.drift, snow);
         field.calm = Calm { wind: weather.wind, height: 1.7, depth: 1.5 };
         fields.push(Emitter::Snow(field));

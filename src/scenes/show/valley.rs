@@ -1,7 +1,7 @@
 //! The valley that half of the show plays in: the land and what stands on it through the seasons, under the sky of a time
 //! and a place.
 //!
-//! What scenes share is here: [`textures`] of a [`Season`], the [`sky`], the [`world`] of triangles lit by sun or moon, their
+//! What scenes share is here: the date and the textures of a [`season`], the [`sky`], the [`world`] of triangles lit by sun or moon, their
 //! shadow [`cascades`], the [`lamp`] in the chapel, and the picture of it all ([`show`]). Axes: x east, y up, z south, metres;
 //! the chapel is at the origin.
 
@@ -141,7 +141,8 @@ const fn far(color: Word) -> [Word; 5] {
     words!(color * FAR_BARE + FAR_SNOW)
 }
 
-/// The bodies: the land, the woods, the lake, the chapel; last the aeroplane and its propeller, which are moved.
+/// The bodies, made at the first call: the land, the woods, the lake, the chapel; last the aeroplane and its propeller, which
+/// [`world`] moves.
 fn bodies() -> Vec<Body> {
     static BODIES: Mutex<Vec<Body>> = Mutex::new(Vec::new());
     let mut bodies = BODIES.lock().unwrap();
