@@ -33,7 +33,7 @@ fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
         return snowfall(&renderer.spec(time, &Quality::FAST, SIZE), &FLAKES).without_solids();
     }
     let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
-    ParticleLayer::fire(fires(time), 1.6, &View::new(camera, width, height), width, height).without_solids()
+    ParticleLayer::new(fires(time), &View::new(camera, width, height), &Quality::EXACT.particles).without_solids()
 }
 
 /// Milliseconds: the median.

@@ -1,7 +1,7 @@
 //! Parameters that scenes with flakes or drops have in common: the keys of thesis C, snow for virtual reality.
 
 use crate::frame::Parameter;
-use crate::particles::snow::Flakes;
+use crate::particles::Flakes;
 
 /// The height of a field, metres.
 pub const fn height(default: f64, about: &'static str) -> Parameter {

@@ -2,7 +2,7 @@
 
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, vec3};
-use paprsek::effects::Fog;
+use paprsek::effects::{Fog, FogLayer};
 use paprsek::frame::{Layer, Tile};
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -16,7 +16,7 @@ fn camera() -> Camera {
 
 fn fog(density: f32, end: f32) -> Fog {
     let light = vec3(0.5, 0.6, 0.8);
-    Fog { view: View::new(camera(), SIZE[0], SIZE[1]), light, density, end }
+    Fog { light, density, end }
 }
 
 /// The third tile of the second row, which is cut at both ends: solids from 0.3 m to 30 km, sky, and edges.
@@ -34,9 +34,9 @@ fn tile() -> Tile {
     tile
 }
 
-fn drawn(fog: &Fog, level: Level) -> Tile {
+fn drawn(fog: Fog, level: Level) -> Tile {
     let mut tile = tile();
-    fog.draw(level, &mut tile);
+    FogLayer::new(fog, &View::new(camera(), SIZE[0], SIZE[1])).draw(level, &mut tile);
     tile
 }
 
@@ -55,7 +55,7 @@ fn light_fades_into_fog_by_distance() {
     let camera = camera();
     for (density, end) in [(1e-5, 1e4), (1e-3, 500.0), (1e-3, 1e5), (0.05, 3000.0), (2.0, 10.0), (1e3, 1e3)] {
         let fog = fog(density, end);
-        let found = drawn(&fog, Level::new());
+        let found = drawn(fog, Level::new());
         for row in 0..found.height {
             for column in 0..found.width {
                 let at = row * Tile::SIZE + column;
@@ -84,16 +84,16 @@ fn no_fog_leaves_the_picture_as_it_is() {
     let before = bits(&tile());
     for (name, level) in testkit::levels() {
         for end in [1.0, 5e4] {
-            assert!(bits(&drawn(&fog(0.0, end), level)) == before, "{name}");
+            assert!(bits(&drawn(fog(0.0, end), level)) == before, "{name}");
         }
     }
 }
 
 #[test]
 fn every_level_gives_the_same_bits() {
-    let truth = bits(&drawn(&fog(0.004, 2e3), testkit::levels()[0].1));
+    let truth = bits(&drawn(fog(0.004, 2e3), testkit::levels()[0].1));
     for (name, level) in testkit::levels() {
-        assert!(bits(&drawn(&fog(0.004, 2e3), level)) == truth, "{name}");
+        assert!(bits(&drawn(fog(0.004, 2e3), level)) == truth, "{name}");
     }
 }
 
@@ -103,7 +103,7 @@ fn more_fog_is_nearer_to_its_light() {
     let white = |density: f32| Fog { light: Vec3::splat(2.0), ..fog(density, 4e3) };
     let mut last = tile();
     for density in [1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 10.0] {
-        let next = drawn(&white(density), Level::new());
+        let next = drawn(white(density), Level::new());
         for row in 0..next.height {
             let at = row * Tile::SIZE..row * Tile::SIZE + next.width;
             for (before, after) in last.red[at.clone()].iter().zip(&next.red[at]) {

@@ -3,9 +3,9 @@
 use glam::{Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
+use paprsek::particles::{Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::fires;
+use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
 
@@ -84,7 +84,7 @@ impl Layer for Black {
 }
 
 fn draw(renderer: &mut Renderer, fire: Fire, view: &View) -> Vec<u32> {
-    let particles = ParticleLayer::fire(vec![fire], 1.6, view, SIZE.0, SIZE.1);
+    let particles = ParticleLayer::new([fire], view, &Quality::EXACT.particles);
     let mut frame = Frame::new(SIZE.0, SIZE.1);
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(Black), Box::new(particles)];
     renderer.draw(Picture { layers, transfer: Transfer::Linear }, &mut frame);

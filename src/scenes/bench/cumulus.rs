@@ -4,10 +4,7 @@
 
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
-use crate::cloud::CloudLayer;
-use crate::cloud::march::{Cloud, Look};
-use crate::cloud::shape::Kind;
-use crate::cloud::voxels::Voxels;
+use crate::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels};
 use crate::frame::cache::lock;
 use crate::frame::encode::Transfer;
 use crate::frame::{Cache, FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile, Workers};
@@ -45,8 +42,7 @@ pub const SKY_OF_CLOUDS: Scene = Scene {
     picture: |spec| picture(spec, 2, many(spec)),
 };
 
-const KIND: Parameter =
-    Parameter::new("kind", "count", (0.0, 3.0), 0.0, "0 cumulus, 1 congestus, 2 altocumulus, 3 stratus");
+const KIND: Parameter = Parameter::new("kind", "count", (0.0, 1.0), 0.0, "0 cumulus, 1 congestus");
 const SHAPE: Parameter = Parameter::new("seed", "count", (0.0, 1e4), 0.0, "another number, another cloud of that kind");
 const HEIGHT: Parameter = Parameter::new("height", "m", (0.0, 200.0), 60.0, "height of the cloud's centre");
 const SIZE: Parameter = Parameter::new("size", "m", (5.0, 90.0), 50.0, "half of the edge of the cloud's cube");
@@ -78,7 +74,7 @@ fn shape(spec: &FrameSpec, seed: u32) -> Arc<Voxels> {
     if let Some((_, voxels)) = shapes.0.iter().find(|shape| shape.0 == [kind, seed]) {
         return voxels.clone();
     }
-    let of = [Kind::CUMULUS, Kind::CONGESTUS, Kind::ALTOCUMULUS, Kind::STRATUS][kind as usize];
+    let of = [CloudKind::CUMULUS, CloudKind::CONGESTUS][kind as usize];
     let voxels = set::grow(&of, seed);
     // Who turns the knob should not fill the memory.
     if shapes.0.len() == MOST_SHAPES {
@@ -114,7 +110,7 @@ fn picture(spec: &FrameSpec, variant: usize, clouds: Vec<Cloud>) -> Picture {
     let (eye, way) = set::camera(variant, spec.time);
     let camera = Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0);
     let view = View::new(spec.camera(camera), spec.width, spec.height);
-    let look = Look {
+    let light = CloudLight {
         ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
         towards: set::sun(),
         sun: vec3(0.86, 0.78, 0.68) * spec.get(&LIGHT) as f32,
@@ -122,7 +118,7 @@ fn picture(spec: &FrameSpec, variant: usize, clouds: Vec<Cloud>) -> Picture {
     };
     let q = &spec.quality;
     // `fast` takes the steps that are specified, and ends rays where it says; `exact` is the limit of both.
-    let clouds = CloudLayer::new(clouds, look, |_| HAZE, 1400.0, view, q.cloud);
+    let clouds = CloudLayer::new(clouds, light, &view, &q.cloud).in_air(1400.0, |_| HAZE);
     let cells = Cells { size: if q.cloud.cell > 1 { 8 } else { 1 }, grid: q.cloud.grid };
     Picture {
         layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })],

@@ -1,9 +1,7 @@
 //! The voxels and clouds of the bench scenes `cumulus`, `cumulus-inside` and `sky-of-clouds`, as specified for every renderer that
 //! is compared.
 
-use crate::cloud::march::Cloud;
-use crate::cloud::shape::Kind;
-use crate::cloud::voxels::Voxels;
+use crate::cloud::{Cloud, CloudKind, Voxels};
 use crate::simd::hash::rnd;
 use crate::simd::level;
 use fearless_simd::dispatch;
@@ -21,17 +19,16 @@ pub fn sun() -> Vec3 {
 /// Shape `k` of four, made when it is first asked for.
 pub fn shape(k: usize) -> Arc<Voxels> {
     static SHAPES: [OnceLock<Arc<Voxels>>; SHAPE_COUNT] = [const { OnceLock::new() }; SHAPE_COUNT];
-    SHAPES[k].get_or_init(|| grow(&Kind::CUMULUS, k as u32)).clone()
+    SHAPES[k].get_or_init(|| grow(&CloudKind::CUMULUS, k as u32)).clone()
 }
 
 /// The number of shapes in a sky.
 pub const SHAPE_COUNT: usize = 4;
 
 /// A shape of a kind, with its light.
-pub fn grow(kind: &Kind, seed: u32) -> Arc<Voxels> {
-    let mut voxels = dispatch!(level::best(), simd => Kind::grow(simd, kind, seed, EDGE));
-    voxels.light = bake(&voxels.density);
-    voxels.pack();
+pub fn grow(kind: &CloudKind, seed: u32) -> Arc<Voxels> {
+    let mut voxels = dispatch!(level::best(), simd => CloudKind::grow(simd, kind, seed, EDGE));
+    voxels.set_light(bake(voxels.density()));
     Arc::new(voxels)
 }
 

@@ -4,11 +4,9 @@
 
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile};
-use crate::particles::ParticleLayer;
-use crate::particles::fire::{Fire, Flame};
-use crate::particles::snow::{Flakes, Snow};
-use crate::particles::sprite::Lens;
+use crate::particles::{Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
 use crate::scenes::flakes;
+use crate::settings::Quality;
 use crate::view::{Camera, View};
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
@@ -83,7 +81,6 @@ pub const FLAME: Flame = Flame {
     lift: 0.55,
     radius: [0.15, 0.035],
     light: [vec3(1.0 * 0.008, 0.62 * 0.008, 0.20 * 0.008), vec3(0.80 * 0.008, 0.10 * 0.008, 0.02 * 0.008)],
-    alpha: 0.0,
 };
 
 /// Flakes of a field at `time` seconds, in the wind that is specified, around an eye that walks as specified but is moved by
@@ -114,7 +111,7 @@ pub fn snowfall(spec: &FrameSpec, of: &Flakes) -> ParticleLayer {
     let view = View::new(camera, spec.width, spec.height);
     let wind = [spec.get(&EAST), spec.get(&SOUTH)];
     let snow = blown(of, t, camera.eye, wind, spec.get(&SHARE) as f32);
-    ParticleLayer::snow(vec![snow], vec3(0.95, 0.97, 1.0), &view, spec.width, spec.height)
+    ParticleLayer::new([snow], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
 }
 
 /// The torches at `time` seconds, as specified.
@@ -152,7 +149,8 @@ fn fire(spec: &FrameSpec) -> Picture {
     let way = DVec3::Y * 1.8 - eye;
     let camera = spec.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
-    let particles = ParticleLayer::fire(torches, 1.6, &view, spec.width, spec.height);
+    // All particles that are specified, whatever the quality.
+    let particles = ParticleLayer::new(torches, &view, &Quality::EXACT.particles);
     over(spec, FIRE_SKY, particles)
 }
 

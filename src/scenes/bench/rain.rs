@@ -4,9 +4,7 @@
 //! what they cover while the shutter is open is drawn as a streak, which is right in every direction of view.
 
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
-use crate::particles::ParticleLayer;
-use crate::particles::snow::{Flakes, Snow};
-use crate::particles::sprite::Lens;
+use crate::particles::{Flakes, Lens, ParticleLayer, Snow};
 use crate::scenes::flakes;
 use crate::scenes::show::valley::{self, HOUR, LATITUDE, LONGITUDE};
 use crate::timeline::ease;
@@ -74,7 +72,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let drops = flakes::altered(&DROPS, height, radius, count, faster, larger);
     let mut rain = Snow::new(&drops, t, view.camera().eye.as_dvec3(), way, share);
     rain.streak = (wind.as_vec3() - Vec3::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
-    let rain = ParticleLayer::snow(vec![rain], sky * 1.6, &view, spec.width, spec.height);
+    let rain = ParticleLayer::new([rain], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));
     picture

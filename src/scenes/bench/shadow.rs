@@ -5,11 +5,7 @@
 use super::shadow_set;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
-use crate::raster::fit;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::project::Projection;
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::{Body, World};
+use crate::raster::{Bias, Body, Haze, Light, Projection, ShadowViews, World, fit};
 use crate::scenes::single::drawn;
 use crate::view::Camera;
 use glam::{Affine3A, Vec2, Vec3, vec3};
@@ -54,16 +50,11 @@ fn sun(spec: &FrameSpec) -> Picture {
     let towards = shadow_set::sun_at(spec.get(&SPEED) * spec.time, spec.get(&SLOPE)).as_vec3();
     let texels = spec.get(&TEXELS) as u32;
     const WIDTH: f32 = 72.0;
-    let plan = ShadowViews {
-        views: vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, texels)],
-        // In texels; the specification has metres.
-        bias: Bias { constant: 0.03, slope: 0.15 * texels as f32 / WIDTH, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        from: 0,
-        smooth: false,
-    };
-    let light = Light { source: Source::Sun(towards), color: vec3(1.05, 0.92, 0.74), shadow: Some(plan) };
+    let views = vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, texels)];
+    // In texels; the specification has metres.
+    let bias = Bias { constant: 0.03, slope: 0.15 * texels as f32 / WIDTH, normal: 0.0 };
+    let shadow = ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
+    let light = Light::sun(towards, vec3(1.05, 0.92, 0.74)).with_shadow(shadow);
     picture(spec, light, vec3(0.20, 0.27, 0.40), vec3(0.42, 0.55, 0.72))
 }
 
@@ -71,16 +62,10 @@ fn torch(spec: &FrameSpec) -> Picture {
     let position =
         shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3();
     let texels = spec.get(&FACE_TEXELS) as u32;
-    let plan = ShadowViews {
-        views: fit::cube(position, texels),
-        bias: Bias { constant: 0.03, slope: 2.12, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        from: 0,
-        smooth: false,
-    };
-    let source = Source::Lamp { position, falloff: Vec2::new(0.0, spec.get(&FALLOFF) as f32), reach: f32::INFINITY };
-    let light = Light { source, color: vec3(2.6, 1.35, 0.5), shadow: Some(plan) };
+    let bias = Bias { constant: 0.03, slope: 2.12, normal: 0.0 };
+    let shadow = ShadowViews { smooth: false, ..ShadowViews::new(fit::cube(position, texels), bias) };
+    let falloff = Vec2::new(0.0, spec.get(&FALLOFF) as f32);
+    let light = Light::lamp(position, vec3(2.6, 1.35, 0.5), falloff, f32::INFINITY).with_shadow(shadow);
     picture(spec, light, vec3(0.020, 0.028, 0.055), vec3(0.010, 0.014, 0.030))
 }
 
@@ -89,16 +74,12 @@ fn picture(spec: &FrameSpec, light: Light, ambient: Vec3, fog: Vec3) -> Picture 
     static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
     let camera = Camera::look_at(shadow_set::eye(spec.time).as_vec3(), vec3(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
     let world = World {
-        bodies: BODIES.get_or_init(bodies).clone(),
-        textures: Vec::new(),
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],
-        veil: None,
-        snow: None,
         haze: Haze::even(fog, 0.012),
         zenith: fog,
-        film: false,
         background: Some(fog),
+        ..World::new(BODIES.get_or_init(bodies).clone())
     };
     drawn(spec, world, camera, Transfer::Gamma22)
 }

@@ -1,8 +1,8 @@
 //! Builds a mesh from bodies of rings, as a [script](crate::scenes::script) says.
 
 use super::land;
-use crate::raster::form::Body;
-use crate::raster::mesh::Mesh;
+use crate::raster::Mesh;
+use crate::raster::form::Rings;
 use crate::scenes::script::{Script, VARIABLES, Word, operations, variable};
 use crate::simd::hash::rnd;
 use glam::{Mat3, Vec3, vec3};
@@ -36,7 +36,7 @@ pub const STREAM: u32 = 5;
 /// Adds to a mesh what a script builds of `bodies` on a `foot`, metres. A unit of the script is `unit` metres; random numbers
 /// are those of `seed`.
 #[inline(never)]
-pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Body], mut foot: Vec3, unit: f32, seed: u32) {
+pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: Vec3, unit: f32, seed: u32) {
     let (mut turn, mut out) = (Mat3::IDENTITY, Vec3::ZERO);
     loop {
         let operation = script.next();
@@ -53,7 +53,7 @@ pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Body], mut foot: Ve
                 let [x, y, z, a, b, c, index, ..] = *n;
                 let size = turn * Mat3::from_diagonal(vec3(a, b, c) * (0.1 * unit));
                 let at = foot + (vec3(x, y, z) + out) * unit;
-                mesh.body(&bodies[index as usize], &size, at, script.numbers[0] as u16);
+                mesh.rings(&bodies[index as usize], &size, at, script.numbers[0] as u16);
             }
             _ => return,
         }

@@ -5,8 +5,8 @@
 
 use super::build::{PAINT, build, op};
 use super::paint::{BARK, PAINTS, ROOF, STONE};
-use crate::raster::form::{Body, SQUARE};
-use crate::raster::mesh::Mesh;
+use crate::raster::Mesh;
+use crate::raster::form::{Rings, SQUARE};
 use crate::scenes::script::{COUNT, Script, Word, instruction, script};
 use glam::Vec3;
 
@@ -96,8 +96,8 @@ const fn piece([x, y, z]: [Word; 3], body: Word) -> [Word; 8] {
     [x, y, z, 1.0, 1.0, 1.0, body, instruction(op::body)]
 }
 
-const fn square(rows: &'static [[i8; 5]]) -> Body {
-    Body { rows, sides: 4, half: false, swell: SQUARE, taper: 0.0 }
+const fn square(rows: &'static [[i8; 5]]) -> Rings {
+    Rings { rows, sides: 4, half: false, swell: SQUARE, taper: 0.0 }
 }
 
 // The number of each body in [`BODIES`].
@@ -107,11 +107,11 @@ const SPIRE: Word = 2.0;
 const PILLAR: Word = 3.0;
 
 /// A cube of two metres; a gable, a spire with the roof's paint, and a pillar, in decimetres.
-static BODIES: [Body; 4] = [
+static BODIES: [Rings; 4] = [
     square(&[[-10, 10, 0, 10, 0], [-10, 0, 10, 10, 0], [10, 0, 10, 10, 0], [10, 10, 0, 10, 0]]),
     square(&[[0, 4, 0, 35, 0], [0, 0, 4, 35, 0], [32, 0, 4, 1, 0], [32, 4, 0, 1, 0]]),
     square(&[[0, 21, 0, 21, 0x11], [0, 0, 21, 21, 0x11], [31, 0, 0, 0, 0]]),
-    Body {
+    Rings {
         rows: &[[-10, 0, 4, 4, 0], [2, 0, 4, 4, 0], [3, 0, 3, 3, 0], [18, 0, 3, 3, 0], [21, 0, 5, 5, 0]],
         sides: 8,
         half: false,

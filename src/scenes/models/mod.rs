@@ -7,7 +7,7 @@
 //! | [`chapel`] | half a ruin on the hill | boxes, a gable, a spire, pillars |
 //! | [`mustang`] | a P-51D | cross sections along fuselage, wing and tail, mirrored |
 //!
-//! A body is a stack of rings ([`Body`](crate::raster::form::Body)); how bodies are put together is written as a
+//! A body is a stack of rings ([`Rings`](crate::raster::form::Rings)); how bodies are put together is written as a
 //! [script](super::script), which `build` runs.
 
 mod build;

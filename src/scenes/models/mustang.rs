@@ -5,8 +5,8 @@
 //! averaged over faces, so that the skin is smooth. The propeller is a mesh of its own, since it turns.
 
 use super::build::{build, op};
-use crate::raster::form::{Body, SQUARE};
-use crate::raster::mesh::{Mesh, Paint};
+use crate::raster::form::{Rings, SQUARE};
+use crate::raster::{Mesh, Paint};
 use crate::scenes::script::{COUNT, Script, Word, script, variable};
 use glam::{Vec3, vec3};
 
@@ -25,7 +25,7 @@ const fn plain(red: f32, green: f32, blue: f32) -> Paint {
 }
 
 /// The fuselage from tail to nose: units of 5 cm along, of 1 cm across.
-const FUSELAGE: Body = Body {
+const FUSELAGE: Rings = Rings {
     rows: &[
         [-120, 20, 0, 0, 0],
         [-119, 20, 13, 4, 0],
@@ -61,7 +61,7 @@ const FUSELAGE: Body = Body {
 };
 
 /// The canopy, in the fuselage's units.
-const CANOPY: Body = Body {
+const CANOPY: Rings = Rings {
     rows: &[
         [-40, 50, 0, 0, 0x22],
         [-34, 50, 18, 13, 0x22],
@@ -81,7 +81,7 @@ const CANOPY: Body = Body {
 };
 
 /// The radiator's scoop under the cockpit, in the fuselage's units.
-const SCOOP: Body = Body {
+const SCOOP: Rings = Rings {
     rows: &[
         [-92, -18, 0, 0, 0],
         [-76, -36, 20, 14, 0],
@@ -100,7 +100,7 @@ const SCOOP: Body = Body {
 };
 
 /// The right wing from root to tip: units of 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm in thickness.
-const WING: Body = Body {
+const WING: Rings = Rings {
     rows: &[
         [6, 11, 0, 0, 0],
         [6, 11, 115, 50, 0],
@@ -123,7 +123,7 @@ const WING: Body = Body {
 };
 
 /// The right half of the stabiliser, in the wing's units.
-const STABILISER: Body = Body {
+const STABILISER: Rings = Rings {
     rows: &[
         [2, -4, 0, 0, 0],
         [2, -4, 48, 14, 0],
@@ -139,7 +139,7 @@ const STABILISER: Body = Body {
 };
 
 /// The fin from its foot to its top: units of 2 cm along, otherwise the wing's.
-const FIN: Body = Body {
+const FIN: Rings = Rings {
     rows: &[
         [5, 33, 0, 0, 0],
         [5, 33, 57, 12, 0],
@@ -159,7 +159,7 @@ const FIN: Body = Body {
 };
 
 /// A blade of the propeller from hub to tip: units of 2 cm along, of 1 cm across.
-const BLADE: Body = Body {
+const BLADE: Rings = Rings {
     rows: &[
         [12, 0, 0, 0, 0x55],
         [12, 0, 6, 4, 0x55],
@@ -175,7 +175,7 @@ const BLADE: Body = Body {
 };
 
 /// A black box, from -1 to 1 along each axis.
-const STICK: Body = Body {
+const STICK: Rings = Rings {
     rows: &[[-1, 1, 0, 1, 0x55], [-1, 0, 1, 1, 0x55], [1, 0, 1, 1, 0x55], [1, 1, 0, 1, 0]],
     sides: 4,
     half: false,
@@ -183,7 +183,7 @@ const STICK: Body = Body {
     taper: 0.0,
 };
 
-static BODIES: [Body; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
+static BODIES: [Rings; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
 
 // The number of each body in [`BODIES`].
 const HULL: Word = 0.0;

@@ -1,6 +1,6 @@
 //! The paints of the land and of what stands on it, and their places in [`PAINTS`], by which models name them.
 
-use crate::raster::mesh::Paint;
+use crate::raster::Paint;
 use glam::{Vec3, vec3};
 
 /// Meadow.

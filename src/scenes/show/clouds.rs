@@ -4,15 +4,11 @@
 //! rises. Clouds shade each other and the land.
 
 use super::valley::{self, LATITUDE, LONGITUDE};
-use crate::cloud::field::Field;
-use crate::cloud::march::{Cloud, Look};
-use crate::cloud::shape::Kind;
-use crate::cloud::voxels::Voxels;
-use crate::cloud::{CloudLayer, shadow, sunlight};
+use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
 use crate::cuts;
 use crate::frame::cache::lock;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
-use crate::raster::cloud_shadow::CloudShadow;
+use crate::raster::CloudShadow;
 use crate::timeline;
 use crate::view::Camera;
 use fearless_simd::dispatch;
@@ -30,13 +26,8 @@ pub const CLOUDS: Scene = Scene {
 }
 .part();
 
-const KIND: Parameter = Parameter::new(
-    "kind",
-    "count",
-    (0.0, 4.0),
-    0.0,
-    "0 cumulus and congestus, 1 cumulus, 2 congestus, 3 altocumulus, 4 stratus",
-);
+const KIND: Parameter =
+    Parameter::new("kind", "count", (0.0, 2.0), 0.0, "0 cumulus and congestus, 1 cumulus, 2 congestus");
 const SHARE: Parameter = Parameter::new("share", "1", (0.0, 1.0), 0.55, "share of the places that hold a cloud");
 const SPACING: Parameter = Parameter::new("spacing", "m", (260.0, 5000.0), 520.0, "distance from place to place");
 const HEIGHT: Parameter = Parameter::new(
@@ -72,7 +63,7 @@ const START: Parameter =
 pub const LENGTH: f64 = 50.0;
 
 /// The clouds of this morning.
-const FIELD: Field = Field {
+const FIELD: CloudField = CloudField {
     seed: 5,
     spacing: 520.0,
     share: 0.55,
@@ -154,16 +145,14 @@ impl Shapes {
             let known = shape.voxels.as_deref().filter(|_| !cuts::PARAMETERS || shape.kind == only);
             if known.is_none() || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
                 let kind = match only {
-                    1 => Kind::CUMULUS,
-                    2 => Kind::CONGESTUS,
-                    3 => Kind::ALTOCUMULUS,
-                    4 => Kind::STRATUS,
-                    _ if number < 4 => Kind::CUMULUS,
-                    _ => Kind::CONGESTUS,
+                    1 => CloudKind::CUMULUS,
+                    2 => CloudKind::CONGESTUS,
+                    _ if number < 4 => CloudKind::CUMULUS,
+                    _ => CloudKind::CONGESTUS,
                 };
                 let mut new = match known {
                     Some(old) => Voxels::clone(old),
-                    None => dispatch!(level, simd => Kind::grow(simd, &kind, number as u32, 64)),
+                    None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, 64)),
                 };
                 dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, extinction));
                 *shape = Shape { voxels: Some(Arc::new(new)), sun, kind: only, extinction };
@@ -174,8 +163,8 @@ impl Shapes {
 }
 
 /// The field as the parameters say.
-fn altered(spec: &FrameSpec) -> Field {
-    Field {
+fn altered(spec: &FrameSpec) -> CloudField {
+    CloudField {
         seed: spec.get(&SEED) as u32,
         spacing: spec.get(&SPACING) as f32,
         share: spec.get(&SHARE) as f32,
@@ -187,7 +176,7 @@ fn altered(spec: &FrameSpec) -> Field {
 
 /// The clouds of a field around the eye, carried by the wind that the parameters say: what it differs by from the field's own
 /// moves both the clouds and the eye that they are looked for around.
-fn blown(spec: &FrameSpec, field: &Field, eye: Vec3, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
+fn blown(spec: &FrameSpec, field: &CloudField, eye: Vec3, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
     let time = spec.time as f32;
     let [east, south] = [&EAST, &SOUTH].map(|wind| (spec.get(wind) - wind.default) as f32);
     let more = vec3(east, 0.0, south) * (time * (field.height * 0.002).sqrt());
@@ -229,19 +218,19 @@ fn picture(spec: &FrameSpec) -> Picture {
     }
     let passes = shadow::shares(&clouds, now.direction, &points);
     if !cfg!(without = "cloud-shadows") {
-        world.veil = Some(CloudShadow { passes, corner, texel, slope });
+        world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
     // The brightest of it, glare aside, becomes white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
     let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
-    let look = Look {
+    let light = CloudLight {
         ambient: [ground * 0.5 + sky * 0.4, sky * 0.85],
         towards: now.direction,
         sun: sun * (0.75 * spec.get(&LIGHT) as f32),
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let mut seen = CloudLayer::new(clouds.clone(), look, air, 9000.0, view, spec.quality.cloud);
-    seen.shade(&clouds);
-    valley::show(spec, dome, world, view, Some(Box::new(seen)))
+    let clouds =
+        CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud).in_air(9000.0, air).shaded_by(&clouds);
+    valley::show(spec, dome, world, view, Some(Box::new(clouds)))
 }

@@ -5,23 +5,16 @@
 
 use super::valley;
 use crate::cuts;
-use crate::effects::Fog;
+use crate::effects::{Fog, FogLayer};
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene};
-use crate::particles::snow::{Calm, Flakes, Snow};
-use crate::particles::sprite::Lens;
-use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::RasterLayer;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::project::Projection;
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::snow_cover::SnowCover;
+use crate::particles::{Calm, Emitter, Flakes, Lens, ParticleLayer, Snow};
+use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover};
 use crate::scenes::flakes;
 use crate::scenes::models::land;
 use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
-use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
@@ -131,7 +124,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let eye = vec3(x, land::height(x, z) + 1.7 + step, z);
     let (sin, cos) = heading.sin_cos();
     let camera = Camera::look_at(eye, eye + vec3(sin, pitch.tan(), -cos), 0.82, 0.0);
-    let camera = spec.camera(camera);
+    let view = spec.view(camera);
     // The land in autumn's colours. Clouds hide the sky of that day, and its light is replaced below.
     let dome = valley::sky(spec, days(2026, 11, 28));
     let textures = valley::season(1).1;
@@ -148,10 +141,9 @@ fn picture(spec: &FrameSpec) -> Picture {
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let plan = ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: true };
-    let from = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
+    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
     if !cfg!(without = "snow-cover") {
-        world.snow = Some(SnowCover { amount, from, gives: sky * 0.6 });
+        world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6 });
     }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
@@ -159,20 +151,19 @@ fn picture(spec: &FrameSpec) -> Picture {
     let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
     world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
-    let view = View::new(camera, spec.width, spec.height);
     let weather = weather_in([spec.get(&EAST), spec.get(&SOUTH)], spec.time);
     let snow = weather.snow * spec.get(&SHARE) as f32;
     let density = 8e-4 + 8e-3 * snow;
-    let fog = Fog { view, light: air, density, end: 1e5 };
+    let fog = FogLayer::new(Fog { light: air, density, end: 1e5 }, &view);
     let mut fields = Vec::new();
     let altered = cuts::PARAMETERS.then(|| altered(spec));
     for flakes in altered.as_ref().unwrap_or(&FIELDS) {
-        let mut field = Snow::new(flakes, spec.time, camera.eye.as_dvec3(), weather.drift, snow);
+        let mut field = Snow::new(flakes, spec.time, view.camera().eye.as_dvec3(), weather.drift, snow);
         field.calm = Calm { wind: weather.wind, height: 1.7, depth: 1.5 };
         fields.push(Emitter::Snow(field));
     }
-    let flakes = ParticleLayer::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, spec.width, spec.height);
-    let drawn = RasterLayer::new(world, view, spec.width, spec.height, *spec.quality);
+    let flakes = ParticleLayer::new(fields, &view, &spec.quality.particles).colored((air * 1.7 + 0.04).min(Vec3::ONE));
+    let drawn = RasterLayer::new(world, &view, &spec.quality.raster);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {
         layers.push(Box::new(fog));

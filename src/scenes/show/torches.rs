@@ -7,13 +7,9 @@
 use super::valley::{self, HOUR, LATITUDE, LONGITUDE};
 use crate::cuts;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
-use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
-use crate::particles::sprite::Lens;
-use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::light::Light;
-use crate::raster::mesh::Mesh;
-use crate::raster::{Body, form};
+use crate::particles::{Emitter, Fire, Flame, Lens, ParticleLayer};
+use crate::raster::{Body, Light, Mesh, form};
 use crate::scenes::models::paint::{self, PAINTS};
 use crate::sky::time::days;
 use crate::timeline::{self, Key};
@@ -83,7 +79,7 @@ pub const FIRES: [[f32; 6]; 7] = [
 
 /// What is under a fire, in tenths of its radius: a bowl on a staff.
 #[rustfmt::skip]
-const BOWL: form::Body = form::Body {
+const BOWL: form::Rings = form::Rings {
     rows: &[[-45, 0, 2, 2, 0], [-14, 0, 3, 3, 0], [-10, 0, 9, 9, 0], [1, 0, 12, 12, 0], [1, 0, 10, 10, 0], [-3, 0, 0, 0, 0]],
     sides: 8,
     half: false,
@@ -158,7 +154,7 @@ fn bowls() -> Body {
                 size.y_axis.x = -0.18 * x;
             }
             if inner == 0.0 {
-                mesh.body(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
+                mesh.rings(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
             }
         }
         Body::new(Arc::new(mesh), Affine3A::IDENTITY)
@@ -175,7 +171,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
-    let traced = cuts::BENCH && spec.quality.raster.shadow_map == 0;
+    let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
     valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [128, from], traced)
 }
 
@@ -192,7 +188,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.7,
         radius: [0.11, 0.03],
         light: [vec3(0.02, 0.0105, 0.003), vec3(0.012, 0.002, 0.0003)],
-        alpha: 0.0,
     },
     Flame {
         life: [0.8, 1.2],
@@ -205,7 +200,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.4,
         radius: [0.008, 0.005],
         light: [vec3(0.25, 0.12, 0.04), vec3(0.2, 0.05, 0.01)],
-        alpha: 0.0,
     },
 ];
 
@@ -235,10 +229,10 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
                 wind: vec3(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32),
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
-            flames.push(Emitter::Fire(fire.detailed(view, spec.quality.particles.detail)));
+            flames.push(Emitter::Fire(fire));
         }
     }
-    ParticleLayer::new(flames, Vec3::ZERO, 1.6, view, spec.width, spec.height)
+    ParticleLayer::new(flames, view, &spec.quality.particles)
 }
 
 fn picture(spec: &FrameSpec) -> Picture {
