@@ -42,7 +42,7 @@ impl Scene {
 pub struct Parameter {
     /// Name on the command line.
     pub name: &'static str,
-    /// Unit of its values: `m`, `m/s`, `s`, `degrees`, `1` for a plain number, `count` for a whole one.
+    /// Unit of its values: `m`, `m/s`, `s`, `degrees`, `1` for a plain number, `count` for a whole one: others are rounded.
     pub unit: &'static str,
     /// The least and the largest value.
     pub range: (f64, f64),
@@ -50,6 +50,24 @@ pub struct Parameter {
     pub default: f64,
     /// What it does, in one line.
     pub about: &'static str,
+}
+
+impl Parameter {
+    /// A parameter as a row of a table: name, unit, range, default, and what it does.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        range: (f64, f64),
+        default: f64,
+        about: &'static str,
+    ) -> Parameter {
+        Parameter { name, unit, range, default, about }
+    }
+
+    /// Whether it takes that value: a number within its range.
+    pub fn takes(&self, value: f64) -> bool {
+        (self.range.0..=self.range.1).contains(&value)
+    }
 }
 
 /// Values of parameters by name; those that are not among them have their defaults.
@@ -87,13 +105,13 @@ impl FrameSpec<'_> {
         View::new(self.camera(camera), self.width, self.height)
     }
 
-    /// The value of a parameter; its default, a constant, in the 64 kB build.
+    /// The value of a parameter, rounded if it is a count. In the 64 kB build its default, a constant.
     #[inline(always)]
     pub fn get(&self, parameter: &Parameter) -> f64 {
         if cuts::PARAMETERS
             && let Some(value) = self.values.iter().find(|value| value.0 == parameter.name)
         {
-            return value.1;
+            return if parameter.unit == "count" { value.1.round() } else { value.1 };
         }
         parameter.default
     }

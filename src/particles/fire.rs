@@ -7,6 +7,7 @@
 
 use super::batch::Batch;
 use super::lens::Lens;
+use crate::cuts;
 use crate::simd::hash::{STEP, wide};
 use crate::simd::lanes::{F, Lane, U, V3, float};
 use crate::simd::math::sin;
@@ -59,6 +60,8 @@ pub struct Fire {
     pub count: f32,
     /// Factor of the light of each: one that stands for several has the light of all.
     pub weight: f32,
+    /// Wind that carries its particles along, metres per second. None in the 64 kB build.
+    pub wind: Vec3,
     /// How they are seen.
     pub lens: Lens,
 }
@@ -103,8 +106,12 @@ impl Fire {
         // The light of the last one.
         let order = (-float(simd, i) + self.count).max(zero).min(one);
         let glow = x * left * left * (30.0 * self.weight) * order;
+        let mut place = at * Lane(F::<S>::splat(simd, self.scale)) + V3::splat(simd, self.place);
+        if cuts::PARAMETERS {
+            place = place + V3::splat(simd, self.wind) * Lane(x * life);
+        }
         Batch {
-            at: at * Lane(F::<S>::splat(simd, self.scale)) + V3::splat(simd, self.place),
+            at: place,
             radius: (x * (radius[1] - radius[0]) + radius[0]) * self.scale,
             light: (V3::splat(simd, light[0]) + V3::splat(simd, light[1] - light[0]) * Lane(x)) * Lane(glow),
             alpha: zero,

@@ -1,32 +1,24 @@
-//! One file a scene; only scenes know more than one renderer.
+//! The scenes, one file each: what is shown at an instant, from where, and by which renderers.
+//!
+//! A scene is a function from a [`FrameSpec`] to a [`Picture`], and a table of the [`Parameter`](crate::frame::Parameter)s that
+//! it can be changed by. Only scenes know more than one renderer.
+//!
+//! - [`show`] is what the intro plays: [`show::intro`], and the parts that it is made of.
+//! - [`bench`] are scenes that other renderers are compared by. Each follows a specification.
+//! - [`models`] are the meshes that scenes share.
+//! - `script` is the byte code that sets and models are written in.
 
 #[cfg(feature = "full")]
 pub mod bench;
+mod flakes;
 pub mod models;
 mod script;
 pub mod show;
+mod single;
 
-use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Picture, Scene};
-#[cfg(feature = "full")]
-use crate::raster::{self, RasterLayer};
-use crate::trace::{TraceLayer, World};
-use crate::view::Camera;
+use crate::frame::Scene;
 
-/// A picture that is all ray tracing.
-fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, &spec.view(camera), &spec.quality.trace);
-    Picture { layers: vec![Box::new(traced)], transfer }
-}
-
-/// A picture that is all triangles.
-#[cfg(feature = "full")]
-fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-    let drawn = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
-    Picture { layers: vec![Box::new(drawn)], transfer }
-}
-
-/// Every scene, the intro's own first; in the 64 kB build that alone.
+/// Every scene, the show first. The 64 kB build has the show alone.
 pub const ALL: &[Scene] = &[
     show::intro::INTRO,
     #[cfg(feature = "full")]
@@ -65,10 +57,10 @@ pub const ALL: &[Scene] = &[
     bench::rain::RAIN,
 ];
 
-/// The intro's own show: what plays when no scene is named.
+/// The show: what plays when no scene is named.
 pub const INTRO: Scene = ALL[0];
 
-/// Every scene.
+/// Every scene, the show first.
 pub fn all() -> &'static [Scene] {
     ALL
 }

@@ -168,7 +168,17 @@ fn an_unknown_name_is_answered_with_the_known_ones() {
 fn help_and_version_are_answered() {
     let help = String::from_utf8(succeeds(run(&["--help"]))).unwrap();
     let options = ["--size", "--threads", "--at", "--from", "--to", "--fps", "--capture", "--quality", "--fullscreen"];
-    let more = ["--bench", "--json", "--stereo", "--eye-distance", "--convergence", "--list", "--version"];
+    let more = [
+        "--bench",
+        "--json",
+        "--stereo",
+        "--eye-distance",
+        "--convergence",
+        "--list",
+        "--version",
+        "--parameters",
+        "--set",
+    ];
     assert!(options.iter().all(|option| help.contains(option)), "{help}");
     assert!(more.iter().all(|option| help.contains(option) == MEASURES), "{help}");
     assert!(!MEASURES || include_str!("../../docs/usage.md").contains(&*help), "docs/usage.md has another help");

@@ -7,6 +7,8 @@ mod command_line;
 mod display;
 #[cfg(target_os = "linux")]
 mod fake;
+#[cfg(feature = "full")]
+mod parameters;
 #[cfg(all(target_os = "linux", feature = "terminal"))]
 mod terminal;
 #[cfg(target_os = "linux")]

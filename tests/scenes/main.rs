@@ -4,6 +4,7 @@ mod bench_set;
 mod clouds;
 mod day;
 mod mesh;
+mod parameters;
 mod part;
 mod show;
 mod snowfall;

@@ -3,7 +3,7 @@
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
-use paprsek::scenes::show::intro::{FADE, INTRO, PARTS, READ, WRITING, light};
+use paprsek::scenes::show::intro::{FADE, INTRO, PARTS, READ, WRITING, brightness};
 use paprsek::view::Stereo;
 
 const SIZE: (usize, usize) = (96, 54);
@@ -82,7 +82,7 @@ fn it_ends_in_the_dark() {
 #[test]
 fn light_fades_at_cuts_and_at_the_end_alone() {
     let parts = [(0.0, ()), (10.0, ()), (25.0, ())];
-    let light = |time| light(&parts, 40.0, time);
+    let light = |time| brightness(&parts, 40.0, time);
     for time in [-3.0, 0.0, 0.1, 5.0, 10.0 - FADE, 10.0 + FADE, 24.0, 25.0 + FADE, 40.0 - FADE] {
         assert_eq!(light(time), 1.0, "{time}");
     }

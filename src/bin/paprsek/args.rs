@@ -5,10 +5,12 @@
 
 #[cfg(target_os = "linux")]
 use crate::io::contents;
+#[cfg(feature = "full")]
+use crate::parameters;
 use crate::text::{decimal, fill, whole};
 use paprsek::cuts;
 use paprsek::frame::pool::cores;
-use paprsek::frame::{Options, Scene};
+use paprsek::frame::{Options, Scene, Values};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use paprsek::view::Stereo;
@@ -53,7 +55,9 @@ pub const HELP: &str = help!(
   --stereo                    render for two eyes, side by side
   --list                      list the scenes
   --bench                     time SCENE, or every scene, without a window
-  --json                      with --bench: print JSON lines
+  --json                      with --bench or --parameters: print JSON lines
+  --parameters                print the parameters of SCENE, or of every scene
+  --set NAME=VALUE            set a parameter of SCENE; may be given several times
 "
 );
 /// The help of the 64 kB build, which plays and captures only.
@@ -62,7 +66,7 @@ pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "",
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
 /// The number of options where none is left out.
-const ALL_OPTIONS: usize = 17;
+const ALL_OPTIONS: usize = 19;
 /// The number of options in [`HELP`].
 const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS } else { 10 };
 
@@ -77,6 +81,7 @@ const QUALITY: usize = 6;
 const CAPTURE: usize = 7;
 const EYE_DISTANCE: usize = 11;
 const CONVERGENCE: usize = 12;
+const SET: usize = 18;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -130,6 +135,12 @@ pub enum Mode {
     Print(&'static str),
     /// Lists the scenes.
     List,
+    /// Prints the parameters of the scene, or of every scene.
+    #[cfg(feature = "full")]
+    Parameters {
+        /// Whether to print one JSON object per line instead of a table.
+        json: bool,
+    },
 }
 
 /// A checked command line.
@@ -171,7 +182,7 @@ impl Args {
     #[inline(never)]
     pub fn from_env() -> Result<Args, Vec<u8>> {
         let mut words = words();
-        let (mut scene, mut values) = (None, [None; OPTIONS]);
+        let (mut scene, mut values, mut settings) = (None, [None; OPTIONS], Vec::new());
         // The first is the program's own name.
         words.next();
         while let Some(word) = words.next() {
@@ -197,13 +208,20 @@ impl Args {
                 return Err(refuse(option, value));
             }
             values[option] = Some(value);
+            if cuts::PARAMETERS && option == SET {
+                settings.push(value);
+            }
         }
-        Args::read(scene, values)
+        Args::read(scene, values, &settings)
     }
 
-    /// Checks the values of options against their ranges and against each other.
+    /// Checks the values of options against their ranges and against each other. `settings` are those of all `--set`.
     #[inline(never)]
-    fn read(scene: Option<&'static Scene>, values: [Option<&'static [u8]>; OPTIONS]) -> Result<Args, Vec<u8>> {
+    fn read(
+        scene: Option<&'static Scene>,
+        values: [Option<&'static [u8]>; OPTIONS],
+        settings: &[&[u8]],
+    ) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].unwrap_or_default());
         let (numbers, threads, size, (_quality_name, quality)) = parse(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
@@ -229,6 +247,8 @@ impl Args {
             list,
             bench,
             json,
+            parameters,
+            set,
         ] = is;
         let (two, bench, json) = (cuts::STEREO && two, cuts::BENCH && bench, cuts::BENCH && json);
         let target = values[CAPTURE];
@@ -236,6 +256,8 @@ impl Args {
             _ if help => Mode::Print(HELP),
             _ if cuts::ALL_OPTIONS && version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
             _ if cuts::SCENES && list => Mode::List,
+            #[cfg(feature = "full")]
+            _ if parameters => Mode::Parameters { json },
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "full")]
             None if bench => Mode::Bench { json },
@@ -255,7 +277,7 @@ impl Args {
             still,
             fps,
             fullscreen,
-            options: Options { quality, stereo, values: &[] },
+            options: Options { quality, stereo, values: set_values(scene, settings)? },
             #[cfg(feature = "full")]
             quality_name: _quality_name,
             governed,
@@ -277,8 +299,11 @@ impl Args {
         if bench && capture {
             return Err(b"--bench excludes --capture".to_vec());
         }
-        if json && !bench {
-            return Err(b"--json needs --bench".to_vec());
+        if json && !bench && !(cuts::PARAMETERS && parameters) {
+            return Err(b"--json needs --bench or --parameters".to_vec());
+        }
+        if cuts::PARAMETERS && set && (parameters || list) {
+            return Err(b"--set excludes --parameters and --list".to_vec());
         }
         match clashes.into_iter().position(|clash| clash) {
             Some(clash) => Err(line(CLASHES, clash).to_vec()),
@@ -303,6 +328,26 @@ impl Args {
             [self.start.unwrap_or(0.0), self.end_of(self.scene())].map(|time| (time * self.fps - 1e-6).ceil() as usize);
         first..end
     }
+}
+
+/// What `--set` has set parameters of the scene to. Of several values for one parameter the last one counts.
+#[cfg(feature = "full")]
+fn set_values(scene: Option<&'static Scene>, settings: &[&[u8]]) -> Result<Values<'static>, Vec<u8>> {
+    let mut values: Vec<(&str, f64)> = Vec::new();
+    for setting in settings {
+        let scene = scene.ok_or(b"--set needs a SCENE")?;
+        let (name, Some(value)) = cut(setting, b'=') else { return Err(refuse(SET, setting)) };
+        let value = parameters::parse(scene, name, value)?;
+        values.retain(|other| other.0 != value.0);
+        values.push(value);
+    }
+    Ok(values.leak())
+}
+
+/// There is nothing to be set in the 64 kB build.
+#[cfg(not(feature = "full"))]
+fn set_values(_: Option<&'static Scene>, _: &[&[u8]]) -> Result<Values<'static>, Vec<u8>> {
+    Ok(&[])
 }
 
 /// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads,

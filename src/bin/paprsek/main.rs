@@ -10,6 +10,8 @@ mod capture;
 mod clock;
 mod governor;
 mod io;
+#[cfg(feature = "full")]
+mod parameters;
 mod play;
 #[cfg(all(unix, feature = "terminal"))]
 mod terminal;
@@ -50,6 +52,8 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Print(text) => print(text.as_bytes()),
         Mode::List if cuts::SCENES => list(),
         Mode::List => Ok(()),
+        #[cfg(feature = "full")]
+        Mode::Parameters { json } => parameters::list(args.scene, *json),
     }
 }
 

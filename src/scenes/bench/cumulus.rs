@@ -1,47 +1,124 @@
 //! The bench scenes `cumulus`, `cumulus-inside` and `sky-of-clouds`, as specified for every renderer that is compared.
+//!
+//! Clouds of voxels, after thesis B. The parameters' defaults are the specification.
 
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
-use crate::cloud::{CloudLayer, CloudLight};
+use crate::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels};
+use crate::frame::cache::lock;
 use crate::frame::encode::Transfer;
-use crate::frame::{Cache, FrameSpec, Scene};
-use crate::frame::{Layer, Picture, Stats, Tile, Workers};
+use crate::frame::{Cache, FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile, Workers};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3, dvec3, vec3};
+use std::sync::Arc;
 
 /// Around one cloud.
-pub const CUMULUS: Scene = scene("cumulus", "bench: one cloud of voxels from outside", |spec| picture(spec, 0));
-/// In it.
-pub const CUMULUS_INSIDE: Scene =
-    scene("cumulus-inside", "bench: the same cloud, thinner, from inside", |spec| picture(spec, 1));
-/// Under a hundred.
-pub const SKY_OF_CLOUDS: Scene = scene("sky-of-clouds", "bench: a hundred clouds of voxels", |spec| picture(spec, 2));
+pub const CUMULUS: Scene = Scene {
+    name: "cumulus",
+    about: "bench: one cloud of voxels from outside",
+    duration: 20.0,
+    parameters: &[KIND, SHAPE, HEIGHT, SIZE, THICKNESS, LIGHT],
+    picture: |spec| picture(spec, 0, one(spec, &THICKNESS)),
+};
+/// Inside of it.
+pub const CUMULUS_INSIDE: Scene = Scene {
+    name: "cumulus-inside",
+    about: "bench: the same cloud, thinner, from inside",
+    duration: 20.0,
+    parameters: &[KIND, SHAPE, HEIGHT, SIZE, THIN, LIGHT],
+    picture: |spec| picture(spec, 1, one(spec, &THIN)),
+};
+/// Under a hundred clouds.
+pub const SKY_OF_CLOUDS: Scene = Scene {
+    name: "sky-of-clouds",
+    about: "bench: a hundred clouds of voxels",
+    duration: 20.0,
+    parameters: &[KIND, COUNT, SEED, SKY_HEIGHT, THICKNESS, EAST, SOUTH, LIGHT],
+    picture: |spec| picture(spec, 2, many(spec)),
+};
 
-const fn scene(name: &'static str, about: &'static str, picture: fn(&FrameSpec) -> Picture) -> Scene {
-    Scene { name, about, duration: 20.0, parameters: &[], picture }
+const KIND: Parameter = Parameter::new("kind", "count", (0.0, 1.0), 0.0, "0 cumulus, 1 congestus");
+const SHAPE: Parameter = Parameter::new("seed", "count", (0.0, 1e4), 0.0, "another number, another cloud of that kind");
+const HEIGHT: Parameter = Parameter::new("height", "m", (0.0, 200.0), 60.0, "height of the cloud's centre");
+const SIZE: Parameter = Parameter::new("size", "m", (5.0, 90.0), 50.0, "half of the edge of the cloud's cube");
+const THICKNESS: Parameter =
+    Parameter::new("thickness", "1", (1.0, 100.0), 30.0, "optical depth through half of the cube where it is densest");
+const THIN: Parameter = Parameter { default: 10.0, ..THICKNESS };
+const LIGHT: Parameter =
+    Parameter::new("light", "1", (0.0, 4.0), 1.0, "the sun's light on the clouds, times what it is");
+const COUNT: Parameter = Parameter::new("number", "count", (0.0, 1000.0), 100.0, "clouds in the sky");
+const SEED: Parameter = Parameter::new("seed", "count", (0.0, 1e6), 1.0, "another number, other places and sizes");
+const SKY_HEIGHT: Parameter = Parameter::new("height", "m", (60.0, 2000.0), 130.0, "height of the clouds' bases");
+const EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the east");
+const SOUTH: Parameter =
+    Parameter::new("wind-south", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the south");
+
+/// The shapes that were grown, by kind and seed.
+#[derive(Default)]
+struct Shapes(Vec<([u32; 2], Arc<Voxels>)>);
+
+/// A shape of the kind that is asked for.
+fn shape(spec: &FrameSpec, seed: u32) -> Arc<Voxels> {
+    let kind = spec.get(&KIND) as u32;
+    if kind == 0 && seed < set::SHAPE_COUNT as u32 {
+        return set::shape(seed as usize);
+    }
+    let shapes = spec.cache.get::<Shapes>();
+    let mut shapes = lock(&shapes);
+    if let Some((_, voxels)) = shapes.0.iter().find(|shape| shape.0 == [kind, seed]) {
+        return voxels.clone();
+    }
+    let of = [CloudKind::CUMULUS, CloudKind::CONGESTUS][kind as usize];
+    let voxels = set::grow(&of, seed);
+    // Who turns the knob should not fill the memory.
+    if shapes.0.len() == MOST_SHAPES {
+        shapes.0.remove(0);
+    }
+    shapes.0.push(([kind, seed], voxels.clone()));
+    voxels
+}
+
+/// The shapes that are kept, of 3 MB each.
+const MOST_SHAPES: usize = 8;
+
+fn one(spec: &FrameSpec, thickness: &Parameter) -> Vec<Cloud> {
+    let [height, size, extinction] = [&HEIGHT, &SIZE, thickness].map(|parameter| spec.get(parameter) as f32);
+    set::one(shape(spec, spec.get(&SHAPE) as u32), height, size, extinction)
+}
+
+fn many(spec: &FrameSpec) -> Vec<Cloud> {
+    let [height, extinction] = [&SKY_HEIGHT, &THICKNESS].map(|parameter| spec.get(parameter) as f32);
+    let (count, seed) = (spec.get(&COUNT) as u32, spec.get(&SEED) as u32);
+    let mut clouds = set::many(|k| shape(spec, k as u32), count, seed, height, extinction);
+    let way = dvec3(spec.get(&EAST), 0.0, spec.get(&SOUTH)) * spec.time;
+    for cloud in &mut clouds {
+        cloud.centre += way.as_vec3();
+    }
+    clouds
 }
 
 /// The sky at the horizon, and what haze looks like.
 const HAZE: Vec3 = vec3(0.76, 0.85, 0.94);
 
-fn picture(spec: &FrameSpec, variant: usize) -> Picture {
+fn picture(spec: &FrameSpec, variant: usize, clouds: Vec<Cloud>) -> Picture {
     let (eye, way) = set::camera(variant, spec.time);
     let camera = Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0);
     let view = View::new(spec.camera(camera), spec.width, spec.height);
     let light = CloudLight {
         ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
         towards: set::sun(),
-        sun: vec3(0.86, 0.78, 0.68),
+        sun: vec3(0.86, 0.78, 0.68) * spec.get(&LIGHT) as f32,
         phase: [0.85, 0.5],
     };
     let q = &spec.quality;
     // `fast` takes the steps that are specified, and ends rays where it says; `exact` is the limit of both.
-    let clouds = CloudLayer::new(set::clouds(variant), light, &view, &q.cloud).in_air(1400.0, |_| HAZE);
+    let clouds = CloudLayer::new(clouds, light, &view, &q.cloud).in_air(1400.0, |_| HAZE);
     let cells = Cells { size: if q.cloud.cell > 1 { 8 } else { 1 }, grid: q.cloud.grid };
     Picture {
         layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })],
@@ -49,7 +126,7 @@ fn picture(spec: &FrameSpec, variant: usize) -> Picture {
     }
 }
 
-/// What is behind the clouds.
+/// The sky behind the clouds, and the ground.
 struct Background {
     view: View,
     cells: Cells,
@@ -77,15 +154,15 @@ impl Field for Background {
     }
 }
 
-/// Clouds and what is behind them.
+/// The clouds over that background.
 struct Cumuli {
     clouds: CloudLayer,
     background: Background,
 }
 
 impl Layer for Cumuli {
-    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
-        self.clouds.prepare(workers, _cache);
+    fn prepare(&mut self, workers: &Workers, cache: &Cache) {
+        self.clouds.prepare(workers, cache);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
@@ -108,7 +185,7 @@ fn behind<S: Simd>(simd: S, background: &Background, tile: &mut Tile) {
         for ((row, back), covered) in rows.zip(tile.coverage.as_chunks::<BLOCK>().0) {
             for i in 0..BLOCK / F::<S>::LEN {
                 let left: F<S> = F::<S>::splat(simd, 1.0) - load::<S, F<S>>(simd, covered, i);
-                // What is compared blends into a picture of 8 bits, which ends at 1.
+                // The renderers that are compared blend into a picture of 8 bits, which ends at 1.
                 let light = load::<S, F<S>>(simd, back, i).min(1.0) * left;
                 store(light + load::<S, F<S>>(simd, row, i), row, i);
             }

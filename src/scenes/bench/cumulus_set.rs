@@ -1,4 +1,5 @@
-//! The voxels and clouds that volume renderers are compared by, after the specification.
+//! The voxels and clouds of the bench scenes `cumulus`, `cumulus-inside` and `sky-of-clouds`, as specified for every renderer that
+//! is compared.
 
 use crate::cloud::{Cloud, CloudKind, Voxels};
 use crate::simd::hash::rnd;
@@ -7,7 +8,7 @@ use fearless_simd::dispatch;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use std::sync::{Arc, OnceLock};
 
-/// Points along an edge.
+/// Points along an edge of the voxels.
 const EDGE: usize = 64;
 
 /// Direction to the sun.
@@ -17,14 +18,18 @@ pub fn sun() -> Vec3 {
 
 /// Shape `k` of four, made when it is first asked for.
 pub fn shape(k: usize) -> Arc<Voxels> {
-    static SHAPES: [OnceLock<Arc<Voxels>>; 4] = [const { OnceLock::new() }; 4];
-    let grow = || {
-        let level = level::best();
-        let mut voxels = dispatch!(level, simd => CloudKind::grow(simd, &CloudKind::CUMULUS, k as u32, EDGE));
-        voxels.set_light(bake(voxels.density()));
-        Arc::new(voxels)
-    };
-    SHAPES[k].get_or_init(grow).clone()
+    static SHAPES: [OnceLock<Arc<Voxels>>; SHAPE_COUNT] = [const { OnceLock::new() }; SHAPE_COUNT];
+    SHAPES[k].get_or_init(|| grow(&CloudKind::CUMULUS, k as u32)).clone()
+}
+
+/// The number of shapes in a sky.
+pub const SHAPE_COUNT: usize = 4;
+
+/// A shape of a kind, with its light.
+pub fn grow(kind: &CloudKind, seed: u32) -> Arc<Voxels> {
+    let mut voxels = dispatch!(level::best(), simd => CloudKind::grow(simd, kind, seed, EDGE));
+    voxels.set_light(bake(voxels.density()));
+    Arc::new(voxels)
 }
 
 /// Eye and view direction of `cumulus`, `cumulus-inside` and `sky-of-clouds` at `t` seconds.
@@ -46,24 +51,30 @@ pub fn camera(variant: usize, t: f64) -> (DVec3, DVec3) {
     }
 }
 
-/// The clouds of a variant.
+/// The clouds of a variant, as specified.
 pub fn clouds(variant: usize) -> Vec<Cloud> {
-    if variant < 2 {
-        let extinction = [30.0, 10.0][variant];
-        return vec![Cloud { voxels: shape(0), centre: vec3(0.0, 60.0, 0.0), size: 50.0, extinction }];
-    }
+    if variant < 2 { one(shape(0), 60.0, 50.0, [30.0, 10.0][variant]) } else { many(shape, 100, 1, 130.0, 30.0) }
+}
+
+/// One cloud, by the height of its centre and half of its cube's edge, metres.
+pub fn one(voxels: Arc<Voxels>, height: f32, size: f32, extinction: f32) -> Vec<Cloud> {
+    vec![Cloud { voxels, centre: vec3(0.0, height, 0.0), size, extinction }]
+}
+
+/// A sky of `count` clouds above `height`, metres, whose places and sizes are by the random numbers of `seed`.
+pub fn many(shape: impl Fn(usize) -> Arc<Voxels>, count: u32, seed: u32, height: f32, extinction: f32) -> Vec<Cloud> {
     let cloud = |i: u32| {
-        let r = |k: u32| rnd(1, i, k);
+        let r = |k: u32| rnd(seed, i, k);
         let size = 45.0 + 55.0 * r(3) * r(3);
-        let centre = vec3(1800.0 * (r(0) - 0.5), 130.0 + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
-        Cloud { voxels: shape(i as usize % 4), centre, size, extinction: 30.0 }
+        let centre = vec3(1800.0 * (r(0) - 0.5), height + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
+        Cloud { voxels: shape(i as usize % SHAPE_COUNT), centre, size, extinction }
     };
-    (0..100).map(cloud).collect()
+    (0..count).map(cloud).collect()
 }
 
 /// The sun's light at each voxel: 60 samples towards it, one voxel apart.
 fn bake(density: &[u8]) -> Vec<u8> {
-    // A margin of nothing, as far as a sample may stick out.
+    // A margin of empty points, as far as a sample may stick out.
     const WIDE: usize = EDGE + 2;
     let mut padded = vec![0.0; WIDE * WIDE * WIDE];
     for (at, density) in density.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Scenes that other renderers are compared by.
+//! Scenes that other renderers are compared by, each after a specification, and `rain`, which is not in the show.
 
 pub mod cumulus;
 pub mod cumulus_set;

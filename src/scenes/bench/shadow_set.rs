@@ -1,5 +1,7 @@
-//! The set of the bench scenes `shadow` and `shadow-cube`, as specified for every renderer that is compared: 9984
-//! triangles, and how the eye and the two lights move.
+//! The set of the bench scenes `shadow` and `shadow-cube`, as specified for every renderer that is compared.
+//!
+//! 9984 triangles: a smooth field of snow from noise, 64 boxes and 64 pines at random places; and how the eye and the two
+//! lights move.
 
 use crate::noise::{fbm, noise};
 use crate::raster::form::Rings;
@@ -8,7 +10,7 @@ use crate::simd::hash::rnd;
 use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
 use std::f64::consts::TAU;
 
-/// Height of the ground at a place, metres. In f64 but for the noise, whose own error is below 4e-7.
+/// Height of the ground at a place, metres. It is computed in f64 but for the noise, whose own error is below 4e-7.
 pub fn height(x: f64, z: f64) -> f64 {
     let rolling = fbm(dvec3(0.055 * x + 3.7, 0.5, 0.055 * z + 8.1).as_vec3(), 4);
     2.2 * rolling as f64 + 0.35 * noise(dvec3(0.31 * x, 2.5, 0.31 * z).as_vec3()) as f64
@@ -20,17 +22,28 @@ pub fn eye(time: f64) -> DVec3 {
     dvec3(21.0 * sin, 8.0, 21.0 * cos)
 }
 
-/// The direction to the sun at `time` seconds.
+/// The direction to the sun at `time` seconds, as specified.
 pub fn sun(time: f64) -> DVec3 {
-    let (sin, cos) = (0.15 * time).sin_cos();
-    dvec3(cos, 0.62, sin).normalize()
+    sun_at(0.15 * time, 0.62)
 }
 
-/// Where the torch is at `time` seconds.
+/// The direction to a sun by its azimuth, radians from east towards south, and the tangent of its altitude.
+pub fn sun_at(azimuth: f64, slope: f64) -> DVec3 {
+    let (sin, cos) = azimuth.sin_cos();
+    dvec3(cos, slope, sin).normalize()
+}
+
+/// Where the torch is at `time` seconds, as specified.
 pub fn torch(time: f64) -> DVec3 {
-    let (sin, cos) = (0.5 * time).sin_cos();
-    let (x, z) = (5.0 * cos, 5.0 * sin);
-    dvec3(x, height(x, z) + 2.6, z)
+    torch_at(0.5 * time, 5.0, 2.6)
+}
+
+/// Where a torch is by its azimuth, radians from east towards south, its distance from the middle, and its height above the
+/// ground, metres.
+pub fn torch_at(azimuth: f64, radius: f64, above: f64) -> DVec3 {
+    let (sin, cos) = azimuth.sin_cos();
+    let (x, z) = (radius * cos, radius * sin);
+    dvec3(x, height(x, z) + above, z)
 }
 
 /// The set: four smooth strips of ground from south to north, the boxes, and four groves of pines, flat.
@@ -72,23 +85,23 @@ fn paint(red: f32, green: f32, blue: f32) -> Paint {
     Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
-/// Number `k` of object `i`.
+/// Random number `k` of object `i`.
 fn random(i: u32, k: u32) -> f32 {
     rnd(2, i, k)
 }
 
-/// Where object `i` stands.
+/// The place on the ground where object `i` stands.
 fn place(i: u32) -> Vec3 {
     let [x, z] = [0, 1].map(|k| 44.0 * (random(i, k) as f64 - 0.5));
     dvec3(x, height(x, z), z).as_vec3()
 }
 
-/// How object `i` is turned about y.
+/// The turn of object `i` about y.
 fn turn(i: u32) -> Mat3 {
     Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
 }
 
-/// A box whose sides are halved as in the other writing, which [`Mesh::block`] does not do.
+/// Adds box `i`. Its sides are halved along the diagonals that the specification says, which [`Mesh::block`] does not do.
 fn add_box(mesh: &mut Mesh, i: u32) {
     let half = vec3(0.3 + 0.6 * random(i, 2), 0.3 + 1.1 * random(i, 3), 0.3 + 0.6 * random(i, 4));
     let middle = place(i) + Vec3::Y * (half.y - 0.2);
@@ -113,7 +126,7 @@ const fn round(rows: &'static [[i8; 5]], sides: u8) -> Rings {
     Rings { rows, sides, half: false, swell: 0.0, taper: 0.0 }
 }
 
-/// Trunk, in fiftieths, and cones, in twentieths.
+/// The bodies of a pine and their units, metres: the trunk, in fiftieths, and three cones, in twentieths.
 const PINE: [(f32, Rings); 4] = [
     (0.02, round(&[[-15, 0, 7, 7, 0], [35, 0, 7, 7, 0]], 6)),
     (0.05, round(&[[12, 0, 0, 0, 0x11], [12, 0, 20, 20, 0x11], [38, 0, 0, 0, 0x11]], 10)),

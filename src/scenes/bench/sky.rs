@@ -1,9 +1,11 @@
 //! The bench scene `sky`, as specified for every renderer that is compared: an analytic day, the sun and stars.
+//!
+//! After thesis E, but the sun moves on a circle of its own, without a date or a place; the scene `day` has those. The
+//! parameters' defaults are the specification.
 
 use super::sky_grid::{self as grid, Cells, Field};
 use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Scene};
-use crate::frame::{Layer, Picture, Stats, Tile};
+use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile};
 use crate::simd::hash::pcg;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
@@ -15,13 +17,25 @@ use std::f32::consts::LOG2_E;
 use std::sync::OnceLock;
 
 /// The scene.
-pub const SKY: Scene =
-    Scene { name: "sky", about: "bench: a sunrise, stars", duration: 20.0, parameters: &[], picture };
+pub const SKY: Scene = Scene {
+    name: "sky",
+    about: "bench: a sunrise, stars",
+    duration: 20.0,
+    parameters: &[START, SPEED, TILT, STARS],
+    picture,
+};
+
+const START: Parameter =
+    Parameter::new("start", "rad", (-3.2, 3.2), -0.53, "the sun's angle at the start, from where it rises");
+const SPEED: Parameter = Parameter::new("speed", "rad/s", (-6.3, 6.3), 0.3, "how fast the sun goes round");
+const TILT: Parameter =
+    Parameter::new("tilt", "1", (-2.0, 2.0), 0.1, "how far the sun's circle leans to the east, tangent");
+const STARS: Parameter = Parameter::new("stars", "1", (0.0, 4.0), 1.0, "light of the stars, times what it is");
 
 fn picture(spec: &FrameSpec) -> Picture {
     let view = View::new(spec.camera(camera(spec.time)), spec.width, spec.height);
     let cells = Cells { size: if spec.quality.sky.cell > 0.0 { 8 } else { 1 }, grid: spec.quality.sky.grid };
-    Picture { layers: vec![Box::new(Cycle::new(spec.time, view, cells))], transfer: Transfer::Gamma22 }
+    Picture { layers: vec![Box::new(Cycle::new(spec, view, cells))], transfer: Transfer::Gamma22 }
 }
 
 /// The camera at `time` seconds.
@@ -35,7 +49,7 @@ fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
     math::smooth1((x - a) / (b - a))
 }
 
-/// The sky's colours at an instant: all but stars and the sun's disc.
+/// The sky's colours at an instant, without stars and the sun's disc.
 struct Gradient {
     sun: Vec3,
     zenith: Vec3,
@@ -76,18 +90,18 @@ pub struct Cycle {
     view: View,
     cells: Cells,
     gradient: Gradient,
-    /// Where the sun's disc appears, pixels, and its radius there; none behind the eye.
+    /// Where the sun's disc appears and its radius there, pixels; none behind the eye.
     disc: Option<(f32, f32, f32)>,
-    /// Stars in sight: place in the picture, radius in pixels, number.
+    /// Stars in sight: the place in the picture and the radius, pixels, and the number in the [`catalogue`].
     stars: Vec<(f32, f32, f32, usize)>,
-    /// What the day leaves of the stars' light.
+    /// Light of the stars that the day leaves, of all.
     night: f32,
 }
 
 impl Cycle {
-    fn new(time: f64, view: View, cells: Cells) -> Cycle {
-        let (sin, cos) = (0.3 * time - 0.53).sin_cos();
-        let sun = vec3(0.1 * cos as f32, sin as f32, cos as f32).normalize();
+    fn new(spec: &FrameSpec, view: View, cells: Cells) -> Cycle {
+        let (sin, cos) = (spec.get(&SPEED) * spec.time + spec.get(&START)).sin_cos();
+        let sun = vec3(spec.get(&TILT) as f32 * cos as f32, sin as f32, cos as f32).normalize();
         let day = smoothstep(-0.15, 0.25, sun.y);
         let dusk = 0.75 * (-18.0 * sun.y * sun.y).exp();
         let zenith = vec3(0.003, 0.006, 0.022).lerp(vec3(0.05, 0.16, 0.46), day);
@@ -103,7 +117,14 @@ impl Cycle {
                 }
             }
         }
-        Cycle { view, cells, gradient: Gradient { sun, zenith, horizon, dusk }, disc, stars, night: 1.0 - day }
+        Cycle {
+            view,
+            cells,
+            gradient: Gradient { sun, zenith, horizon, dusk },
+            disc,
+            stars,
+            night: (1.0 - day) * spec.get(&STARS) as f32,
+        }
     }
 
     /// Adds `light` of a direction to the pixels of a tile around a point of the picture, averaged over each pixel.
@@ -153,7 +174,7 @@ impl Layer for Cycle {
     }
 }
 
-/// Every star that the sphere of 120 cells meets: its point and strength. What does not depend on time, made once.
+/// The point and the strength of every star that the sphere of 120 cells meets. They do not depend on time and are made once.
 fn catalogue() -> &'static [(Vec3, f32)] {
     static STARS: OnceLock<Vec<(Vec3, f32)>> = OnceLock::new();
     STARS.get_or_init(|| {
@@ -161,7 +182,7 @@ fn catalogue() -> &'static [(Vec3, f32)] {
         for n in 0..1u32 << 24 {
             let cell = [n & 255, n >> 8 & 255, n >> 16].map(|k| k as f32 - 128.0);
             let cell = Vec3::from(cell);
-            // Within half of a cell's diagonal and a little of the sphere.
+            // Nearer to the sphere than half of a cell's diagonal and a little more.
             if cell.y < -1.0 || ((cell + 0.5).length() - 120.0).abs() > 1.1 {
                 continue;
             }

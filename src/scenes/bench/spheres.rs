@@ -1,50 +1,58 @@
 //! The bench scenes `spheres`, `spheres-flat` and `spheres-glass`, as specified for every renderer that is compared.
+//!
+//! Nine spheres on a floor, traced as in thesis A. The parameters' defaults are the specification.
 
-use crate::frame::Picture;
 use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Scene};
-use crate::scenes::traced;
+use crate::frame::{FrameSpec, Parameter, Picture, Scene};
+use crate::scenes::single::traced;
 use crate::texture::{Palette, Pattern, Texture};
 use crate::trace::{Background, Light, Material, Object, Shape, World};
 use crate::view::Camera;
 use glam::{Vec3, vec3};
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::TAU;
 
-/// Textured.
+/// With noise textures.
 pub const SPHERES: Scene = Scene {
     name: "spheres",
     about: "bench: nine spheres, noise textures",
     duration: 20.0,
-    parameters: &[],
-    picture: textured,
+    parameters: &[BODIES, DEPTH, TEXTURES, GLASS],
+    picture: |spec| picture(spec, &DEPTH, &TEXTURES, &GLASS),
 };
-/// Without textures.
+/// In plain colours.
 pub const SPHERES_FLAT: Scene = Scene {
     name: "spheres-flat",
     about: "bench: the same in plain colours",
     duration: 20.0,
-    parameters: &[],
-    picture: flat,
+    parameters: &[BODIES, DEPTH, TEXTURES_OFF, GLASS],
+    picture: |spec| picture(spec, &DEPTH, &TEXTURES_OFF, &GLASS),
 };
-/// With a glass ball.
+/// In plain colours, with a ball of glass.
 pub const SPHERES_GLASS: Scene = Scene {
     name: "spheres-glass",
     about: "bench: plain colours, the middle one of glass",
     duration: 20.0,
-    parameters: &[],
-    picture: glass,
+    parameters: &[BODIES, DEPTH_OF_GLASS, TEXTURES_OFF, GLASS_ON],
+    picture: |spec| picture(spec, &DEPTH_OF_GLASS, &TEXTURES_OFF, &GLASS_ON),
 };
 
-fn textured(spec: &FrameSpec) -> Picture {
-    traced(spec, world(spec.time, true, false), camera(spec.time), Transfer::Gamma22)
-}
+const BODIES: Parameter = Parameter::new("bodies", "count", (0.0, 64.0), 8.0, "small spheres around the large one");
+const DEPTH: Parameter =
+    Parameter::new("depth", "count", (1.0, 8.0), 4.0, "the most rays in a path; 1 is the eye's alone");
+const DEPTH_OF_GLASS: Parameter = Parameter { default: 6.0, ..DEPTH };
+const TEXTURES: Parameter =
+    Parameter::new("textures", "count", (0.0, 1.0), 1.0, "1 with noise textures, 0 in plain colours");
+const TEXTURES_OFF: Parameter = Parameter { default: 0.0, ..TEXTURES };
+const GLASS: Parameter =
+    Parameter::new("glass", "count", (0.0, 1.0), 0.0, "1 with a ball of glass in the middle, 0 with a mirror");
+const GLASS_ON: Parameter = Parameter { default: 1.0, ..GLASS };
 
-fn flat(spec: &FrameSpec) -> Picture {
-    traced(spec, world(spec.time, false, false), camera(spec.time), Transfer::Gamma22)
-}
-
-fn glass(spec: &FrameSpec) -> Picture {
-    traced(spec, world(spec.time, false, true), camera(spec.time), Transfer::Gamma22)
+fn picture(spec: &FrameSpec, depth: &Parameter, textures: &Parameter, glass: &Parameter) -> Picture {
+    let world = World {
+        max_level: spec.get(depth) as u32,
+        ..ring(spec.time, spec.get(&BODIES) as u32, spec.get(textures) > 0.0, spec.get(glass) > 0.0)
+    };
+    traced(spec, world, camera(spec.time), Transfer::Gamma22)
 }
 
 /// The camera at `time` seconds.
@@ -54,13 +62,18 @@ pub fn camera(time: f64) -> Camera {
     Camera::look_at(eye, vec3(0.0, 0.8, 0.0), 50f32.to_radians(), 0.0)
 }
 
-/// The world at `time` seconds.
+/// The world at `time` seconds, as specified.
 pub fn world(time: f64, textured: bool, glass: bool) -> World {
-    let mut objects = Vec::with_capacity(10);
-    for i in 0..8 {
-        let a = i as f64 * FRAC_PI_4 + 0.4 * time;
+    ring(time, BODIES.default as u32, textured, glass)
+}
+
+/// The same with `count` small spheres.
+fn ring(time: f64, count: u32, textured: bool, glass: bool) -> World {
+    let mut objects = Vec::new();
+    for i in 0..count {
+        let a = i as f64 * (TAU / count as f64) + 0.4 * time;
         let center = vec3(2.6 * a.cos() as f32, (0.85 + 0.25 * (2.0 * a + time).sin()) as f32, 2.6 * a.sin() as f32);
-        let hue = Vec3::splat(i as f32 / 8.0) + vec3(0.0, 0.33, 0.67);
+        let hue = Vec3::splat(i as f32 / count as f32) + vec3(0.0, 0.33, 0.67);
         let color = Vec3::splat(0.55) + (hue * std::f32::consts::TAU).map(f32::cos) * 0.45;
         let albedo = if textured {
             // C (0.6 + 0.4 fbm4(4 P)), and the field is 1/2 + 1/2 fbm.
@@ -94,6 +107,6 @@ pub fn world(time: f64, textured: bool, glass: bool) -> World {
         ],
         ambient: Vec3::splat(0.08),
         background: Background::gradient(vec3(0.75, 0.8, 0.9), vec3(0.2, 0.35, 0.6)),
-        max_level: if glass { 6 } else { 4 },
+        max_level: if glass { DEPTH_OF_GLASS.default } else { DEPTH.default } as u32,
     }
 }

@@ -1,6 +1,9 @@
 //! The land: a hill with a chapel in a valley with a lake, woods, and mountains all around.
+//!
+//! A height field of noise ([`height`]), sampled on rings around the middle. Rings and their points are the farther apart the
+//! farther out they are, as only the middle is seen from close by.
 
-use super::{PAINTS, paint};
+use super::paint::{self, PAINTS};
 use crate::noise::octaves;
 use crate::raster::Mesh;
 use glam::{Mat3, Vec3, vec3};
@@ -9,7 +12,7 @@ use std::f32::consts::TAU;
 /// Height of the lake, metres.
 pub const WATER: f32 = -9.5;
 
-/// How far the land reaches, metres.
+/// Radius of the land, metres.
 pub const EDGE: f32 = 6078.0;
 
 /// Height of the ground at a place, metres.
@@ -18,11 +21,11 @@ pub fn height(x: f32, z: f32) -> f32 {
     let p = vec3(x, 0.3, z);
     let r2 = x * x + z * z;
     let r = r2.sqrt();
-    // Metres from the valley's winding middle, which leaves the mountains open to the east and to the west.
+    // Distance from the valley's winding middle, metres. The valley opens the mountains to the east and to the west.
     let across = z - 0.2 * x - 130.0 - 140.0 * octaves(p * 0.0035, 1, false);
     let valley = |width: f32| 1.0 / (1.0 + across * across / (width * width));
     let hill = 11.0 / (1.0 + r2 / 3600.0);
-    // Where the chapel stands the ground is even.
+    // The ground is even where the chapel stands.
     let calm = r2 / (r2 + 3000.0);
     let rolling = octaves(p * 0.003, 4, false) * (30.0 + 0.06 * r) * calm;
     let rise = ((r - 700.0) / 4200.0).clamp(0.0, 1.0);
@@ -31,33 +34,34 @@ pub fn height(x: f32, z: f32) -> f32 {
     hill + rolling - 13.0 * valley(45.0) + rise * (250.0 + 1000.0 * ridges)
 }
 
-/// Which way is up from the ground at a place, over `reach` metres.
+/// The normal of the ground at a place, from differences over `reach` metres.
 #[inline(never)]
 pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
     let y = height(x, z);
     vec3(y - height(x + reach, z), reach, y - height(x, z + reach)).normalize()
 }
 
-/// More than 0 where woods grow; below -0.2 are the widest meadows.
+/// How wooded a place is: above 0 woods grow, below -0.2 are the widest meadows.
 pub fn wooded(x: f32, z: f32) -> f32 {
     let p = vec3(x, 9.1, z);
-    // None around the chapel, more the farther away.
+    // No woods around the chapel, and more of them farther away.
     octaves(p * 0.006, 3, false) - 0.03 - 12.0 / (12.0 + p.length())
 }
 
-/// Rings of points around the middle.
+/// The number of rings of points around the middle.
 const RINGS: usize = 73;
-/// Rings up to here, 1 km away, are meadow; from there on every point counts.
+/// The first ring that is not meadow, 1 km away. From there on no points are merged.
 const DETAILED: usize = 40;
-/// Points of the outer rings.
+/// The number of points of an outer ring.
 const ROUND: usize = 256;
-/// Parts that each ring is cut into, to be culled one by one.
+/// The number of parts that each ring is cut into, which are culled one by one.
 pub const SECTORS: usize = 16;
 
 /// The ground in patches: smooth, about 24,000 triangles.
 ///
-/// The radius of ring i is `(i / 4)^3` metres, so its strip grows from 1 m to 250 m. Inner rings have fewer points: all
-/// count to 256, but several lie in one place, and the triangles between them vanish; so the transitions fit by themselves.
+/// The radius of ring i is `(i / 4)^3` metres, so the strips between rings grow from 1 m to 250 m. Inner rings have fewer
+/// points: all have 256, but several of them lie in one place, and the triangles between those vanish. So there are no gaps
+/// where the number of points changes.
 pub fn ground() -> Vec<Mesh> {
     let mut patches = Vec::new();
     for (from, to) in [(0, DETAILED), (DETAILED, 58), (58, RINGS)] {
@@ -68,7 +72,7 @@ pub fn ground() -> Vec<Mesh> {
     patches
 }
 
-/// From ring `from` to ring `to`, from point `start` on.
+/// A sixteenth of the ground from ring `from` to ring `to`, from point `start` on.
 fn patch(from: usize, to: usize, start: usize) -> Mesh {
     const COLUMNS: usize = ROUND / SECTORS + 1;
     let mut mesh = Mesh::painted(&PAINTS);
@@ -95,7 +99,7 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
     mesh
 }
 
-/// The lake, and all others: the upper side of a box as wide as the land, flat.
+/// The lakes: the upper side of a box as wide as the land, flat-shaded.
 pub fn lake() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     mesh.block(&(Mat3::IDENTITY * EDGE), Vec3::Y * (WATER - EDGE), paint::WATER);

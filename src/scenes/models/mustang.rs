@@ -1,12 +1,16 @@
-//! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
+//! An aeroplane, the North American P-51D Mustang of thesis B: 9.8 m long and 11.3 m wide, its nose along -z.
+//!
+//! Its right half is eight kinds of lofted bodies, each a row of cross sections between two ends: fuselage, canopy, radiator
+//! scoop, wing, stabiliser, fin, and boxes for exhausts and guns. The left half is the mirror image, and normals are
+//! averaged over faces, so that the skin is smooth. The propeller is a mesh of its own, since it turns.
 
-use super::{BODY, END, TURN, build};
+use super::build::{build, op};
 use crate::raster::form::{Rings, SQUARE};
 use crate::raster::{Mesh, Paint};
-use crate::scenes::script::{AGAIN, COS, COUNT, MUL, REPEAT, SIN, Script, get, script, set};
+use crate::scenes::script::{COUNT, Script, Word, script, variable};
 use glam::{Vec3, vec3};
 
-/// Bare metal, olive drab, the canopy, yellow, white, black.
+/// Bare metal, olive drab, the canopy's glass, yellow, white and black. Rows name them by hexadecimal digits.
 pub static PAINTS: [Paint; 6] = [
     plain(0.4, 0.41, 0.43),
     plain(0.07, 0.075, 0.04),
@@ -20,7 +24,7 @@ const fn plain(red: f32, green: f32, blue: f32) -> Paint {
     Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
 }
 
-/// From the tail to the nose: 5 cm along, 1 cm across.
+/// The fuselage from tail to nose: units of 5 cm along, of 1 cm across.
 const FUSELAGE: Rings = Rings {
     rows: &[
         [-120, 20, 0, 0, 0],
@@ -56,7 +60,7 @@ const FUSELAGE: Rings = Rings {
     taper: 0.08,
 };
 
-/// As the fuselage.
+/// The canopy, in the fuselage's units.
 const CANOPY: Rings = Rings {
     rows: &[
         [-40, 50, 0, 0, 0x22],
@@ -76,7 +80,7 @@ const CANOPY: Rings = Rings {
     taper: 0.1,
 };
 
-/// As the fuselage: the radiator's, under the cockpit.
+/// The radiator's scoop under the cockpit, in the fuselage's units.
 const SCOOP: Rings = Rings {
     rows: &[
         [-92, -18, 0, 0, 0],
@@ -95,7 +99,7 @@ const SCOOP: Rings = Rings {
     taper: 0.0,
 };
 
-/// From the root to the tip: 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm across.
+/// The right wing from root to tip: units of 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm in thickness.
 const WING: Rings = Rings {
     rows: &[
         [6, 11, 0, 0, 0],
@@ -118,7 +122,7 @@ const WING: Rings = Rings {
     taper: 0.6,
 };
 
-/// As the wing.
+/// The right half of the stabiliser, in the wing's units.
 const STABILISER: Rings = Rings {
     rows: &[
         [2, -4, 0, 0, 0],
@@ -134,7 +138,7 @@ const STABILISER: Rings = Rings {
     taper: 0.6,
 };
 
-/// From its foot to its top: 2 cm along, the rest as the wing.
+/// The fin from its foot to its top: units of 2 cm along, otherwise the wing's.
 const FIN: Rings = Rings {
     rows: &[
         [5, 33, 0, 0, 0],
@@ -154,7 +158,7 @@ const FIN: Rings = Rings {
     taper: 0.6,
 };
 
-/// From the hub to the tip: 2 cm along, 1 cm wide.
+/// A blade of the propeller from hub to tip: units of 2 cm along, of 1 cm across.
 const BLADE: Rings = Rings {
     rows: &[
         [12, 0, 0, 0, 0x55],
@@ -170,7 +174,7 @@ const BLADE: Rings = Rings {
     taper: 0.0,
 };
 
-/// A black box.
+/// A black box, from -1 to 1 along each axis.
 const STICK: Rings = Rings {
     rows: &[[-1, 1, 0, 1, 0x55], [-1, 0, 1, 1, 0x55], [1, 0, 1, 1, 0x55], [1, 1, 0, 1, 0]],
     sides: 4,
@@ -181,28 +185,41 @@ const STICK: Rings = Rings {
 
 static BODIES: [Rings; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
 
-/// Decimetres.
-#[rustfmt::skip]
-const PARTS: &[u8] = script![
-    [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, TURN],
-    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 0.0, BODY],
-    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 1.0, BODY],
-    [0.0, 0.0, 0.0, 1.0, 5.0, 1.0, 2.0, BODY],
-    // Five degrees of dihedral are a shear.
-    [0.0, -1.0, 0.0, 1.0, 0.35, 0.25, MUL, 0.0, 0.0, 0.0, 1.0, TURN],
-    [0.0, -5.2, 0.0, 0.4, 5.0, 1.25, 3.0, BODY],
-    [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, TURN],
-    [0.0, 4.2, 5.0, 10.0, MUL, 0.4, 5.0, 1.25, 4.0, BODY],
-    [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, TURN],
-    [0.0, 0.0, 5.0, 10.0, MUL, 0.4, 2.0, 1.25, 5.0, BODY],
-    // The exhausts, and three guns.
-    [4.2, 1.4, -18.5, 5.0, 4.0, 5.0, 10.0, MUL, 6.0, BODY],
-    [20.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY],
-    [22.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY],
-    [24.0, -3.5, -10.0, 2.5, 2.5, 20.0, 6.0, BODY, END],
-];
+// The number of each body in [`BODIES`].
+const HULL: Word = 0.0;
+const HOOD: Word = 1.0;
+const RADIATOR: Word = 2.0;
+const HALF_WING: Word = 3.0;
+const TAILPLANE: Word = 4.0;
+const RUDDER: Word = 5.0;
+const BOX: Word = 6.0;
+const PROPELLER: Word = 7.0;
 
-/// All but the propeller: smooth, about 2,000 triangles. The origin is the centre of mass, on the thrust line.
+/// The right half of the airframe, decimetres. A body's axes are its rows, its thickness and its width; each matrix turns
+/// them into right, up and back.
+const PARTS: &[u8] = script! {
+    // Along -z.
+    turn(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
+    body(0.0, 0.0, 0.0, 1.0, 5.0, 1.0, HULL);
+    body(0.0, 0.0, 0.0, 1.0, 5.0, 1.0, HOOD);
+    body(0.0, 0.0, 0.0, 1.0, 5.0, 1.0, RADIATOR);
+    // To the right; the wing's five degrees of dihedral are a shear.
+    turn(0.0, -1.0, 0.0, 1.0, 0.35 * 0.25, 0.0, 0.0, 0.0, 1.0);
+    body(0.0, -5.2, 0.0, 0.4, 5.0, 1.25, HALF_WING);
+    turn(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    body(0.0, 4.2, 5.0 * 10.0, 0.4, 5.0, 1.25, TAILPLANE);
+    // Up.
+    turn(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+    body(0.0, 0.0, 5.0 * 10.0, 0.4, 2.0, 1.25, RUDDER);
+    // The exhausts, and three guns.
+    body(4.2, 1.4, -18.5, 5.0, 4.0, 5.0 * 10.0, BOX);
+    body(20.0, -3.5, -10.0, 2.5, 2.5, 20.0, BOX);
+    body(22.0, -3.5, -10.0, 2.5, 2.5, 20.0, BOX);
+    body(24.0, -3.5, -10.0, 2.5, 2.5, 20.0, BOX);
+    end();
+};
+
+/// The aeroplane without its propeller: about 2,000 triangles, smooth. The origin is the centre of mass, on the thrust line.
 pub fn airframe() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     build(&mut mesh, &mut Script::new(PARTS, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
@@ -211,16 +228,23 @@ pub fn airframe() -> Mesh {
     mesh
 }
 
-/// Decimetres. Blades with a pitch of 35 degrees.
-#[rustfmt::skip]
-const BLADES: &[u8] = script![
-    [4.0, REPEAT, COUNT, 1.57, MUL, set(5), get(5), COS, set(4), get(5), SIN, set(5)],
-    [get(4), 0.57, MUL, get(5), -0.57, MUL, -0.82, get(5), 2.0, MUL, get(4), 2.0, MUL, 0.0],
-    [get(4), 0.82, MUL, get(5), -0.82, MUL, 0.57, TURN],
-    [0.0, 0.0, -3.15, 10.0, MUL, 1.0, 1.0, 1.0, 7.0, BODY, AGAIN, END],
-];
+/// Four blades, decimetres, with a pitch of 35 degrees, whose cosine is 0.82 and whose sine 0.57. The matrix has twice
+/// the blade's direction in its middle column.
+const BLADES: &[u8] = script! {
+    repeat(4.0) {
+        ANGLE = (COUNT * 1.57);
+        COS = (cos(ANGLE));
+        SIN = (sin(ANGLE));
+        turn(COS * 0.57, SIN * -0.57, -0.82, SIN * 2.0, COS * 2.0, 0.0, COS * 0.82, SIN * -0.82, 0.57);
+        body(0.0, 0.0, -3.15 * 10.0, 1.0, 1.0, 1.0, PROPELLER);
+    }
+    end();
+};
+const COS: Word = variable(4);
+const ANGLE: Word = variable(5);
+const SIN: Word = variable(5);
 
-/// Four blades around the z axis, where they turn, flat.
+/// The propeller: four blades around the z axis, about which they turn. Flat-shaded.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     build(&mut mesh, &mut Script::new(BLADES, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);

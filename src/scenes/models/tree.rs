@@ -1,10 +1,15 @@
 //! Firs and broadleaves, and where they stand.
+//!
+//! A fir is one body of rings whose skirts overlap; a broadleaf is a stem and four balls of leaves at random angles. Far
+//! away each is a single body of some twenty triangles. Noise moves the points, so that no two trees are alike. They stand
+//! where a hash and the noise of [`wooded`] say, more densely near the middle of the valley.
 
+use super::build::{CHANCE, STREAM, build, op};
 use super::land::{self, height, wooded};
-use super::{BODY, END, PAINTS, RANDOM, ROTATE, STREAM, build, paint};
+use super::paint::{self, PAINTS};
 use crate::raster::Mesh;
 use crate::raster::form::Rings;
-use crate::scenes::script::{ADD, MUL, Script, Word, get, script, set};
+use crate::scenes::script::{Script, Word, fragment, script, variable, words};
 use crate::simd::hash::rnd;
 use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
@@ -12,22 +17,22 @@ use std::f32::consts::TAU;
 /// A tree of the woods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
-    /// Its foot, on the ground.
+    /// The foot, on the ground, metres.
     pub foot: Vec3,
-    /// Metres high.
+    /// Height, metres.
     pub height: f32,
-    /// What it differs by from others.
+    /// The number of the tree, from which its random numbers come.
     pub seed: u32,
-    /// A fir, or else a broadleaf.
+    /// Whether it is a fir, not a broadleaf.
     pub fir: bool,
 }
 
-// From the bark of its kind.
+// Paints, counted from the bark of the tree's kind, in both hexadecimal digits of a row.
 const BARK: i8 = 0;
 const FIR: i8 = 0x11;
 const LEAF: i8 = 0x22;
 
-/// Around, hundredths of the height.
+/// A round body in hundredths of the tree's height.
 const fn round(rows: &'static [[i8; 5]], sides: u8) -> Rings {
     Rings { rows, sides, half: false, swell: 0.0, taper: 0.0 }
 }
@@ -64,7 +69,7 @@ const FAR_FIR: Rings = round(
     4,
 );
 const TRUNK: Rings = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2, 2, BARK]], 5);
-/// Hundredths of its radius.
+/// In hundredths of the crown's radius.
 const CROWN: Rings = round(
     &[
         [-90, 0, 0, 0, LEAF],
@@ -80,34 +85,49 @@ const FAR_CROWN: Rings =
 
 static BODIES: [Rings; 5] = [FIR_TREE, FAR_FIR, FAR_CROWN, TRUNK, CROWN];
 
-/// Broadleaves and firs, near and far. The unit is the tree's height.
-#[rustfmt::skip]
+// The number of each body in [`BODIES`].
+const WHOLE_FIR: Word = 0.0;
+const DISTANT_FIR: Word = 1.0;
+const DISTANT_CROWN: Word = 2.0;
+const STEM: Word = 3.0;
+const LEAVES: Word = 4.0;
+
+/// Radius of a crown at random, in tree heights.
+const RADIUS: Word = variable(5);
+
+/// A broadleaf and a fir close by, a broadleaf and a fir far away. The unit is the tree's height.
 static KINDS: [&[u8]; 4] = [
-    script![
-        part(3.0, 0.0, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 3.0, BODY, 0.26, 0.1, MUL, set(5)],
-        part(4.0, 2.095, 0.77), crown(1.76),
-        part(5.0, 4.19, 0.77), crown(2.1),
-        part(6.0, 0.0, 0.77), crown(2.44),
-        part(7.0, 2.095, 0.15), crown(2.8), [END],
-    ],
-    script![part(0.0, 0.0, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 0.0, BODY, END]],
-    script![part(2.0, 4.19, 0.0), [0.0, 1.22, 0.45, MUL, 0.0, 0.045, 0.045, 0.045, 2.0, BODY, END]],
-    script![part(1.0, 2.095, 0.0), [0.0, 0.0, 0.0, 0.1, 0.1, 0.1, 1.0, BODY, END]],
+    script! {
+        ..part(3.0, 0.0, 0.0); body(0.0, 0.0, 0.0, 0.1, 0.1, 0.1, STEM);
+        RADIUS = (0.26 * 0.1);
+        ..part(4.0, THIRD, 0.77); ..crown(1.76);
+        ..part(5.0, 2.0 * THIRD, 0.77); ..crown(2.1);
+        ..part(6.0, 0.0, 0.77); ..crown(2.44);
+        ..part(7.0, THIRD, 0.15); ..crown(2.8);
+        end();
+    },
+    script! { ..part(0.0, 0.0, 0.0); body(0.0, 0.0, 0.0, 0.1, 0.1, 0.1, WHOLE_FIR); end(); },
+    script! { ..part(2.0, 2.0 * THIRD, 0.0); body(0.0, 1.22 * 0.45, 0.0, 0.045, 0.045, 0.045, DISTANT_CROWN); end(); },
+    script! { ..part(1.0, THIRD, 0.0); body(0.0, 0.0, 0.0, 0.1, 0.1, 0.1, DISTANT_FIR); end(); },
 ];
 
-/// Turned by a random number and an angle more; so many radii of a crown away.
-#[rustfmt::skip]
+/// A third of a turn, radians.
+const THIRD: Word = 2.095;
+
+/// The next body is turned by an angle and by random number `number`, and stands `out` radii of a crown away from the stem.
 const fn part(number: Word, angle: Word, out: Word) -> [Word; 10] {
-    [number, RANDOM, get(4), angle, ADD, 0.0, out, 0.26, MUL, ROTATE]
+    fragment! {
+        random(number);
+        rotate(CHANCE + angle, 0.0, out * 0.26);
+    }
 }
 
-/// So many radii above the ground.
-#[rustfmt::skip]
+/// A ball of leaves, `up` radii above the ground.
 const fn crown(up: Word) -> [Word; 10] {
-    [0.0, up, 0.26, MUL, 0.0, get(5), get(5), get(5), 4.0, BODY]
+    words!(0.0, up * 0.26, 0.0, RADIUS, RADIUS, RADIUS, LEAVES; op::body)
 }
 
-/// Adds a tree; `far` is one of 20 triangles or so.
+/// Adds a tree to a mesh: in full, or of some twenty triangles where it is `far` away.
 pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
     let first = mesh.points.len();
     let bark = paint::BARK + tree.seed as u16 % 3 * 3;
@@ -116,13 +136,14 @@ pub fn grow(mesh: &mut Mesh, tree: &Tree, far: bool) {
     mesh.weather(first, 0.08 * tree.height, 4.0 / tree.height);
 }
 
-/// In which direction tree `seed` stands, turns from east by south.
+/// The direction in which tree `seed` stands from the middle, turns from east by south.
 fn around(seed: u32) -> f32 {
     rnd(STREAM, seed, 0)
 }
 
-/// The trees around the middle: in groves, and a few alone.
+/// The trees around the middle of the valley: in groves, and a few alone.
 pub fn trees() -> Vec<Tree> {
+    /// Places that are tried.
     const TRIED: u32 = 4500;
     let mut trees = Vec::new();
     for seed in 0..TRIED {
@@ -147,7 +168,7 @@ pub fn trees() -> Vec<Tree> {
     trees
 }
 
-/// The woods in patches around the middle, flat: near trees, then far ones.
+/// The woods as patches around the middle, flat-shaded: eight sectors of near trees, then eight of far ones.
 pub fn woods(trees: &[Tree]) -> Vec<Mesh> {
     const SECTORS: u32 = 8;
     let mut patches = Vec::new();

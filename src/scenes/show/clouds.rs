@@ -1,31 +1,68 @@
-//! The third part of the intro: by aeroplane through a morning's clouds, from dawn to noon.
+//! The scene `clouds`, a part of the show: by aeroplane through a morning's clouds, from dawn to noon.
+//!
+//! The subject of thesis B: an aeroplane in a field of cumulus clouds, which the wind carries and the sun lights anew as it
+//! rises. Clouds shade each other and the land.
 
-use super::day;
-use crate::cloud::{CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
-use crate::frame::{FrameSpec, Scene};
-use crate::frame::{Picture, Workers};
+use super::valley::{self, LATITUDE, LONGITUDE};
+use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
+use crate::cuts;
+use crate::frame::cache::lock;
+use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
 use crate::timeline;
 use crate::view::Camera;
-use crate::view::View;
 use fearless_simd::dispatch;
 use glam::{Mat3, Vec2, Vec3, vec3};
 use std::f32::consts::FRAC_PI_2;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
-/// The part.
+/// The scene.
 pub const CLOUDS: Scene = Scene {
     name: "clouds",
     about: "a flight through clouds, from dawn to noon",
     duration: LENGTH,
-    parameters: &[],
+    parameters: &[KIND, SHARE, SPACING, HEIGHT, SEED, THICKNESS, EAST, SOUTH, LIGHT, DATE, START, LATITUDE, LONGITUDE],
     picture,
 }
 .part();
 
-/// Seconds that it takes.
+const KIND: Parameter =
+    Parameter::new("kind", "count", (0.0, 2.0), 0.0, "0 cumulus and congestus, 1 cumulus, 2 congestus");
+const SHARE: Parameter = Parameter::new("share", "1", (0.0, 1.0), 0.55, "share of the places that hold a cloud");
+const SPACING: Parameter = Parameter::new("spacing", "m", (260.0, 5000.0), 520.0, "distance from place to place");
+const HEIGHT: Parameter = Parameter::new(
+    "height",
+    "m",
+    (300.0, 3000.0),
+    640.0,
+    "height of the clouds above the lake; the flight stays where it is",
+);
+const SEED: Parameter = Parameter::new("seed", "count", (0.0, 1e6), 5.0, "another number, another sky");
+const THICKNESS: Parameter = Parameter::new(
+    "thickness",
+    "1",
+    (1.0, 100.0),
+    26.0,
+    "optical depth of the densest cloud through half of its width",
+);
+const EAST: Parameter =
+    Parameter::new("wind-east", "m/s", (-50.0, 50.0), 8.0, "wind towards the east at 500 m, less below and more above");
+const SOUTH: Parameter = Parameter::new("wind-south", "m/s", (-50.0, 50.0), 4.0, "wind towards the south at 500 m");
+const LIGHT: Parameter = Parameter::new(
+    "light",
+    "1",
+    (0.0, 4.0),
+    1.0,
+    "the sun's light on the clouds, times what it is; the rest comes from sky and ground",
+);
+const DATE: Parameter = Parameter::new("date", "days", (1.0, 366.0), 176.0, "the day's number in the year 2026");
+const START: Parameter =
+    Parameter::new("hour", "h", (0.0, 24.0), 4.1, "time of day at the start, UT + 1; it ends 7.9 hours later");
+
+/// The length of the scene, seconds.
 pub const LENGTH: f64 = 50.0;
 
+/// The clouds of this morning.
 const FIELD: CloudField = CloudField {
     seed: 5,
     spacing: 520.0,
@@ -36,74 +73,141 @@ const FIELD: CloudField = CloudField {
     extinction: 26.0,
 };
 
-/// Shots by the second that each starts. Where the aeroplane is then, metres, and its heading, radians from
-/// east to south; where the eye is along that, upwards and to the right, metres; how fast it follows, hundredths;
-/// how far before the aeroplane it looks, metres; the vertical field of view, degrees.
-#[rustfmt::skip]
-pub static SHOTS: &[(f64, [f32; 10])] = &[
-    // Into a cloud, before the rising sun; through it, and into the next; out of that, and past.
-    (0.0, [-1230.0, 725.0, -110.0, -0.15, -24.0, 5.0, 9.0, 78.0, 10.0, 50.0]),
-    (5.0, [-626.0, 725.0, -190.0, -0.15, 7.0, 0.0, 0.0, 100.0, 100.0, 60.0]),
-    (11.0, [-134.0, 725.0, -285.0, -0.15, 250.0, -8.0, 20.0, 0.0, 0.0, 45.0]),
-    // Over the lake.
-    (18.0, [-200.0, 770.0, 60.0, 0.0, -24.0, 12.0, -12.0, 100.0, 12.0, 50.0]),
-    // After whoever looks, out of a cloud.
-    (26.0, [1590.0, 735.0, 410.0, 0.0, 30.0, -2.0, 6.0, 100.0, 0.0, 45.0]),
-    // In and out, from afar.
-    (34.0, [524.0, 745.0, 928.0, 0.0, 20.0, -14.0, 150.0, 95.0, 0.0, 20.0]),
-    // Above all.
-    (41.0, [-1200.0, 970.0, 300.0, 0.0, -24.0, 15.0, 8.0, 100.0, 12.0, 60.0]),
-];
-
-/// Shapes lit by a sun that is `towards`: made again when it has moved by some half of a degree.
-fn shapes(workers: &Workers, towards: Vec3) -> Vec<Arc<Voxels>> {
-    type Slot = (Vec3, Option<Arc<Voxels>>);
-    static SLOTS: Mutex<[Slot; 6]> = Mutex::new([const { (Vec3::ZERO, None) }; 6]);
-    let mut slots = SLOTS.lock().unwrap();
-    let level = workers.level();
-    workers.each(slots.iter_mut().enumerate(), |(number, (lit, shape))| {
-        // Each at a time of its own, lest all are made in one frame.
-        let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
-        if *lit != sun || shape.is_none() {
-            let kind = if number < 4 { CloudKind::CUMULUS } else { CloudKind::CONGESTUS };
-            let mut new = match shape {
-                Some(old) => Voxels::clone(old),
-                None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, 64)),
-            };
-            dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, FIELD.extinction));
-            *shape = Some(Arc::new(new));
-            *lit = sun;
-        }
-    });
-    slots.iter().filter_map(|(_, shape)| shape.clone()).collect()
+/// A shot: how the aeroplane flies, and how the eye follows it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Where the aeroplane is at the start, metres.
+    start: [f32; 3],
+    /// Where it flies, radians from east towards south.
+    heading: f32,
+    /// Where the eye is, metres ahead of the aeroplane, above it and to its right.
+    eye: [f32; 3],
+    /// The share of the aeroplane's way that the eye goes along, hundredths.
+    follows: f32,
+    /// How far ahead of the aeroplane the eye looks, metres; 100 is the pilot's view, which banks with it.
+    ahead: f32,
+    /// The vertical field of view, degrees.
+    fov: f32,
 }
 
-/// Where a shot's aeroplane is so many seconds after its start: it winds along its heading.
-#[inline(never)]
-fn way(&[x, y, z, heading, ..]: &[f32; 10], t: f32) -> Vec3 {
-    let course = Mat3::from_rotation_y(-heading);
-    course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + vec3(x, y, z)
+/// A shot of an aeroplane from `start` on along `heading`.
+const fn shot(start: [f32; 3], heading: f32, eye: [f32; 3], follows: f32, ahead: f32, fov: f32) -> Shot {
+    Shot { start, heading, eye, follows, ahead, fov }
+}
+
+/// The shots, by the second at which each starts.
+#[rustfmt::skip]
+pub static SHOTS: &[(f64, Shot)] = &[
+    // Into a cloud, before the rising sun; through it by the pilot's eyes, and into the next; out of that, and past.
+    (0.0, shot([-1230.0, 725.0, -110.0], -0.15, [-24.0, 5.0, 9.0], 78.0, 10.0, 50.0)),
+    (5.0, shot([-626.0, 725.0, -190.0], -0.15, [7.0, 0.0, 0.0], 100.0, 100.0, 60.0)),
+    (11.0, shot([-134.0, 725.0, -285.0], -0.15, [250.0, -8.0, 20.0], 0.0, 0.0, 45.0)),
+    // Over the lake.
+    (18.0, shot([-200.0, 770.0, 60.0], 0.0, [-24.0, 12.0, -12.0], 100.0, 12.0, 50.0)),
+    // Out of a cloud, towards the eye.
+    (26.0, shot([1590.0, 735.0, 410.0], 0.0, [30.0, -2.0, 6.0], 100.0, 0.0, 45.0)),
+    // In and out, from afar.
+    (34.0, shot([524.0, 745.0, 928.0], 0.0, [20.0, -14.0, 150.0], 95.0, 0.0, 20.0)),
+    // Above all clouds.
+    (41.0, shot([-1200.0, 970.0, 300.0], 0.0, [-24.0, 15.0, 8.0], 100.0, 12.0, 60.0)),
+];
+
+impl Shot {
+    /// Where the aeroplane is `t` seconds after the start of the shot: it winds along its heading.
+    #[inline(never)]
+    fn way(&self, t: f32) -> Vec3 {
+        let course = Mat3::from_rotation_y(-self.heading);
+        course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + Vec3::from(self.start)
+    }
+}
+
+/// A shape of cloud, and the sun that it is lit by.
+#[derive(Default)]
+struct Shape {
+    voxels: Option<Arc<Voxels>>,
+    sun: Vec3,
+    kind: u32,
+    extinction: f32,
+}
+
+/// The shapes that clouds have, kept from frame to frame.
+#[derive(Default)]
+struct Shapes([Shape; 6]);
+
+impl Shapes {
+    /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some half of a degree.
+    fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
+        let level = spec.workers.level();
+        let only = spec.get(&KIND) as u32;
+        spec.workers.each(self.0.iter_mut().enumerate(), |(number, shape)| {
+            // Each shape at a time of its own, lest one frame has to light all of them.
+            let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
+            let known = shape.voxels.as_deref().filter(|_| !cuts::PARAMETERS || shape.kind == only);
+            if known.is_none() || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
+                let kind = match only {
+                    1 => CloudKind::CUMULUS,
+                    2 => CloudKind::CONGESTUS,
+                    _ if number < 4 => CloudKind::CUMULUS,
+                    _ => CloudKind::CONGESTUS,
+                };
+                let mut new = match known {
+                    Some(old) => Voxels::clone(old),
+                    None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, 64)),
+                };
+                dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, extinction));
+                *shape = Shape { voxels: Some(Arc::new(new)), sun, kind: only, extinction };
+            }
+        });
+        self.0.iter().filter_map(|shape| shape.voxels.clone()).collect()
+    }
+}
+
+/// The field as the parameters say.
+fn altered(spec: &FrameSpec) -> CloudField {
+    CloudField {
+        seed: spec.get(&SEED) as u32,
+        spacing: spec.get(&SPACING) as f32,
+        share: spec.get(&SHARE) as f32,
+        height: spec.get(&HEIGHT) as f32,
+        extinction: spec.get(&THICKNESS) as f32,
+        ..FIELD
+    }
+}
+
+/// The clouds of a field around the eye, carried by the wind that the parameters say: what it differs by from the field's own
+/// moves both the clouds and the eye that they are looked for around.
+fn blown(spec: &FrameSpec, field: &CloudField, eye: Vec3, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
+    let time = spec.time as f32;
+    let [east, south] = [&EAST, &SOUTH].map(|wind| (spec.get(wind) - wind.default) as f32);
+    let more = vec3(east, 0.0, south) * (time * (field.height * 0.002).sqrt());
+    let mut clouds = field.around(eye - more, time, shapes);
+    for cloud in &mut clouds {
+        cloud.centre += more;
+    }
+    clouds
 }
 
 fn picture(spec: &FrameSpec) -> Picture {
-    let hour = 4.1 + 7.9 * (spec.time / LENGTH).powf(1.6);
-    let (keys, since) = timeline::cut(SHOTS, LENGTH, spec.time);
-    let [.., along, up, right, follows, before, fov] = *keys;
+    let hour = spec.get(&START) + 7.9 * (spec.time / LENGTH).powf(1.6);
+    let (shot, since) = timeline::cut(SHOTS, LENGTH, spec.time);
     let since = since as f32;
-    let (place, next) = (way(keys, since), way(keys, since + 0.5));
-    // As steep as it turns.
+    let (place, next) = (shot.way(since), shot.way(since + 0.5));
+    // The steeper it turns, the steeper it banks.
     let bank = 0.42 * (0.35 * since + 0.26).sin();
     let Camera { right: x, up: y, forward: ahead, .. } = Camera::look_at(place, next, FRAC_PI_2, bank);
     let turn = Mat3::from_cols(x, y, -ahead);
-    let eye = way(keys, since * follows * 0.01) + Mat3::from_rotation_y(-keys[3]) * vec3(along, up, right);
-    // Whoever looks far ahead sits in it.
-    let camera = Camera::look_at(eye, place + ahead * before, fov.to_radians(), bank * before * 0.01);
-    let camera = spec.camera(camera);
-    let dome = day::sky(spec, 9671.5 + (hour - 1.0) / 24.0);
+    let eye = shot.way(since * shot.follows * 0.01) + Mat3::from_rotation_y(-shot.heading) * Vec3::from(shot.eye);
+    let target = place + ahead * shot.ahead;
+    let camera = Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01);
+    let view = spec.view(camera);
+    let dome = valley::sky(spec, valley::date(spec, &DATE) + (hour - 1.0) / 24.0);
     let now = dome.lighting();
-    let clouds = FIELD.around(eye, spec.time as f32, &shapes(spec.workers, now.direction));
-    let mut world = day::world(&dome, day::plan(0, 0.0).2, turn, place, spec.time);
-    // It moves by whole texels, and its slope ends before the sun is level.
+    let field = if cuts::PARAMETERS { altered(spec) } else { FIELD };
+    let shapes = lock(&spec.cache.get::<Shapes>()).lit(spec, now.direction, field.extinction);
+    let clouds =
+        if cuts::PARAMETERS { blown(spec, &field, eye, &shapes) } else { field.around(eye, spec.time as f32, &shapes) };
+    let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
+    // The map of the clouds' shadows moves by whole texels, and its slope is limited before the sun is level.
     let texel = 80.0;
     let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - CloudShadow::SIDE as u32 as f32 * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
@@ -116,18 +220,17 @@ fn picture(spec: &FrameSpec) -> Picture {
     if !cfg!(without = "cloud-shadows") {
         world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
-    let view = View::new(camera, spec.width, spec.height);
-    // What is brightest without glare is to be no more than white.
+    // The brightest of it, glare aside, becomes white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
     let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
     let light = CloudLight {
         ambient: [ground * 0.5 + sky * 0.4, sky * 0.85],
         towards: now.direction,
-        sun: sun * 0.75,
+        sun: sun * (0.75 * spec.get(&LIGHT) as f32),
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let seen =
+    let clouds =
         CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud).in_air(9000.0, air).shaded_by(&clouds);
-    day::show(spec, dome, world, view, Some(Box::new(seen)))
+    valley::show(spec, dome, world, view, Some(Box::new(clouds)))
 }

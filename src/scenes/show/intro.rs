@@ -1,69 +1,79 @@
-//! The show: parts, one after another, each a scene of its own. It fades to black before a part ends.
+//! The show: parts one after another, each a scene of its own, with a fade through black between them, and writing made of
+//! sparks over the first and the last.
 
-use super::{clouds, day, snowfall, torches};
-use super::{letters, lumen};
+use super::{clouds, day, letters, lumen, snowfall, torches};
 use crate::effects::Fade;
-use crate::frame::Picture;
-use crate::frame::{FrameSpec, Scene};
+use crate::frame::{FrameSpec, Picture, Scene};
 use crate::particles::{Emitter, Lens, ParticleLayer, Strokes};
 use crate::timeline::{self, ease};
 use crate::view::Camera;
-use crate::view::View;
 use glam::{Vec3, vec3};
 
 /// The show.
 pub const INTRO: Scene =
     Scene { name: "intro", about: "the show: its parts one after another", duration: END, parameters: &[], picture };
 
-/// The parts by the second that each starts, with the second of its own time that it begins at: a dawn, a morning in
-/// June, the flight, a sunset in September, the first snow, a night with fires, and the last light.
+/// The parts: the second of the show at which each starts, its scene, and the second of the scene at which it begins.
 #[rustfmt::skip]
 pub const PARTS: &[(f64, (Scene, f64))] = &[
-    (0.0, (unless(cfg!(without = "lumen"), lumen::LUMEN), 0.0)),
-    (21.0, (unless(cfg!(without = "day"), day::DAY), 2.0)),
-    (35.0, (unless(cfg!(without = "clouds"), clouds::CLOUDS), 0.0)),
-    (69.0, (unless(cfg!(without = "day"), day::DAY), day::LENGTH + 31.0)),
-    (83.0, (unless(cfg!(without = "snowfall"), snowfall::SNOWFALL), 1.0)),
-    (113.0, (unless(cfg!(without = "torches"), torches::TORCHES), 0.0)),
-    (143.0, (unless(cfg!(without = "lumen"), lumen::LUMEN), 45.0)),
+    // A dawn.
+    (0.0, (part(lumen::LUMEN, !cfg!(without = "lumen")), 0.0)),
+    // A morning in June.
+    (21.0, (part(day::DAY, !cfg!(without = "day")), 2.0)),
+    // The flight.
+    (35.0, (part(clouds::CLOUDS, !cfg!(without = "clouds")), 0.0)),
+    // A sunset in September.
+    (69.0, (part(day::DAY, !cfg!(without = "day")), day::LENGTH + 31.0)),
+    // The first snow.
+    (83.0, (part(snowfall::SNOWFALL, !cfg!(without = "snowfall")), 1.0)),
+    // A night with fires.
+    (113.0, (part(torches::TORCHES, !cfg!(without = "torches")), 0.0)),
+    // The last light.
+    (143.0, (part(lumen::LUMEN, !cfg!(without = "lumen")), 45.0)),
 ];
 
-/// The scene, or nothing in its place where it is left out.
-const fn unless(left_out: bool, scene: Scene) -> Scene {
-    if left_out { Scene::EMPTY } else { scene }
+/// A scene, or nothing in its place in a build that leaves it out to learn what it costs.
+const fn part(scene: Scene, built: bool) -> Scene {
+    if built { scene } else { Scene::EMPTY }
 }
 
-/// Seconds that the show takes.
+/// The length of the show, seconds.
 const END: f64 = 154.0;
 
-/// Seconds in which a part goes dark, and in which the next one comes.
+/// The time in which a part goes dark, and in which the next one gets light, seconds.
 pub const FADE: f64 = 0.5;
 
 fn picture(spec: &FrameSpec) -> Picture {
     let ((part, from), time) = timeline::cut(PARTS, END, spec.time);
+    // The show has no parameters, so its parts have their defaults.
     let mut picture = (part.picture)(&FrameSpec { time: from + time, ..*spec });
     write(spec, &mut picture);
-    let light = light(PARTS, END, spec.time);
-    if light < 1.0 {
-        picture.layers.push(Box::new(Fade(light)));
+    let brightness = brightness(PARTS, END, spec.time);
+    if brightness < 1.0 {
+        picture.layers.push(Box::new(Fade(brightness)));
     }
     picture
 }
 
-/// What is written: the second at which it begins to come together; left end and foot of the line, and a quarter of its
-/// letters' height, sixteenths of a metre at two metres before the eye.
-#[rustfmt::skip]
+/// The writing: each line of text with the second of the show at which it begins to come together, where it starts and how
+/// large it is.
 pub const WRITING: &[([f32; 4], &str)] = &[
-    ([1.0, -12.0, -1.6, 1.2], "PAPRSEK"),
-    ([144.5, 6.0, 5.0, 0.45], "FIVE THESES"),
-    ([145.5, 6.0, 1.0, 0.45], "TWO CORES"),
-    ([146.5, 6.0, -3.0, 0.45], "64 KB"),
+    line(1.0, [-12.0, -1.6], 1.2, "PAPRSEK"),
+    line(144.5, [6.0, 5.0], 0.45, "FIVE THESES"),
+    line(145.5, [6.0, 1.0], 0.45, "TWO CORES"),
+    line(146.5, [6.0, -3.0], 0.45, "64 KB"),
 ];
 
-/// Seconds after which it has flown apart.
+/// A line of text from second `start` on. The left end of its foot and a quarter of its height are in sixteenths of a metre,
+/// on a plane two metres before the eye.
+const fn line(start: f32, [x, y]: [f32; 2], size: f32, text: &'static str) -> ([f32; 4], &'static str) {
+    ([start, x, y, size], text)
+}
+
+/// The time after which a line has flown apart, seconds.
 pub const READ: f64 = 6.5;
 
-/// Lines of sparks that come together and fly apart.
+/// Adds the lines of this instant to a picture: sparks that come together and fly apart.
 fn write(spec: &FrameSpec, picture: &mut Picture) {
     if cfg!(without = "writing") {
         return;
@@ -87,18 +97,17 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
         }
     }
     if !lines.is_empty() {
-        let camera = spec.camera(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
-        let view = View::new(camera, spec.width, spec.height);
+        let view = spec.view(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
         let sparks = ParticleLayer::new(lines, &view, &spec.quality.particles);
         picture.layers.push(Box::new(sparks));
     }
 }
 
-/// The share of light at `time` in a show of such parts: 0 at cuts and from the `end` on, 1 away from them. It starts at
-/// once, since a first frame should show something.
-pub fn light<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
+/// The share of light at `time` seconds in a show of these parts: 0 at cuts and from the `end` on, 1 away from them. The show
+/// itself starts without a fade, since its first frame should show something.
+pub fn brightness<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
     let cuts = parts[1..].iter().map(|&(start, _)| ease(0.0, FADE, (time - start).abs()));
     let light = cuts.fold(ease(0.0, FADE, end - time), f32::min);
-    // Eyes, and codes, take about the root of it.
+    // Squared, since the eye and the codes of a display go by about the root of the light.
     light * light
 }

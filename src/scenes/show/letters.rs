@@ -1,9 +1,9 @@
-//! A font of strokes: the letters that the show writes.
+//! A font of strokes, with the letters and digits that the show writes.
 
 use glam::Vec3;
 
-/// A line for each letter or digit: what it is, then points to be joined, and blanks where the pen is lifted. Points are
-/// small letters, from a to c at the foot, then upwards, three in a row, to o.
+/// A line per letter or digit: its name, then the points that a stroke joins, with a blank where the pen is lifted. Points are
+/// small letters, three in a row, from `a` to `c` at the foot up to `m` to `o` at the top.
 const GLYPHS: &str = "\
 4mgi oc
 6omacig
@@ -24,12 +24,12 @@ Tbn mo
 Vmbo
 Wmaeco";
 
-/// The strokes of a text: the foot of its first letter at `corner`, letters along `right` and `up`, whose lengths are half a
-/// letter's width and a quarter of its height.
+/// The strokes of a text, each from one point to another. The foot of the first letter is at `corner`; `right` is half of a
+/// letter's width, `up` a quarter of its height.
 pub fn write(text: &str, mut corner: Vec3, right: Vec3, up: Vec3) -> Vec<[Vec3; 2]> {
     let mut lines = Vec::new();
     for letter in text.bytes() {
-        // To split the lines takes a searcher of 500 bytes.
+        // One pass over all bytes, as splitting into lines takes a searcher of 500 bytes in the 64 kB build.
         let (mut this, mut last) = (false, None);
         for point in GLYPHS.bytes() {
             if point > b' ' && point < b'a' {

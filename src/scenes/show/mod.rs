@@ -1,4 +1,4 @@
-//! The show and its parts.
+//! The show and its parts. [`intro`] plays the others; [`valley`] is what most of them have in common.
 
 pub mod clouds;
 pub mod day;
@@ -7,3 +7,4 @@ pub mod letters;
 pub mod lumen;
 pub mod snowfall;
 pub mod torches;
+pub mod valley;

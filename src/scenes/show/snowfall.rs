@@ -1,16 +1,20 @@
-//! A walk to the chapel of `day` at the end of November: it begins to snow, and it gets dark.
+//! The scene `snowfall`, a part of the show: a walk to the chapel at the end of November. It begins to snow, and it gets dark.
+//!
+//! Two fields of flakes around the eye, as in thesis C, a near one of crystals and a far one of tufts; fog that thickens with
+//! the shower; and snow that settles on what the sky sees.
 
-use super::day;
+use super::valley;
+use crate::cuts;
 use crate::effects::{Fog, FogLayer};
 use crate::frame::encode::Transfer;
-use crate::frame::{FrameSpec, Scene};
-use crate::frame::{Layer, Picture};
+use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene};
 use crate::particles::{Calm, Emitter, Flakes, Lens, ParticleLayer, Snow};
 use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover};
+use crate::scenes::flakes;
 use crate::scenes::models::land;
+use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
-use crate::view::View;
 use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
 
 /// The scene.
@@ -18,15 +22,26 @@ pub const SNOWFALL: Scene = Scene {
     name: "snowfall",
     about: "a walk through the first snow, into the dusk",
     duration: LENGTH,
-    parameters: &[],
+    parameters: &[HEIGHT, NEAR_RADIUS, FAR_RADIUS, NEAR_COUNT, FAR_COUNT, EAST, SOUTH, FALL, SHARE, SIZE],
     picture,
 }
 .part();
 
-/// Seconds that it takes.
+const HEIGHT: Parameter = flakes::height(16.0, "height of the near field; the far one is 2.5 times as high");
+const NEAR_RADIUS: Parameter = flakes::radius("near-radius", 15.0, "radius of the near field around the eye");
+const FAR_RADIUS: Parameter = flakes::radius("far-radius", 50.0, "radius of the far field around the eye");
+const NEAR_COUNT: Parameter = flakes::count("near-count", 120_000.0, "flakes of the near field, seen or not");
+const FAR_COUNT: Parameter = flakes::count("far-count", 160_000.0, "tufts of the far field, seen or not");
+const EAST: Parameter = flakes::wind("wind-east", 0.9, "wind towards the east; gusts take it to 0.5 to 2.7 times that");
+const SOUTH: Parameter = flakes::wind("wind-south", -0.45, "wind towards the south, with the same gusts");
+const FALL: Parameter = flakes::fall(0.8);
+const SHARE: Parameter = flakes::share("how thickly it snows, of what the weather would have");
+const SIZE: Parameter = flakes::size(0.009);
+
+/// The length of the scene, seconds.
 pub const LENGTH: f64 = 32.0;
 
-/// The walk: seconds; where, metres; heading, radians from north to east; how far up one looks, radians.
+/// The walk: seconds; x and z, metres; heading, radians from north towards east; how far up the eye looks, radians.
 #[rustfmt::skip]
 static WALK: [Key<5>; 6] = [
     [0.0, -40.0, 79.5, 0.1, 0.0],
@@ -37,7 +52,7 @@ static WALK: [Key<5>; 6] = [
     [32.0, -23.0, 27.0, 0.66, 0.16],
 ];
 
-/// Flakes around the eye,
+/// The near field: flakes around the eye.
 const NEAR: Flakes = Flakes {
     seed: 3,
     count: 120_000,
@@ -51,7 +66,7 @@ const NEAR: Flakes = Flakes {
     by: 3,
     lens: Lens { radius: [1.0, 64.0], near: [0.3, 0.8], aperture: 0.012, focus: 1.6, crystals: true, ..Lens::SHARP },
 };
-/// and larger tufts farther off.
+/// Both fields. The far one has larger tufts.
 static FIELDS: [Flakes; 2] = [
     NEAR,
     Flakes {
@@ -65,25 +80,41 @@ static FIELDS: [Flakes; 2] = [
     },
 ];
 
-/// What the air does.
+/// The state of the air.
 #[derive(Clone, Copy, Debug)]
 pub struct Weather {
-    /// How thick it snows, 0 to 1.
+    /// Share of the flakes that are in the air, 0 to 1.
     pub snow: f32,
-    /// How fast the wind blows along x and z, metres a second.
+    /// Speed of the wind along x and z, metres per second.
     pub wind: Vec2,
-    /// How far it has blown since the start, metres.
+    /// How far it has carried the flakes since the start, metres.
     pub drift: DVec3,
 }
 
 /// The weather at `time` seconds: it begins to snow, in showers, and gusts come with them.
 pub fn weather(time: f64) -> Weather {
+    weather_in([EAST.default, SOUTH.default], time)
+}
+
+/// The same in another wind, metres per second to the east and to the south.
+fn weather_in([east, south]: [f64; 2], time: f64) -> Weather {
     let snow = ease(1.0, 12.0, time) * (1.0 - 0.6 * ease(18.0, 29.0, time)) * (0.8 - 0.2 * (0.7 * time).cos() as f32);
-    // A gust's way is what its speed sums up to.
+    // The way of a gust is the integral of its speed.
     let (sin, cos) = (0.7 * time).sin_cos();
     let way = 1.6 * time - 1.1 / 0.7 * sin;
     let speed = 1.6 - 1.1 * cos as f32;
-    Weather { snow, wind: Vec2::new(0.9, -0.45) * speed, drift: DVec3::new(0.9, 0.0, -0.45) * way }
+    let wind = Vec2::new(east as f32, south as f32) * speed;
+    Weather { snow, wind, drift: DVec3::new(east, 0.0, south) * way }
+}
+
+/// The fields as the parameters say.
+fn altered(spec: &FrameSpec) -> [Flakes; 2] {
+    let [near, far] = &FIELDS;
+    let (height, faster, larger) = (spec.get(&HEIGHT), spec.get(&FALL) / FALL.default, spec.get(&SIZE) / SIZE.default);
+    [
+        flakes::altered(near, height, spec.get(&NEAR_RADIUS), spec.get(&NEAR_COUNT), faster, larger),
+        flakes::altered(far, 2.5 * height, spec.get(&FAR_RADIUS), spec.get(&FAR_COUNT), faster, larger),
+    ]
 }
 
 fn picture(spec: &FrameSpec) -> Picture {
@@ -93,20 +124,20 @@ fn picture(spec: &FrameSpec) -> Picture {
     let eye = vec3(x, land::height(x, z) + 1.7 + step, z);
     let (sin, cos) = heading.sin_cos();
     let camera = Camera::look_at(eye, eye + vec3(sin, pitch.tan(), -cos), 0.82, 0.0);
-    let camera = spec.camera(camera);
-    // The land on 2026-11-28 in autumn's colours. Clouds hide the sky of that day, and its light is put aside.
-    let dome = day::sky(spec, 9827.5);
-    let textures = day::plan(1, 0.0).2;
-    let mut world = day::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
-    // No aeroplane flies.
+    let view = spec.view(camera);
+    // The land in autumn's colours. Clouds hide the sky of that day, and its light is replaced below.
+    let dome = valley::sky(spec, days(2026, 11, 28));
+    let textures = valley::season(1).1;
+    let mut world = valley::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    // Without the aeroplane and its propeller.
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
     let dusk = ease(0.0, LENGTH, spec.time);
     let sky = vec3(1.0, 1.04, 1.1) * (vec3(2.8, 2.45, 1.95) * -dusk).exp();
     let amount = 0.04 * (spec.time - 2.0).clamp(0.0, 25.0) as f32;
-    // The ground sends on what it gets, and snow the most.
+    // What the ground reflects: more as it whitens.
     let ground = 0.15 + 0.65 * amount;
-    // Against the wind. Light of a whole sky has soft shadows, so a coarse map is all that there is to know.
+    // Flakes come from where the wind blows. What stands above shelters the ground softly, so a coarse map will do.
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
@@ -116,19 +147,20 @@ fn picture(spec: &FrameSpec) -> Picture {
     }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
-    day::lamp(&mut world, ease(20.0, 26.0, spec.time));
+    valley::lamp(&mut world, ease(20.0, 26.0, spec.time));
     let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
     world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
-    let view = View::new(camera, spec.width, spec.height);
-    let air_moves = weather(spec.time);
-    let density = 8e-4 + 8e-3 * air_moves.snow;
+    let weather = weather_in([spec.get(&EAST), spec.get(&SOUTH)], spec.time);
+    let snow = weather.snow * spec.get(&SHARE) as f32;
+    let density = 8e-4 + 8e-3 * snow;
     let fog = FogLayer::new(Fog { light: air, density, end: 1e5 }, &view);
     let mut fields = Vec::new();
-    for flakes in &FIELDS {
-        let mut snow = Snow::new(flakes, spec.time, camera.eye.as_dvec3(), air_moves.drift, air_moves.snow);
-        snow.calm = Calm { wind: air_moves.wind, height: 1.7, depth: 1.5 };
-        fields.push(Emitter::Snow(snow));
+    let altered = cuts::PARAMETERS.then(|| altered(spec));
+    for flakes in altered.as_ref().unwrap_or(&FIELDS) {
+        let mut field = Snow::new(flakes, spec.time, view.camera().eye.as_dvec3(), weather.drift, snow);
+        field.calm = Calm { wind: weather.wind, height: 1.7, depth: 1.5 };
+        fields.push(Emitter::Snow(field));
     }
     let flakes = ParticleLayer::new(fields, &view, &spec.quality.particles).colored((air * 1.7 + 0.04).min(Vec3::ONE));
     let drawn = RasterLayer::new(world, &view, &spec.quality.raster);
