@@ -21,7 +21,7 @@ fn frames(criterion: &mut Criterion) {
     let mut renderer = Renderer::new(2).expect("two threads");
     let mut draw = |scene: &Scene, quality: &Quality| {
         let mut frame = Frame::new(SIZE.0, SIZE.1);
-        forget_maps();
+        forget_maps(&renderer);
         renderer.render(scene, 2.0, quality, &mut frame);
         frame
     };

@@ -12,8 +12,6 @@ use crate::frame::{FrameSpec, Picture, Scene};
 use crate::raster::{self, RasterLayer};
 use crate::trace::{TraceLayer, World};
 use crate::view::Camera;
-#[cfg(feature = "full")]
-use crate::view::View;
 
 /// A picture that is all ray tracing.
 fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
@@ -24,8 +22,8 @@ fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) ->
 /// A picture that is all triangles.
 #[cfg(feature = "full")]
 fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-    let view = View::new(spec.camera(camera), spec.width, spec.height);
-    Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))], transfer }
+    let drawn = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
+    Picture { layers: vec![Box::new(drawn)], transfer }
 }
 
 /// Every scene, the intro's own first; in the 64 kB build that alone.

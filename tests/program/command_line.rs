@@ -171,7 +171,7 @@ fn help_and_version_are_answered() {
     let more = ["--bench", "--json", "--stereo", "--eye-distance", "--convergence", "--list", "--version"];
     assert!(options.iter().all(|option| help.contains(option)), "{help}");
     assert!(more.iter().all(|option| help.contains(option) == MEASURES), "{help}");
-    assert!(!MEASURES || include_str!("../../README.md").contains(&*help), "the README has another help");
+    assert!(!MEASURES || include_str!("../../docs/usage.md").contains(&*help), "docs/usage.md has another help");
     if MEASURES {
         let version = String::from_utf8(succeeds(run(&["--version"]))).unwrap();
         assert_eq!(version, concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n"));
@@ -244,9 +244,9 @@ fn pieces_are_the_whole() {
 }
 
 #[test]
-fn the_readme_s_pieces_are_the_show() {
-    let readme = include_str!("../../README.md");
-    let (_, after) = readme.split_once(" seconds in pieces of ").unwrap();
+fn the_pieces_of_the_usage_are_the_show() {
+    let usage = include_str!("../../docs/usage.md");
+    let (_, after) = usage.split_once(" seconds in pieces of ").unwrap();
     let step: usize = after.split(',').next().unwrap().parse().unwrap();
     let (length, count) = (INTRO.duration as usize, INTRO.duration as usize / step);
     assert_eq!(INTRO.duration, (count * step) as f64, "a piece is cut off");
@@ -258,7 +258,7 @@ fn the_readme_s_pieces_are_the_show() {
         format!("$(({step} * SLURM_ARRAY_TASK_ID))"),
         format!("$((from + {step}))"),
     ] {
-        assert!(readme.contains(&text), "{text}");
+        assert!(usage.contains(&text), "{text}");
     }
 }
 

@@ -345,13 +345,13 @@ fn a_refusal_is_said() {
         return;
     }
     let output = with_authority(|path, own| fs::write(path, entry(own, COOKIES, &[1; 16])).unwrap());
-    assert!(has_no_window(&output).contains("the display refused us"));
+    assert!(has_no_window(&output).contains("the display refused access"));
     // Another display's cookie is not shown to this one, and one that is cut off is none.
     let output = with_authority(|path, own| {
         let cut = entry(own, COOKIES, &[7; 16]);
         fs::write(path, [&entry("1", COOKIES, &[7; 16])[..], &cut[..cut.len() - 1]].concat()).unwrap();
     });
-    assert!(has_no_window(&output).contains("the display refused us"));
+    assert!(has_no_window(&output).contains("the display refused access"));
 }
 
 #[test]

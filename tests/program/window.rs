@@ -434,7 +434,7 @@ fn a_screen_of_other_depths_is_no_window() {
     for depth in ["8", "16"] {
         let Some(display) = Display::of(&format!("640x480x{depth}")) else { return };
         let said = fails(&short(&display).output().unwrap(), if PLAIN { 0 } else { 1 });
-        assert!(said.contains("no X server with 32 bits a pixel"), "{said}");
+        assert!(said.contains("no X server with 32 bits per pixel"), "{said}");
     }
 }
 

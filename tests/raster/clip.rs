@@ -2,9 +2,8 @@
 //! f64.
 
 use glam::{Affine3A, DVec3, Vec3, vec3};
-use paprsek::raster::light::{Light, Source};
 use paprsek::raster::project::NEAR;
-use paprsek::raster::{Body, World};
+use paprsek::raster::{Body, Light, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use proptest::prelude::*;
@@ -322,7 +321,7 @@ proptest! {
 
 /// Three suns along the axes: a white surface has its normal as its colour, where that has no negative part.
 fn suns() -> Vec<Light> {
-    Vec3::AXES.map(|axis| Light { source: Source::Sun(axis), color: axis, shadow: None }).to_vec()
+    Vec3::AXES.map(|axis| Light::sun(axis, axis)).to_vec()
 }
 
 #[test]

@@ -5,11 +5,11 @@
 use fearless_simd::{Level, Simd, dispatch};
 use glam::{Affine3A, Vec3, Vec4, vec3};
 use paprsek::frame::Tile;
-use paprsek::raster::bins::{Bins, NOTHING, parts};
-use paprsek::raster::fill::{CENTER, Sample, Visible, fill};
-use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::project::Projection;
+use paprsek::raster::bins::Bins;
+use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
+use paprsek::raster::id::{NOTHING, parts};
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
+use paprsek::raster::{Face, Mesh, Paint, Projection};
 use testkit::{ULP, random::Random};
 
 /// Steps of 1/256 pixel, and nearness.
@@ -36,7 +36,7 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> SetupMesh {
         mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
     }
     let projection = Projection { rows: Vec4::AXES, size, texel: 1.0 };
-    TriangleSetup { projection, back_faces, shaded: false }.piece(&mesh, &Affine3A::IDENTITY)
+    TriangleSetup { projection, back_faces, shaded: false }.set_up(&mesh, &Affine3A::IDENTITY)
 }
 
 /// What each pixel of a picture shows: nearness and number of the triangle.
@@ -44,9 +44,9 @@ fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> SetupMesh {
 struct Shown(Vec<(f32, Option<usize>)>);
 
 /// Draws pieces as a frame does: by the tiles' lists.
-fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: Sample) -> Shown {
+fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: SubPixel) -> Shown {
     #[inline(always)]
-    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], sample: Sample, out: &mut Visible) {
+    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], sample: SubPixel, out: &mut Visible) {
         fill(simd, pieces, ids, at[0] as i32, at[1] as i32, sample, out);
     }
     let [width, height] = size.map(|n| n as usize);
@@ -75,7 +75,7 @@ fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: Sample) -> S
 }
 
 /// Where the sample of a pixel is, steps.
-fn sample_of(pixel: usize, width: u32, sample: Sample) -> [i128; 2] {
+fn sample_of(pixel: usize, width: u32, sample: SubPixel) -> [i128; 2] {
     let (x, y) = (pixel as i128 % width as i128, pixel as i128 / width as i128);
     [x * SUB as i128 + sample[0] as i128, y * SUB as i128 + sample[1] as i128]
 }
@@ -200,7 +200,7 @@ fn coverage_is_exact() {
 }
 
 /// How often each pixel is covered when each triangle is drawn alone.
-fn counts(level: Level, triangles: &[Corners], size: [u32; 2], sample: Sample) -> Vec<u32> {
+fn counts(level: Level, triangles: &[Corners], size: [u32; 2], sample: SubPixel) -> Vec<u32> {
     let mut counts = vec![0; (size[0] * size[1]) as usize];
     for t in triangles {
         // Whichever way it looks.

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, dispatch, prelude::*};
 use paprsek::frame::Tile;
-use paprsek::raster::shadow::DepthMap;
+use paprsek::raster::depth_map::{DepthMap, MapPoints};
 use paprsek::simd::lanes::F;
 use testkit::random::Random;
 
@@ -49,7 +49,9 @@ fn a_lookup_is_the_lit_share_of_the_texels_around() {
     fn look<S: Simd>(simd: S, map: &DepthMap, view: f32, at: [f32; 2], near: f32, smooth: bool) -> f32 {
         let splat = |v: f32| F::<S>::splat(simd, v);
         let all = splat(0.0).simd_eq(0.0);
-        map.light(simd, splat(view), splat(at[0]), splat(at[1]), splat(near), smooth, all)[0]
+        let points =
+            MapPoints { view: splat(view), x: splat(at[0]), y: splat(at[1]), inv_depth: splat(near), inside: all };
+        map.lit(simd, &points, smooth)[0]
     }
     let mut random = Random(1);
     for size in [64, 128] {

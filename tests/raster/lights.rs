@@ -1,10 +1,7 @@
 //! Several lights in one pass, how far they reach, and how much of a pixel triangles cover: against formulas in f64.
 
 use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
-use paprsek::raster::World;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::{Quality, RasterSettings};
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -16,7 +13,7 @@ const SIZE: [usize; 2] = [120, 80];
 const ONE: Quality = Quality::FAST;
 
 fn lamp(position: Vec3, falloff: Vec2, reach: f32, color: Vec3) -> Light {
-    Light { source: Source::Lamp { position, falloff, reach }, color, shadow: None }
+    Light::lamp(position, color, falloff, reach)
 }
 
 fn camera() -> Camera {
@@ -81,14 +78,12 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
             let color = vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
             let position =
                 vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
-            let plan = |views| {
-                Some(ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: k % 2 == 0 })
-            };
+            let plan = |views| Some(ShadowViews { smooth: k % 2 == 0, ..ShadowViews::new(views, bias) });
             match k % 4 {
                 0 => {
                     let towards = random.direction().with_y(0.7).normalize();
                     let views = vec![Projection::parallel(towards, Vec3::ZERO, 26.0, 256)];
-                    Light { source: Source::Sun(towards), color, shadow: plan(views) }
+                    Light { shadow: plan(views), ..Light::sun(towards, color) }
                 }
                 1 => {
                     let views = (0..6).map(|face| Projection::face(face, position, 128)).collect();
@@ -145,7 +140,7 @@ fn a_light_out_of_reach_changes_no_bit() {
             for (at, kind) in [(0, 0), (4, 0), (0, 1), (4, 2)] {
                 let bias = Bias { constant: 0.01, slope: 2.0, normal: 0.0 };
                 let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
-                let plan = ShadowViews { views, bias, back_faces: false, traced: kind == 2, from: 0, smooth: true };
+                let plan = ShadowViews { traced: kind == 2, ..ShadowViews::new(views, bias) };
                 let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6));
                 light.shadow = (kind > 0).then_some(plan);
                 let mut lights = few.clone();
@@ -163,7 +158,7 @@ fn a_light_out_of_reach_changes_no_bit() {
 fn a_lamp_counts_if_it_reaches_what_is_seen() {
     let mut random = Random(7);
     let camera = camera();
-    let raster = Projection::of_view(&View::new(camera, SIZE[0], SIZE[1]), SIZE.map(|n| n as u32));
+    let raster = Projection::of_view(&View::new(camera, SIZE[0], SIZE[1]));
     let mut number = |low: f64, high: f64| random.range(low, high);
     for _ in 0..20_000 {
         let (x, y) = (number(0.0, SIZE[0] as f64), number(0.0, SIZE[1] as f64));

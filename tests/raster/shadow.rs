@@ -5,15 +5,12 @@
 //! looks away from the sun is drawn: level ground does not.
 
 use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, World};
+use paprsek::frame::Cache;
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use std::sync::Arc;
-use testkit::drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
+use testkit::drawn::{Count, Planes, block, body, dark, draw, draw_with, enters, ground, ray};
 
 const SIZE: [usize; 2] = [220, 130];
 /// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
@@ -76,14 +73,13 @@ impl Sunny {
     fn plan(&self) -> ShadowViews {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
-        ShadowViews { views: vec![view], bias, back_faces, traced, from: 0, smooth }
+        ShadowViews { back_faces, traced, smooth, ..ShadowViews::new(vec![view], bias) }
     }
 
     fn draw(&self, camera: Camera) -> Planes {
         let (low, high) = self.block();
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
-        let source = Source::Sun(self.towards().as_vec3());
-        let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(self.plan()) }];
+        let lights = vec![Light::sun(self.towards().as_vec3(), Vec3::ONE).with_shadow(self.plan())];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     }
 
@@ -200,13 +196,13 @@ fn traced_shadows_have_their_outline() {
 #[test]
 fn a_plan_without_views_is_no_shadow() {
     let world = |shadow| {
-        let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
+        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
         World { lights, ..dark(vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))]) }
     };
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, testkit::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let plan = ShadowViews { views: Vec::new(), bias, back_faces: false, traced, from: 0, smooth: true };
+        let plan = ShadowViews { traced, ..ShadowViews::new(Vec::new(), bias) };
         assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
     }
 }
@@ -215,7 +211,7 @@ fn a_plan_without_views_is_no_shadow() {
 fn bodies_before_the_first_that_casts_hide_nothing() {
     // The box comes first: it hides the ground unless the plan begins after it.
     let picture = |shadow| {
-        let lights = vec![Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow }];
+        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
         let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
         draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, testkit::levels()[0].1)
     };
@@ -224,7 +220,8 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
         let hidden = |from| {
             let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
             let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
-            let found = picture(Some(ShadowViews { views, bias, back_faces: false, traced, from, smooth: true }));
+            let plan = ShadowViews { traced, first_caster: from, ..ShadowViews::new(views, bias) };
+            let found = picture(Some(plan));
             let pairs = found.color.iter().zip(&truth.color);
             pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
         };
@@ -271,8 +268,7 @@ fn the_finest_map_that_reaches_is_looked_up() {
         let mut plan = fine.plan();
         plan.views.extend(wide.plan().views);
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
-        let source = Source::Sun(fine.towards().as_vec3());
-        let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
+        let lights = vec![Light::sun(fine.towards().as_vec3(), Vec3::ONE).with_shadow(plan)];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     };
     let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
@@ -303,7 +299,7 @@ fn kept_maps_change_no_frame() {
     let shapes: Vec<Arc<Mesh>> = [1.0, 1.0, 0.6].map(|s| Arc::new(block(BOX.0 * s, BOX.1 * s))).to_vec();
     let floor = Arc::new(ground(14.0, 0.0, 6));
     // Box, its place, is it there, the sun, texels, lights.
-    let frame = |k: usize, fresh: bool| {
+    let frame = |cache: &Cache, k: usize, fresh: bool| {
         let renew = |mesh: &Arc<Mesh>| if fresh { Arc::new(Mesh::clone(mesh)) } else { mesh.clone() };
         // Every way in which one frame may resemble the last.
         let shape = [0, 0, 1, 1, 0, 2, 0, 0, 0, 0][k % 10];
@@ -321,13 +317,9 @@ fn kept_maps_change_no_frame() {
         };
         let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
         let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
-        let lamp = Light {
-            source: Source::Lamp { position, falloff: Vec2::new(0.0, 0.1), reach: 20.0 },
-            color: Vec3::X,
-            shadow: Some(ShadowViews { views, ..scene.plan() }),
-        };
-        let source = Source::Sun(scene.towards().as_vec3());
-        let mut lights = vec![Light { source, color: Vec3::ONE, shadow: Some(scene.plan()) }, lamp];
+        let lamp = Light::lamp(position, Vec3::X, Vec2::new(0.0, 0.1), 20.0);
+        let lamp = lamp.with_shadow(ShadowViews { views, ..scene.plan() });
+        let mut lights = vec![Light::sun(scene.towards().as_vec3(), Vec3::ONE).with_shadow(scene.plan()), lamp];
         if k % 4 == 3 {
             lights.reverse();
         }
@@ -336,18 +328,19 @@ fn kept_maps_change_no_frame() {
         let mut bodies = vec![Body::new(renew(&floor), Affine3A::IDENTITY), Body::new(renew(&shapes[shape]), place)];
         bodies.truncate(1 + there as usize);
         let size = [[90, 60], [64, 64], [33, 70]][k % 3];
-        draw(&World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, testkit::levels()[0].1)
+        draw_with(cache, &World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, testkit::levels()[0].1)
     };
-    let truths: Vec<Planes> = (0..40).map(|k| frame(k, true)).collect();
-    // Several at once: they take maps from each other.
+    let truths: Vec<Planes> = (0..40).map(|k| frame(&Cache::default(), k, true)).collect();
+    // Several at once with one cache: they take maps from each other.
+    let cache = Cache::default();
     std::thread::scope(|scope| {
         for thread in 0..3 {
-            let (frame, truths) = (&frame, &truths);
+            let (frame, truths, cache) = (&frame, &truths, &cache);
             scope.spawn(move || {
                 for k in 0..120 {
                     // Often the same twice, or back to the one before.
                     let k = [k, k, k + 1, k][k % 4] * (thread + 1) % truths.len();
-                    assert_eq!(truths[k].differs(&frame(k, false)), None, "frame {k}");
+                    assert_eq!(truths[k].differs(&frame(cache, k, false)), None, "frame {k}");
                 }
             });
         }

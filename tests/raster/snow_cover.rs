@@ -1,17 +1,14 @@
 //! Snow that settles, against its formula in f64 and what stands above a point.
 
 use glam::{DVec3, Vec3, vec3};
+use paprsek::frame::Cache;
 use paprsek::noise::noise;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, SnowCover, WHITE};
-use paprsek::raster::{Body, World};
+use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, WHITE};
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
 use paprsek::view::Camera;
-use testkit::drawn::{Planes, block, body, dark, draw, enters, ground, ray, triangles};
+use testkit::drawn::{Planes, block, body, dark, draw, draw_with, enters, ground, ray, triangles};
 
 const SIZE: [usize; 2] = [160, 100];
 const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
@@ -20,19 +17,13 @@ const GROUND: Vec3 = vec3(0.16, 0.14, 0.05);
 
 /// A plan of one view straight down, `width` metres wide.
 fn plan(width: f32, texels: u32) -> ShadowViews {
-    ShadowViews {
-        views: vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)],
-        bias: Bias { constant: 0.05, slope: 2.0, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        from: 0,
-        smooth: true,
-    }
+    let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)];
+    ShadowViews::new(views, Bias { constant: 0.05, slope: 2.0, normal: 0.0 })
 }
 
 fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
-    let from = Light { source: Source::Sun(Vec3::Y), color: Vec3::ONE, shadow };
-    Some(SnowCover { amount, from, gives: Vec3::ZERO })
+    let fall = Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) };
+    Some(SnowCover { amount, fall, sky: Vec3::ZERO })
 }
 
 /// Light from all around, so that a picture has the albedo of what it shows.
@@ -125,7 +116,7 @@ fn open_slopes_are_covered_by_their_formula() {
             let world = even(vec![body(paint(mesh, albedo, gloss))]);
             let camera = Camera::look_at(vec3(0.0, 6.0, 14.0), Vec3::ZERO, 0.5, 0.0);
             for amount in AMOUNTS {
-                let settled = snow(amount, None).map(|snow| SnowCover { gives: light, ..snow });
+                let settled = snow(amount, None).map(|snow| SnowCover { sky: light, ..snow });
                 let planes = picture(&World { snow: settled, ..world.clone() }, camera);
                 for (pixel, found) in planes.color.iter().enumerate().filter(|(pixel, _)| planes.coverage[*pixel] > 0.0)
                 {
@@ -264,15 +255,17 @@ fn more_snow_is_nowhere_less_white() {
 #[test]
 fn every_level_gives_the_same_bits_with_a_kept_map_too() {
     let (world, camera) = stage();
+    let cache = Cache::default();
     for quality in [Quality::FAST, Quality::DEFAULT] {
         let world = World { snow: snow(0.6, Some(plan(24.0, 128))), ..world.clone() };
         let truth = draw(&world, camera, SIZE, quality, testkit::levels()[0].1);
         for (name, level) in testkit::levels() {
             for _ in 0..2 {
-                assert_eq!(draw(&world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
+                assert_eq!(draw_with(&cache, &world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
             }
             // Other snow in between.
-            draw(&World { snow: snow(0.6, Some(plan(12.0, 64))), ..world.clone() }, camera, SIZE, quality, level);
+            let other = World { snow: snow(0.6, Some(plan(12.0, 64))), ..world.clone() };
+            draw_with(&cache, &other, camera, SIZE, quality, level);
         }
     }
 }

@@ -4,11 +4,7 @@
 //! (dark instead of lit) and leaks (lit instead of dark) are counted apart.
 
 use glam::{DVec3, Vec2, Vec3, vec3};
-use paprsek::raster::World;
-use paprsek::raster::light::{Light, Source};
-use paprsek::raster::mesh::Mesh;
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, Light, Mesh, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use testkit::drawn::{Count, block, body, dark, draw, enters, ray};
@@ -46,9 +42,8 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
-    let plan = ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth };
-    let source = Source::Lamp { position: torch, falloff: Vec2::ZERO, reach: f32::INFINITY };
-    let lights = vec![Light { source, color: Vec3::ONE, shadow: Some(plan) }];
+    let plan = ShadowViews { smooth, ..ShadowViews::new(views, bias) };
+    let lights = vec![Light::lamp(torch, Vec3::ONE, Vec2::ZERO, f32::INFINITY).with_shadow(plan)];
     let mut bodies = vec![body(room(half))];
     bodies.extend(boxes.iter().map(|b| body(block(b.0, b.1))));
     let world = World { lights, ..dark(bodies) };

@@ -2,8 +2,8 @@
 //! other writing.
 
 use glam::{DVec3, Mat3, Vec3, vec3};
-use paprsek::raster::form::{Body, SQUARE};
-use paprsek::raster::mesh::Mesh;
+use paprsek::raster::Mesh;
+use paprsek::raster::form::{Rings, SQUARE};
 use paprsek::scenes::models::{chapel, land, mustang, tree};
 use paprsek::simd::hash::{pcg, rnd};
 use std::collections::HashMap;
@@ -135,8 +135,8 @@ fn bodies_are_closed_by_poles() {
     const ROWS: &[[i8; 5]] = &[[-3, 0, 0, 0, 0], [-3, 0, 1, 2, 0], [3, 0, 1, 2, 0], [3, 0, 0, 0, 0]];
     for (sides, swell, expected) in [(4, SQUARE, 48.0), (4, 0.0, 24.0), (64, 0.0, 12.0 * std::f64::consts::PI)] {
         let mut mesh = Mesh::painted(&mustang::PAINTS);
-        let body = Body { rows: ROWS, sides, half: false, swell, taper: 0.0 };
-        mesh.body(&body, &Mat3::IDENTITY, Vec3::X, 0);
+        let body = Rings { rows: ROWS, sides, half: false, swell, taper: 0.0 };
+        mesh.rings(&body, &Mat3::IDENTITY, Vec3::X, 0);
         let all: Vec<_> = (0..mesh.faces.len()).collect();
         assert!(open([&mesh]).is_empty());
         assert_eq!(euler(&mesh, &all), 2);

@@ -1,11 +1,12 @@
-//! The command line: what was asked for, or the one line that says why not.
+//! The command line: what was asked for, or one line that says what is wrong with it.
 //!
-//! Words are bytes, as a directory need not be Unicode.
+//! The text of `--help` is the table of options too, so the two cannot disagree and the 64 kB build holds one of them.
+//! Words are bytes, because the name of a directory need not be Unicode.
 
 #[cfg(target_os = "linux")]
 use crate::io::contents;
-use crate::io::fill;
-use crate::text::{decimal, whole};
+use crate::text::{decimal, fill, whole};
+use paprsek::cuts;
 use paprsek::frame::pool::cores;
 use paprsek::frame::{Options, Scene};
 use paprsek::scenes;
@@ -13,148 +14,160 @@ use paprsek::settings::Quality;
 use paprsek::view::Stereo;
 use std::ops::Range;
 
-/// The text of `--help`, which is the table of options too. From its second line on each has an option and what its
-/// value is, where it takes one; from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
+/// The text of `--help`, which is the table of options too. Each line from the second on has an option and the name of
+/// its value, if it takes one, and from column [`ABOUT`] on what it does. The order is that of [`Args::read`].
 macro_rules! help {
     ($play:literal, $exact:literal, $own:literal) => {
         concat!(
             $play,
             " in a window
-  --at SECONDS                one instant, up to 10^12
-  --from SECONDS              start there, up to 10^12
-  --to SECONDS                end there, up to 10^12
-  --fps N                     frames per second of a capture, or held while playing: up to 1000; default 30
-  --threads N                 1 to 1024, cores at most; default: all cores
-  --size WxH                  pixels: 1 to 16384 each, up to 67108864; default 1280x720, fewer if that plays too slowly
+  --at SECONDS                show one instant, up to 10^12
+  --from SECONDS              start at this time, up to 10^12
+  --to SECONDS                end at this time, up to 10^12
+  --fps N                     frames per second of a capture, or to hold while playing: up to 1000; default 30
+  --threads N                 1 to 1024, but no more than there are cores; default: all cores
+  --size WxH                  pixels: 1 to 16384 each, 67108864 in all; default 1280x720, or less if that plays too slowly
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
             "
-  --capture DIR               no window: frame-N.ppm in DIR, N = seconds x fps, or a stream to stdout for -
+  --capture DIR               write frames to DIR/frame-N.ppm, N = seconds x fps; if DIR is -, stream them to stdout
   --fullscreen                fill the screen
-  --help                      print this
+  --help                      print this help
 ",
             $own,
             "\
-keys: Esc ends, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S saves a still, F fills the screen
+keys: Esc quits, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S saves a still, F toggles full screen
 "
         )
     };
 }
 
-/// With what is there to be measured, and for two eyes,
+/// The help, with what measures and what is for two eyes.
 #[cfg(feature = "full")]
 pub const HELP: &str = help!(
     "paprsek [SCENE] [OPTION]...   play the intro, or loop one SCENE,",
-    "; exact: no shortcut; reference: 64 samples a pixel",
+    "; exact: no shortcuts; reference: 64 samples per pixel",
     "  --version                   print name and version
-  --eye-distance METRES       with --stereo: 0 to 100; default 0.065
-  --convergence METRES        with --stereo: 0.01 to 10000; default 5
-  --stereo                    two eyes side by side
-  --list                      print the scenes
-  --bench                     no window: time SCENE, or every scene
-  --json                      with --bench: JSON lines
+  --eye-distance METRES       with --stereo: between the eyes, 0 to 100; default 0.065
+  --convergence METRES        with --stereo: from the eyes to the plane of the screen, 0.01 to 10000; default 5
+  --stereo                    render for two eyes, side by side
+  --list                      list the scenes
+  --bench                     time SCENE, or every scene, without a window
+  --json                      with --bench: print JSON lines
 "
 );
-/// and without them.
+/// The help of the 64 kB build, which plays and captures only.
 #[cfg(not(feature = "full"))]
 pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
+/// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
-/// Options in [`HELP`].
-const OPTIONS: usize = if BENCH { 17 } else { 10 };
-/// Is there more to ask for than the show? Not in the 64 kB build.
-pub const BENCH: bool = cfg!(feature = "full");
-/// Places of the whole numbers among them.
+/// The number of options where none is left out.
+const ALL_OPTIONS: usize = 17;
+/// The number of options in [`HELP`].
+const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS } else { 10 };
+
+// The places of options with a value in [`HELP`].
+const AT: usize = 0;
+const FROM: usize = 1;
+const TO: usize = 2;
+const FPS: usize = 3;
 const THREADS: usize = 4;
 const SIZE: usize = 5;
 const QUALITY: usize = 6;
 const CAPTURE: usize = 7;
+const EYE_DISTANCE: usize = 11;
+const CONVERGENCE: usize = 12;
 
-/// What goes against what, in the order in which [`Args::read`] looks.
+/// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
---at goes without --from and --to
---from lies after --to
---from lies after the end: give --to
---to or --fps is too high: frames end at 1000000
+--at excludes --from and --to
+--from is later than --to
+--from is later than the end: give --to
+--to or --fps is too high: frame numbers have six digits
 ";
 
-/// Options that take a decimal number, with the least, the largest and the usual one.
+/// The options that take a decimal number: their place, least value, largest value and default.
 ///
-/// Up to some 10^12 a time in milliseconds is exact, and so is the name of its still.
-/// A lens shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean
-/// distance of adults' eyes is 0.063 (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the
-/// show's subjects are at 3 to 10 metres.
+/// A time in milliseconds is exact up to more than 10^12 seconds, and so is the name of its still. A lens that is
+/// shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean distance
+/// of adults' eyes is 0.063 m (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the show's
+/// subjects are 3 to 10 m away.
 const RANGES: [(usize, f64, f64, f64); 6] = [
-    (0, 0.0, 1e12, 0.0),
-    (1, 0.0, 1e12, 0.0),
-    (2, 0.0, 1e12, f64::INFINITY),
-    (3, f64::MIN_POSITIVE, 1000.0, 30.0),
-    (11, 0.0, 100.0, 0.065),
-    (12, 0.01, 10000.0, 5.0),
+    (AT, 0.0, MAX_TIME, 0.0),
+    (FROM, 0.0, MAX_TIME, 0.0),
+    (TO, 0.0, MAX_TIME, f64::INFINITY),
+    (FPS, f64::MIN_POSITIVE, 1000.0, 30.0),
+    (EYE_DISTANCE, 0.0, 100.0, 0.065),
+    (CONVERGENCE, 0.01, 10000.0, 5.0),
 ];
 
-/// Longest side of a picture, pixels.
+/// Latest time, seconds.
+const MAX_TIME: f64 = 1e12;
+/// Width and height of a frame where none are given, pixels.
+const USUAL_SIZE: (usize, usize) = (1280, 720);
+/// Longest side of a frame, pixels.
 const MAX_SIDE: usize = 16384;
-/// Most pixels of a picture: 256 MB at four bytes.
+/// Most pixels of a frame, 256 MB at four bytes each.
 const MAX_PIXELS: usize = 1 << 26;
 /// Most threads.
 const MAX_THREADS: usize = 1024;
-/// Where the numbers of frames end: those in the file names have six digits.
+/// Where the numbers of frames end: in the names of files they have six digits.
 const MAX_FRAMES: usize = 1_000_000;
 
 /// What the executable does.
 pub enum Mode {
-    /// Plays in a window, or the best that there is instead.
+    /// Plays in a window, or in the next best place that there is.
     Play,
-    /// Times scenes; JSON lines instead of a table where `json`.
+    /// Times scenes.
     #[cfg(feature = "full")]
     Bench {
-        /// One JSON object a line instead of a table.
+        /// Whether to print one JSON object per line instead of a table.
         json: bool,
     },
-    /// Writes PPM files into a directory, or a stream of them to stdout where it is `-`.
+    /// Writes PPM files into this directory, or a stream of them to stdout where it is `-`.
     Capture(&'static [u8]),
     /// Prints a text.
     Print(&'static str),
-    /// Prints the scenes.
+    /// Lists the scenes.
     List,
 }
 
-/// A command line, checked.
+/// A checked command line.
 pub struct Args {
     /// What to do.
     pub mode: Mode,
-    /// The scene, where one was named.
+    /// The scene, if one was named.
     pub scene: Option<&'static Scene>,
-    /// Pixels in a row, and rows.
+    /// Width and height of frames, pixels.
     pub size: (usize, usize),
-    /// Threads; 0 is all cores.
+    /// The number of threads; 0 for all cores.
     pub threads: usize,
-    /// The first instant to show, seconds of scene time; none shows the scene as it comes.
+    /// The first instant to show, seconds of the scene. Without it the scene plays from its start.
     pub start: Option<f64>,
-    /// Where a range ends (`--to`).
+    /// Where a range ends (`--to`), seconds of the scene.
     pub end: Option<f64>,
-    /// The first instant alone (`--at`).
+    /// Whether to show the first instant alone (`--at`).
     pub still: bool,
-    /// Frames per second of a capture, and those that playing holds.
+    /// Frames per second: of a capture, or to hold while playing.
     pub fps: f64,
-    /// The window fills the screen.
-    pub full: bool,
+    /// Whether the window fills the screen.
+    pub fullscreen: bool,
     /// Quality, eyes and parameters.
     pub options: Options<'static>,
     /// The name of the quality.
     #[cfg(feature = "full")]
     pub quality_name: &'static str,
-    /// Frames may be smaller while they come late: neither size nor quality was asked for.
+    /// Whether frames may be smaller while they come late: not where a size or a quality was asked for.
     pub governed: bool,
 }
 
 impl Args {
-    /// The scene to play: the intro where none was named.
+    /// The scene to play: the intro if none was named.
     pub fn scene(&self) -> &'static Scene {
         self.scene.unwrap_or(&scenes::ALL[0])
     }
 
-    /// Reads the command line of this process; the error is one line without the program's name.
+    /// Reads the command line of this process. An error is one line without the program's name.
     #[inline(never)]
     pub fn from_env() -> Result<Args, Vec<u8>> {
         let mut words = words();
@@ -163,22 +176,22 @@ impl Args {
         words.next();
         while let Some(word) = words.next() {
             if !word.starts_with(b"-") {
-                if BENCH && scene.is_none() {
-                    scene = Some(named(word)?);
+                if cuts::SCENES && scene.is_none() {
+                    scene = Some(scene_named(word)?);
                     continue;
                 }
-                return Err(fill("there is no option '%'; see --help", &[word]));
+                return Err(fill("unknown option '%'; see --help", &[word]));
             }
             let (name, given) = cut(word, b'=');
             let Some((option, (_, what))) = (0..OPTIONS).map(|at| (at, cut(help(at).0, b' '))).find(|o| o.1.0 == name)
             else {
-                return Err(fill("there is no option '%'; see --help", &[name]));
+                return Err(fill("unknown option '%'; see --help", &[name]));
             };
             let value = match given {
                 None if what.is_some() => words.next().unwrap_or_default(),
                 _ => given.unwrap_or_default(),
             };
-            // Another option in its place is a forgotten value, not a strange one.
+            // Where another option is in its place, the value was forgotten.
             let lacks = what.is_some() && (value.is_empty() || value.starts_with(b"--"));
             if lacks || what.is_none() && given.is_some() {
                 return Err(refuse(option, value));
@@ -188,22 +201,41 @@ impl Args {
         Args::read(scene, values)
     }
 
+    /// Checks the values of options against their ranges and against each other.
     #[inline(never)]
     fn read(scene: Option<&'static Scene>, values: [Option<&'static [u8]>; OPTIONS]) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].unwrap_or_default());
-        let (numbers, threads, size, (_quality_name, quality)) = understood(&values).map_err(refused)?;
+        let (numbers, threads, size, (_quality_name, quality)) = parse(&values).map_err(refused)?;
         let [instant, from, until, fps, eye_distance, convergence] = numbers;
-        let mut is = [false; 17];
+        let mut is = [false; ALL_OPTIONS];
         for (is, value) in is.iter_mut().zip(values) {
             *is = value.is_some();
         }
-        let [at, since, to, _, _, sized, rated, capture, full, help, version, apart, agree, two, list, bench, json] =
-            is;
-        let (two, bench, json, target) = (BENCH && two, BENCH && bench, BENCH && json, values[CAPTURE]);
+        let [
+            at,
+            since,
+            to,
+            _,
+            _,
+            sized,
+            rated,
+            capture,
+            fullscreen,
+            help,
+            version,
+            apart,
+            agree,
+            two,
+            list,
+            bench,
+            json,
+        ] = is;
+        let (two, bench, json) = (cuts::STEREO && two, cuts::BENCH && bench, cuts::BENCH && json);
+        let target = values[CAPTURE];
         let mode = match target {
             _ if help => Mode::Print(HELP),
-            _ if BENCH && version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
-            _ if BENCH && list => Mode::List,
+            _ if cuts::ALL_OPTIONS && version => Mode::Print(concat!("paprsek ", env!("CARGO_PKG_VERSION"), "\n")),
+            _ if cuts::SCENES && list => Mode::List,
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "full")]
             None if bench => Mode::Bench { json },
@@ -222,13 +254,13 @@ impl Args {
             end,
             still,
             fps,
-            full,
+            fullscreen,
             options: Options { quality, stereo, values: &[] },
             #[cfg(feature = "full")]
             quality_name: _quality_name,
             governed,
         };
-        // A benchmark of all scenes has no one end; it times single instants past an end without harm.
+        // A benchmark of all scenes has no single end, and can time instants past the end of some.
         let endless = to || bench && scene.is_none();
         let clashes = [
             at && (since || to),
@@ -236,17 +268,17 @@ impl Args {
             !endless && from >= args.scene().duration,
             capture && args.frames().end > MAX_FRAMES,
         ];
-        if BENCH && (apart || agree) && !two {
-            return Err(b"--eye-distance and --convergence go with --stereo".to_vec());
+        if cuts::STEREO && (apart || agree) && !two {
+            return Err(b"--eye-distance and --convergence need --stereo".to_vec());
         }
         if two && size.0 < 2 {
-            return Err(b"--stereo needs a width of 2 or more".to_vec());
+            return Err(b"--stereo needs a width of at least 2".to_vec());
         }
         if bench && capture {
-            return Err(b"--bench and --capture: choose one".to_vec());
+            return Err(b"--bench excludes --capture".to_vec());
         }
         if json && !bench {
-            return Err(b"--json goes with --bench".to_vec());
+            return Err(b"--json needs --bench".to_vec());
         }
         match clashes.into_iter().position(|clash| clash) {
             Some(clash) => Err(line(CLASHES, clash).to_vec()),
@@ -254,29 +286,30 @@ impl Args {
         }
     }
 
-    /// Where what is shown of a scene ends, seconds.
-    pub fn end(&self, scene: &Scene) -> f64 {
+    /// Where the range to show of a scene ends, seconds.
+    pub fn end_of(&self, scene: &Scene) -> f64 {
         if self.still { self.start } else { self.end }.unwrap_or(scene.duration)
     }
 
-    /// The numbers of a capture's frames: number 0 for one instant, else those of the whole film, of which the n-th is at
-    /// n / `fps` seconds, that are not before the start of the range but before its end. So pieces of a film share none.
+    /// The numbers of the frames to capture. For one instant that is 0. Otherwise the n-th frame of the whole film is
+    /// at n / `fps` seconds, and those from the start of the range, but before its end, are captured. So pieces of a
+    /// film share no frame.
     pub fn frames(&self) -> Range<usize> {
         if self.still {
             return 0..1;
         }
-        // A millionth of a frame is rounding of the product.
+        // Less than a millionth of a frame is rounding of the product.
         let [first, end] =
-            [self.start.unwrap_or(0.0), self.end(self.scene())].map(|time| (time * self.fps - 1e-6).ceil() as usize);
+            [self.start.unwrap_or(0.0), self.end_of(self.scene())].map(|time| (time * self.fps - 1e-6).ceil() as usize);
         first..end
     }
 }
 
-/// The values of the options that have one: decimal numbers, threads, size, quality. Those that were not given are the
-/// usual ones; the error is the option whose value will not do.
+/// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads,
+/// size, and quality. The error is the place of an option whose value will not do.
 #[allow(clippy::type_complexity)]
 #[inline(never)]
-fn understood(
+fn parse(
     values: &[Option<&[u8]>],
 ) -> Result<([f64; RANGES.len()], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
     let mut numbers = [0.0; RANGES.len()];
@@ -288,7 +321,7 @@ fn understood(
     }
     let within = |text: &[u8], most| whole(text).filter(|number| (1..=most).contains(number));
     let threads = match values[THREADS] {
-        // Threads without a core would wait for the others, and each takes memory.
+        // Threads without a core would only wait for the others, and each takes memory.
         Some(value) => within(value, MAX_THREADS).ok_or(THREADS)?.min(cores()),
         None => 0,
     };
@@ -298,14 +331,14 @@ fn understood(
             let sides = within(width, MAX_SIDE).zip(within(height.unwrap_or_default(), MAX_SIDE));
             sides.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or(SIZE)?
         }
-        None => (1280, 720),
+        None => USUAL_SIZE,
     };
     let name = values[QUALITY].unwrap_or(b"default");
     let quality = Quality::NAMED.iter().find(|named| named.0.as_bytes() == name).ok_or(QUALITY)?;
     Ok((numbers, threads, size, quality))
 }
 
-/// The words of this process's command line, which stay for the whole run.
+/// The words of this process's command line, which are kept for the whole run.
 #[cfg(target_os = "linux")]
 fn words() -> impl Iterator<Item = &'static [u8]> {
     let text: &[u8] = contents(b"/proc/self/cmdline\0").leak();
@@ -318,23 +351,23 @@ fn words() -> impl Iterator<Item = &'static [u8]> {
     std::env::args_os().map(|word| &*word.into_encoded_bytes().leak())
 }
 
-/// A line of a text.
+/// A line of a text, counted from 0.
 fn line(text: &'static str, number: usize) -> &'static [u8] {
     pieces(text.as_bytes(), b'\n').nth(number).unwrap_or_default()
 }
 
-/// What is between such bytes.
+/// The pieces of a text between separators.
 fn pieces(text: &'static [u8], by: u8) -> impl Iterator<Item = &'static [u8]> {
     text.split(move |&byte| byte == by)
 }
 
-/// What [`HELP`] has about an option: its name and what its value is, then what it does.
+/// What [`HELP`] has about an option: its name and the name of its value, and what it does.
 fn help(option: usize) -> (&'static [u8], &'static [u8]) {
     let (head, about) = line(HELP, option + 1).split_at(ABOUT);
     (head.trim_ascii(), about)
 }
 
-/// What is before the first such byte, and what is after it.
+/// What is before the first byte of this kind, and what is after it.
 fn cut(text: &[u8], at: u8) -> (&[u8], Option<&[u8]>) {
     match text.iter().position(|&byte| byte == at) {
         Some(place) => (&text[..place], Some(&text[place + 1..])),
@@ -342,15 +375,16 @@ fn cut(text: &[u8], at: u8) -> (&[u8], Option<&[u8]>) {
     }
 }
 
-/// The message about a value that will not do.
+/// The error about a value that will not do.
 fn refuse(option: usize, value: &[u8]) -> Vec<u8> {
     let (head, about) = help(option);
     fill("% does not take '%': %", &[head, value, about])
 }
 
-fn named(name: &[u8]) -> Result<&'static Scene, Vec<u8>> {
+/// The scene of that name; the error lists those that there are.
+fn scene_named(name: &[u8]) -> Result<&'static Scene, Vec<u8>> {
     scenes::ALL.iter().find(|scene| scene.name.as_bytes() == name).ok_or_else(|| {
-        let mut why = fill("there is no scene '%'; the scenes are", &[name]);
+        let mut why = fill("unknown scene '%'; the scenes are", &[name]);
         for scene in scenes::ALL {
             why = fill("% %", &[&why, scene.name.as_bytes()]);
         }

@@ -1,63 +1,74 @@
-//! The time of a scene that plays: real time, paused, moved by hand, looped.
+//! The time of a scene that plays: real time, which can be paused, moved by keys, and looped.
 
-use crate::args::{Args, BENCH};
+use crate::args::Args;
+use paprsek::cuts;
 use paprsek::frame::Scene;
 use paprsek::scenes::show::intro::{INTRO, PARTS};
 use std::time::Instant;
 
-/// What the keys move.
+/// How far an arrow key moves, seconds.
+pub const SEEK: f64 = 5.0;
+/// Shortest duration of a loop, seconds.
+const SHORTEST: f64 = 1e-3;
+
+/// The clock of what plays, which the keys move. Times are seconds of the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
-    /// Scene time at `since`, or for good while `since` is `None`.
+    /// The time at `since`, or for as long as the clock rests.
     base: f64,
+    /// When the clock was started or moved last; `None` while it rests.
     since: Option<Instant>,
+    /// Where a range begins.
     start: f64,
-    /// Where playing ends; the scene loops without it.
+    /// Where playing ends; without it the scene loops.
     end: Option<f64>,
+    /// Where the scene ends.
     duration: f64,
-    /// Is it the show, with parts to jump to?
+    /// Whether the scene is the show, which has parts to jump to.
     show: bool,
 }
 
 impl Clock {
-    /// A clock that starts now. `--at` starts paused at its instant.
+    /// A clock that starts now; for `--at`, one that rests at its instant.
     pub fn new(args: &Args) -> Clock {
         let start = args.start.unwrap_or(0.0);
         let since = (!args.still).then(Instant::now);
         let Scene { name, duration, .. } = *args.scene();
-        // Not zero, since time is taken modulo the duration.
-        Clock { base: start, since, start, end: args.end, duration: duration.max(1e-3), show: name == INTRO.name }
+        // Not zero, since the time is taken modulo the duration.
+        let duration = duration.max(SHORTEST);
+        Clock { base: start, since, start, end: args.end, duration, show: name == INTRO.name }
     }
 
-    /// The same clock, but ending with the scene instead of looping.
+    /// The same clock, but it ends with the scene instead of looping.
     #[cfg(all(unix, feature = "terminal"))]
     pub fn once(self) -> Clock {
         let still = self.since.is_none();
         Clock { end: self.end.or((!still).then_some(self.duration)), ..self }
     }
 
+    /// The time, whatever ends or loops.
     fn raw(&self) -> f64 {
         self.base + self.since.map_or(0.0, |since| since.elapsed().as_secs_f64())
     }
 
-    /// The scene time to show now; `None` past the end.
+    /// The time to show now; `None` past the end.
     pub fn now(&self) -> Option<f64> {
         let time = self.raw();
         match (self.end, self.since) {
             (Some(end), _) => (time < end).then_some(time),
-            // A still is shown as asked for, even past the end of the scene.
+            // A still is shown as it was asked for, even past the end of the scene.
             (None, None) => Some(time),
             (None, Some(_)) => Some(wrap(time, self.duration)),
         }
     }
 
-    /// Stops, or goes on.
+    /// Pauses, or continues.
     pub fn toggle(&mut self) {
         self.base = self.now().unwrap_or(self.base);
         self.since = if self.since.is_none() { Some(Instant::now()) } else { None };
     }
 
-    /// Does time stand still?
+    /// Whether time stands still.
     pub fn rests(&self) -> bool {
         self.since.is_none()
     }
@@ -67,23 +78,23 @@ impl Clock {
         self.go(self.now().unwrap_or(self.base) + seconds);
     }
 
-    /// Goes to where a part starts, counted from 0; nowhere where there is none.
+    /// Goes to the start of a part, counted from 0. Does nothing where there is no such part.
     pub fn jump(&mut self, part: usize) {
-        // Of a scene that is not the show its start is the only part, and so the show's first.
-        let parts = if BENCH && !self.show { &PARTS[..1] } else { PARTS };
+        // A scene other than the show has one part, which starts where the show's first does: at 0.
+        let parts = if cuts::SCENES && !self.show { &PARTS[..1] } else { PARTS };
         if let Some(part) = parts.get(part) {
             self.go(part.0);
         }
     }
 
-    /// Goes to a scene time; a looping scene wraps, a range stops at its start.
+    /// Goes to a time. A looping scene wraps, a range stops at its start.
     fn go(&mut self, time: f64) {
         self.base = if self.end.is_some() { time.max(self.start) } else { wrap(time, self.duration) };
         self.since = self.since.map(|_| Instant::now());
     }
 }
 
-/// A time within a loop. The exact remainder, `%`, is 736 bytes of long division.
+/// A time within a loop. Not by `%`, whose exact remainder is 736 bytes of long division.
 fn wrap(time: f64, duration: f64) -> f64 {
     (time - (time / duration).floor() * duration).max(0.0)
 }

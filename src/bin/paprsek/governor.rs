@@ -1,43 +1,53 @@
-//! How large frames are while they play, so that a slow machine holds the frame rate: a pure function of the times that
-//! frames have taken.
+//! The size of frames while they play: smaller ones where the machine is too slow for the frame rate.
 //!
-//! Size alone, at the usual quality: three quarters of a side are nearer to the reference than `fast` is at the whole
-//! (41.6 against 40.3 dB in `lumen` at 9.2 s, 43.6 against 42.1 in `day` at 40 s, scaled up to 1280x720), and `fast`
-//! hardly helps where triangles and clouds are drawn.
+//! A governor is a pure function of the times that frames have taken. Late frames count up, light ones count down, and
+//! at a limit of either the size goes down or up by one step. A step up is a trial, for which light frames have to come
+//! for long, and each step down doubles how many of them.
+//!
+//! Only the size gives way, never the quality: at three quarters of each side a frame is nearer to the reference than
+//! `fast` is at the whole (41.6 against 40.3 dB in `lumen` at 9.2 s, 43.6 against 42.1 in `day` at 40 s, scaled up to
+//! 1280x720), and
+//! `fast` hardly helps where triangles and clouds are drawn.
 
-/// Eighths of a side, step by step: frames take 1, 0.73, 0.5 and 0.42 times as long, sizes of 16 by 9 stay it, and so
-/// few steps are seldom changed.
+/// The sizes, in eighths of each side. Frames take 1, 0.73, 0.5 and 0.42 times as long; 16:9 stays 16:9; and with so
+/// few steps the size seldom changes.
 pub const EIGHTHS: [usize; 4] = [8, 6, 4, 3];
-/// Share of the time that a frame may take below which the next larger one fits too: no step takes half as long again.
+/// The whole size's place in [`EIGHTHS`].
+pub const WHOLE: usize = 0;
+/// A frame that takes less than this share of its time is light: the next larger size fits too, because no step takes
+/// half as long again as the one below it.
 const LIGHT: f64 = 0.6;
-/// What a late frame adds, and the sum at which there are too many: five in a row, or more than one of five for long.
+/// What a late frame adds to the sum.
 const LATE: i32 = 4;
+/// The sum at which the size goes down: after five late frames in a row, or more than one in five for long.
 const TOO_LATE: i32 = 20;
-/// Light frames before a larger size is tried: at first, and at most, which is half a minute and more.
-const PATIENCE: i32 = 128;
-const MOST_PATIENCE: i32 = 2048;
+/// Light frames before a larger size is tried, at first.
+const TRIAL: i32 = 128;
+/// Light frames before a larger size is tried, at most: more than half a minute.
+const MAX_TRIAL: i32 = 2048;
 
-/// What it knows of the frames so far.
+/// What is known of the frames so far.
 #[derive(Clone, Copy, Debug)]
 pub struct Governor {
-    /// Place in [`EIGHTHS`].
+    /// The present size, as a place in [`EIGHTHS`].
     pub step: usize,
-    /// Above zero late frames, below zero light ones; others bring it back to zero.
+    /// Late frames take it above zero, light ones below, and others bring it back to zero.
     sum: i32,
-    /// Light frames to wait for. Each step down doubles it, so no load that comes and goes makes the size follow for long.
-    patience: i32,
+    /// Light frames before a larger size is tried. Each step down doubles them, so that the size does not follow for
+    /// long a load that comes and goes.
+    trial: i32,
 }
 
 impl Governor {
-    /// Begins with whole frames.
+    /// A governor that begins with the whole size.
     pub fn new() -> Governor {
-        Governor { step: 0, sum: 0, patience: PATIENCE }
+        Governor { step: WHOLE, sum: 0, trial: TRIAL }
     }
 
-    /// A frame of the present size has taken that share of the time that it may take.
-    pub fn frame(&mut self, share: f64) {
+    /// Takes note of a frame of the present size, which took this share of the time that it may take.
+    pub fn record(&mut self, share: f64) {
         if share > 1.0 {
-            // One late frame, such as the first of a part, is no reason to give up half of the patience and more.
+            // A single late frame, such as the first of a part, loses half of the light ones before it, and not all.
             self.sum = if self.sum < 0 { self.sum / 2 } else { self.sum + LATE };
         } else if share < LIGHT {
             self.sum -= 1;
@@ -48,9 +58,9 @@ impl Governor {
             self.sum = 0;
             if self.step + 1 < EIGHTHS.len() {
                 self.step += 1;
-                self.patience = (2 * self.patience).min(MOST_PATIENCE);
+                self.trial = (2 * self.trial).min(MAX_TRIAL);
             }
-        } else if self.sum <= -self.patience {
+        } else if self.sum <= -self.trial {
             self.sum = 0;
             self.step = self.step.saturating_sub(1);
         }
@@ -62,25 +72,27 @@ mod tests {
     use super::*;
     use std::ops::RangeInclusive;
 
-    /// What a step takes of the whole frame's time where every pixel costs the same, and where most of it is fixed.
+    /// The time of each step as a share of the whole frame's, where every pixel costs the same, and where most of the
+    /// cost is fixed.
     const COSTS: [[f64; 4]; 2] = [[1.0, 0.5625, 0.25, 0.140625], [1.0, 0.73, 0.5, 0.42]];
-    /// Frames of a minute at 30 a second, the rate to be held.
+    /// Frames of a minute at 30 per second, the rate to be held.
     const MINUTE: usize = 1800;
 
-    /// Changes of size, and frames that were late, where a whole frame takes `load` of the time.
+    /// Plays frames of which the whole size would take `load` of the time. Gives how often the size changed, and how
+    /// many frames were late.
     fn play(governor: &mut Governor, costs: [f64; 4], frames: usize, load: impl Fn(usize) -> f64) -> (usize, usize) {
         let (mut changes, mut late) = (0, 0);
         for frame in 0..frames {
             let before = governor.step;
             let share = load(frame) * costs[before];
-            governor.frame(share);
+            governor.record(share);
             changes += usize::from(governor.step != before);
             late += usize::from(share > 1.0);
         }
         (changes, late)
     }
 
-    /// Noise from -1 to 1 that is the same in every run.
+    /// Noise from -1 to 1, the same in every run.
     fn noise(frame: usize) -> f64 {
         let x = (frame as f64 * 12.9898).sin() * 43758.5453;
         2.0 * (x - x.floor()) - 1.0

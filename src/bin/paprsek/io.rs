@@ -1,34 +1,36 @@
-//! Bytes to stdout, stderr and files.
+//! Bytes to stdout, stderr and files, and from files.
 //!
-//! Locks, buffers and names of errors, which the standard library brings for them, take 1 kB packed; so these are calls of
+//! The standard library's locks, buffers and texts of errors for this take 1 kB packed. So on Unix these are calls of
 //! the system, and an error is its number.
 
-use crate::text::digits;
+use crate::text::{digits, fill};
 #[cfg(target_os = "linux")]
 use rustix::rand::{GetRandomFlags, getrandom};
 
-/// What the first column of a table is filled up with.
-pub const SPACES: &[u8] = &[b' '; 16];
-
 #[cfg(unix)]
 mod system {
-    #[cfg(feature = "minifb")]
-    use crate::window::xlib_exit::stderr;
     use rustix::event::{PollFd, PollFlags, poll};
     use rustix::fs::{self, Mode, OFlags};
     use rustix::io::{Errno, read, write};
-    #[cfg(not(feature = "minifb"))]
-    use rustix::stdio::stderr;
-    use rustix::stdio::stdout;
+    use rustix::stdio::{stderr, stdout};
     use std::ffi::CStr;
     use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
+    #[cfg(feature = "minifb")]
+    use std::{fs::File, io, sync::OnceLock};
 
+    /// Permissions before the umask: a directory's, and a file's.
+    const DIRECTORY_MODE: u32 = 0o777;
+    const FILE_MODE: u32 = 0o666;
+    /// Most bytes that [`contents`] reads.
+    const MAX_CONTENTS: usize = 1 << 20;
+
+    /// Writes all bytes, however slowly their reader takes them.
     fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), i32> {
         while !bytes.is_empty() {
             match write(to, bytes) {
                 Ok(count) => bytes = &bytes[count..],
                 Err(Errno::INTR) => {}
-                // A pipe that is full and was told not to wait: its reader is slow.
+                // A full pipe that somebody has set to non-blocking.
                 Err(Errno::AGAIN) => _ = poll(&mut [PollFd::new(&to, PollFlags::OUT)], None),
                 Err(error) => return Err(error.raw_os_error()),
             }
@@ -36,22 +38,22 @@ mod system {
         Ok(())
     }
 
-    /// A path with the zero behind it that the system wants. A word of the command line has none.
+    /// A path with the zero at its end that the system wants. A word of the command line has none inside.
     fn path(bytes: &[u8]) -> Vec<u8> {
         super::fill("%\0", &[bytes])
     }
 
-    /// Such a path, as the system takes it.
-    pub fn named(path: &[u8]) -> &CStr {
+    /// A path that ends with a zero, as the system takes it.
+    pub fn c_path(path: &[u8]) -> &CStr {
         CStr::from_bytes_until_nul(path).unwrap_or_default()
     }
 
-    /// A file's first megabyte, which is all; nothing where it cannot be read, and what a pipe or a device has just now. Its
-    /// path ends with a zero.
+    /// The first megabyte of a file, which is all of any file that is read here. Nothing where it cannot be read; of a
+    /// pipe or a device what is there at this moment. The path ends with a zero.
     pub fn contents(path: &[u8]) -> Vec<u8> {
-        let mut bytes = vec![0; 1 << 20];
+        let mut bytes = vec![0; MAX_CONTENTS];
         let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
-        let file = fs::open(named(path), flags, Mode::empty());
+        let file = fs::open(c_path(path), flags, Mode::empty());
         let length = file.and_then(|file| read(file, &mut *bytes)).unwrap_or(0);
         bytes.truncate(length);
         bytes
@@ -70,18 +72,33 @@ mod system {
         write_pieces(stdout(), pieces)
     }
 
+    /// A copy of stderr from the time before calls into Xlib redirect it.
+    #[cfg(feature = "minifb")]
+    static KEPT_STDERR: OnceLock<File> = OnceLock::new();
+
+    /// Keeps a copy of stderr, to which [`write_error`] writes from now on, wherever stderr itself is redirected later.
+    #[cfg(feature = "minifb")]
+    pub fn keep_stderr() -> io::Result<&'static File> {
+        let copy = io::stderr().as_fd().try_clone_to_owned()?;
+        Ok(KEPT_STDERR.get_or_init(|| copy.into()))
+    }
+
     pub fn write_error(bytes: &[u8]) {
-        let _ = write_all(stderr(), bytes);
+        #[cfg(feature = "minifb")]
+        let to = KEPT_STDERR.get().map_or(stderr(), File::as_fd);
+        #[cfg(not(feature = "minifb"))]
+        let to = stderr();
+        let _ = write_all(to, bytes);
     }
 
     pub fn make_directory(name: &[u8]) {
-        let _ = fs::mkdir(named(&path(name)), Mode::from_raw_mode(0o777));
+        let _ = fs::mkdir(c_path(&path(name)), Mode::from_raw_mode(DIRECTORY_MODE));
     }
 
-    /// A new file, which is nobody else's: a link is not followed. Its path ends with a zero.
+    /// Creates a file that did not exist, so it is nobody else's: a link is not followed. The path ends with a zero.
     fn create(path: &[u8]) -> Result<OwnedFd, i32> {
         let flags = OFlags::CREATE | OFlags::EXCL | OFlags::WRONLY | OFlags::CLOEXEC;
-        fs::open(named(path), flags, Mode::from_raw_mode(0o666)).map_err(Errno::raw_os_error)
+        fs::open(c_path(path), flags, Mode::from_raw_mode(FILE_MODE)).map_err(Errno::raw_os_error)
     }
 
     pub fn save(part: &[u8], name: &[u8], pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), i32> {
@@ -90,21 +107,23 @@ mod system {
         let put = || {
             write_pieces(file.as_fd(), pieces)?;
             if fresh {
-                if fs::link(named(&part), named(&name)).is_ok() {
+                if fs::link(c_path(&part), c_path(&name)).is_ok() {
                     return Ok(());
                 }
-                // The name is taken, or the file system has no links: then it is taken now.
+                // Either the name is taken, and this fails; or the file system has no links, and this reserves the
+                // name.
                 create(&name)?;
             }
-            fs::rename(named(&part), named(&name)).map_err(Errno::raw_os_error)
+            fs::rename(c_path(&part), c_path(&name)).map_err(Errno::raw_os_error)
         };
         let done = put();
-        // Where it is still there it is of no use. The first error is the one to report.
-        let _ = fs::unlink(named(&part));
+        // If the part is still there it is of no use. The first error is the one to report.
+        let _ = fs::unlink(c_path(&part));
         done
     }
 }
 
+/// The same by the standard library, where the 64 kB build does not run.
 #[cfg(not(unix))]
 mod system {
     use std::fs;
@@ -158,61 +177,47 @@ mod system {
     }
 }
 
-/// Makes a directory where there is none yet and it can be made.
+#[cfg(all(unix, feature = "minifb"))]
+pub use system::keep_stderr;
+/// Makes a directory, unless it exists or cannot be made.
 pub use system::make_directory;
 #[cfg(unix)]
-pub use system::{contents, named};
-
-/// The template with a word for each `%`, and for each `#` one that ends where it stands, over the spaces before it.
-pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
-    let (mut text, mut words) = (Vec::new(), words.iter());
-    for byte in template.bytes() {
-        if byte == b'%' || byte == b'#' {
-            let word = words.next().copied().unwrap_or_default();
-            if byte == b'#' {
-                text.truncate(text.len() - word.len());
-            }
-            text.extend_from_slice(word);
-        } else {
-            text.push(byte);
-        }
-    }
-    text
-}
+pub use system::{c_path, contents};
 
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
     system::write_out(bytes).map_err(|error| failed(b"to stdout", error))
 }
 
-/// The same in pieces.
+/// Writes pieces to stdout, one after the other.
 pub fn stream(pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), Vec<u8>> {
     system::stream(pieces).map_err(|error| failed(b"to stdout", error))
 }
 
-/// Writes a file, in pieces, under another name first, so that its own always is a whole file's. A `fresh` one is not put
-/// in place of another.
+/// Writes a file in pieces. It has another name until it is complete, so whatever bears its own name is a whole file. A
+/// `fresh` file never replaces another.
 pub fn save(name: &[u8], pieces: impl Iterator<Item = Vec<u8>>, fresh: bool) -> Result<(), Vec<u8>> {
-    let part = fill("%.%", &[name, &digits(chance())]);
+    let part = fill("%.%", &[name, &digits(random())]);
     system::save(&part, name, pieces, fresh).map_err(|error| failed(name, error))
 }
 
-/// A number that nobody can foretell: others may write in the same directory, and their names are not to be met.
+/// A number that nobody can predict: in a directory that others may write to, nobody can have put a file or a link in
+/// the way of a name with it.
 #[cfg(target_os = "linux")]
-fn chance() -> usize {
+fn random() -> usize {
     let mut bytes = [0; 8];
-    // Without it a name can be foretold, but what has it is still not written over.
+    // If this fails the name can be predicted, but a file that has it is still not overwritten.
     let _ = getrandom(&mut bytes, GetRandomFlags::empty());
     usize::from_le_bytes(bytes)
 }
 
 #[cfg(not(target_os = "linux"))]
-fn chance() -> usize {
+fn random() -> usize {
     use std::hash::{BuildHasher, RandomState};
     RandomState::new().hash_one(0) as usize
 }
 
-/// One line on stderr, whatever the message quotes. Where that fails there is no place left to say so.
+/// Writes one line to stderr, whatever bytes the message quotes. If that fails there is no place left to say so.
 pub fn complain(why: &[u8]) {
     let mut line = fill("paprsek: %", &[why]);
     for byte in &mut line {

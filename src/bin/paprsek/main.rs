@@ -1,9 +1,11 @@
-//! The intro executable: arguments, then play, bench or capture.
+//! The executable of the intro: reads the command line, then plays, captures, measures or prints.
+//!
+//! Imports of the files beside this one run down only: window, terminal and playing stand on captures, the clock and
+//! the command line, and those on `io.rs` and `text.rs`, which read and write without the standard library's machinery.
 
 mod args;
 #[cfg(feature = "full")]
 mod bench;
-mod canvas;
 mod capture;
 mod clock;
 mod governor;
@@ -14,25 +16,30 @@ mod terminal;
 mod text;
 mod window;
 
-use args::{Args, BENCH, Mode};
-use io::{SPACES, complain, fill, print};
-use paprsek::scenes;
+use args::{Args, Mode};
+use io::{complain, print};
+use paprsek::{cuts, scenes};
 use std::process::ExitCode;
+use text::{SPACES, fill};
+
+/// Exit codes: something failed, or the command line is wrong.
+const FAILED: u8 = 1;
+const BAD_USAGE: u8 = 2;
 
 fn main() -> ExitCode {
     let (code, why) = match Args::from_env() {
-        // For good: what renders needs it as long as the process lives.
+        // Leaked, because the thread that renders uses the arguments as long as the process lives.
         Ok(args) => match run(Box::leak(Box::new(args))) {
             Ok(()) => return ExitCode::SUCCESS,
-            Err(why) => (1, why),
+            Err(why) => (FAILED, why),
         },
-        Err(why) => (2, why),
+        Err(why) => (BAD_USAGE, why),
     };
     complain(&why);
     ExitCode::from(code)
 }
 
-/// The error is one line without the program's name.
+/// Does what was asked for. An error is one line without the program's name, here and in every other file.
 fn run(args: &'static Args) -> Result<(), Vec<u8>> {
     match &args.mode {
         Mode::Play => play(args),
@@ -41,13 +48,13 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Capture(target) if !cfg!(without = "capture") => capture::run(args, target),
         Mode::Capture(_) => Ok(()),
         Mode::Print(text) => print(text.as_bytes()),
-        Mode::List if BENCH => list(),
+        Mode::List if cuts::SCENES => list(),
         Mode::List => Ok(()),
     }
 }
 
-/// In a window; without one in a terminal that shows colour; without that the benchmark, so that something useful happens
-/// anywhere. The 64 kB build has the window alone.
+/// Plays in a window; without a display in a terminal that shows colour; without either it runs the benchmark, so that
+/// something useful happens on any machine. The 64 kB build has the window alone.
 #[inline(never)]
 fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     let why = match window::Window::open(args.size) {
@@ -67,6 +74,7 @@ fn play(args: &'static Args) -> Result<(), Vec<u8>> {
     Err(fill("no display: %", &[why.as_bytes()]))
 }
 
+/// Prints the name of each scene and what it shows.
 #[inline(never)]
 fn list() -> Result<(), Vec<u8>> {
     for scene in scenes::ALL {

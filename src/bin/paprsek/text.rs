@@ -1,14 +1,34 @@
-//! Decimal numbers in and out.
+//! Decimal numbers read and printed, and templates filled.
 //!
-//! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and
-//! code for it. A time on a command line and a figure in a table need neither.
+//! The standard library's parser and printer of floats are exact for every input, and bring 25 kB of tables and code
+//! for that; its formatting brings more. A time on the command line and a figure in a table need neither.
 
-use crate::io::fill;
+/// What pads the first column of a table to 16 characters.
+pub const SPACES: &[u8] = &[b' '; 16];
+
+/// Fills a template: the next word takes the place of each `%`, and of each `#` too, but there it ends where the `#`
+/// stands and covers the spaces before it, which aligns a column to the right.
+pub fn fill(template: &str, words: &[&[u8]]) -> Vec<u8> {
+    let (mut text, mut words) = (Vec::new(), words.iter());
+    for byte in template.bytes() {
+        if byte == b'%' || byte == b'#' {
+            let word = words.next().copied().unwrap_or_default();
+            if byte == b'#' {
+                text.truncate(text.len() - word.len());
+            }
+            text.extend_from_slice(word);
+        } else {
+            text.push(byte);
+        }
+    }
+    text
+}
 
 /// The value of a decimal such as `2` or `0.5`: no sign, no exponent, no `inf`, no `nan`.
 ///
-/// Up to 15 digits and 22 places the result is the nearest `f64`, as digits and power of ten are exact there (Clinger, PLDI
-/// 1990). Past that it may be off by some last places.
+/// With up to 15 digits and 22 places the result is the nearest `f64`, since the digits as a whole number and the power
+/// of ten are both exact then and one division rounds once (Clinger, PLDI 1990). With more it may be off by a few units
+/// in the last place.
 pub fn decimal(text: &[u8]) -> Option<f64> {
     let (mut mantissa, mut scale) = (0u64, 0);
     let (mut digits, mut point) = (false, false);
@@ -16,8 +36,8 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
         match byte {
             b'0'..=b'9' => {
                 digits = true;
-                // Digits past the eighteenth cannot change the value any more, only its power of ten; past 300 places they
-                // mean nothing.
+                // Digits past the eighteenth no longer change the mantissa, only the power of ten; past 300 places they
+                // change nothing.
                 let kept = mantissa < 10u64.pow(18) && scale > -300;
                 if kept {
                     mantissa = mantissa * 10 + u64::from(byte - b'0');
@@ -36,7 +56,7 @@ pub fn decimal(text: &[u8]) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// The value of some digits, of which there is one or more; the largest number where it is larger.
+/// The value of one or more digits, with nothing before or behind them; the largest `usize` where the value is larger.
 pub fn whole(text: &[u8]) -> Option<usize> {
     let add = |sum: usize, byte: &u8| {
         byte.is_ascii_digit().then(|| sum.saturating_mul(10).saturating_add(usize::from(byte - b'0')))
@@ -44,18 +64,18 @@ pub fn whole(text: &[u8]) -> Option<usize> {
     if text.is_empty() { None } else { text.iter().try_fold(0, add) }
 }
 
-/// The digits of a whole number.
+/// The decimal digits of a whole number.
 pub fn digits(number: usize) -> Vec<u8> {
     let mut text = if number < 10 { Vec::new() } else { digits(number / 10) };
     text.push(b'0' + (number % 10) as u8);
     text
 }
 
-/// A figure with three decimals, or none where they are zeros; negative values print as zero.
+/// A figure with three decimals, or without any where all three are zero. Negative values print as zero.
 pub fn figure(value: f64) -> Vec<u8> {
     let thousandths = (value * 1000.0 + 0.5) as usize;
     let whole = digits(thousandths / 1000);
-    // The one before them keeps the zeros of the decimals.
+    // The 1 before them keeps the leading zeros of the decimals.
     let decimals = &digits(1000 + thousandths % 1000)[1..];
     if decimals == b"000" { whole } else { fill("%.%", &[&whole, decimals]) }
 }

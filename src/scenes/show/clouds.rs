@@ -4,7 +4,7 @@ use super::day;
 use crate::cloud::{CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Picture, Workers};
-use crate::raster::cloud_shadow::CloudShadow;
+use crate::raster::CloudShadow;
 use crate::timeline;
 use crate::view::Camera;
 use crate::view::View;
@@ -114,7 +114,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     }
     let passes = shadow::shares(&clouds, now.direction, &points);
     if !cfg!(without = "cloud-shadows") {
-        world.veil = Some(CloudShadow { passes, corner, texel, slope });
+        world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
     let view = View::new(camera, spec.width, spec.height);
     // What is brightest without glare is to be no more than white.

@@ -6,8 +6,10 @@
 
 use crate::options::Result;
 use image::{GrayImage, Luma, imageops};
+use paprsek::frame::cache::lock;
 use paprsek::frame::{Frame, Renderer};
-use paprsek::raster::shadow::{self, DepthMap, NOTHING};
+use paprsek::raster::RasterMemory;
+use paprsek::raster::depth_map::{DepthMap, EMPTY};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::path::PathBuf;
@@ -42,15 +44,17 @@ pub fn run(Options { shots, out }: &Options) -> Result {
     if shots.len() % 2 != 0 {
         return Err("each scene needs its time".into());
     }
-    let mut renderer = Renderer::new(0)?;
     let mut rows = Vec::new();
     for shot in shots.chunks_exact(2) {
         let scene = scenes::named(&shot[0]).ok_or(format!("there is no scene '{}'", shot[0]))?;
-        shadow::maps().clear();
+        // A renderer of its own, so that no maps of another scene are kept.
+        let mut renderer = Renderer::new(0)?;
         renderer.render(&scene, shot[1].parse()?, &Quality::FAST, &mut Frame::new(SIZE.0, SIZE.1));
-        let mut maps = shadow::maps();
+        let memory = renderer.cache().get::<RasterMemory>();
+        let memory = lock(&memory);
+        let mut maps: Vec<_> = memory.maps.iter().collect();
         maps.sort_by_key(|(key, _)| key.slot);
-        for (key, map) in maps.iter() {
+        for (key, map) in maps {
             rows.push((0..key.views.len()).map(|view| grey(map, view)).collect::<Vec<_>>());
         }
     }
@@ -69,7 +73,7 @@ pub fn run(Options { shots, out }: &Options) -> Result {
 /// A view of a map; a pixel shows the mean of its texels.
 fn grey(map: &DepthMap, view: usize) -> GrayImage {
     let texels = || (0..map.size * map.size).map(|i| map.at(view, i % map.size, i / map.size));
-    let there = || texels().filter(|&near| near > NOTHING);
+    let there = || texels().filter(|&near| near > EMPTY);
     let (far, near) = (there().fold(f32::MAX, f32::min), there().fold(f32::MIN, f32::max));
     let scale = (255.0 - DARKEST) / (near - far).max(1e-9);
     // A texel of a map that is smaller than its picture covers several pixels.
@@ -77,7 +81,7 @@ fn grey(map: &DepthMap, view: usize) -> GrayImage {
     GrayImage::from_fn(EDGE as u32, EDGE as u32, |x, y| {
         let [left, top] = [x, y].map(|n| n as usize * map.size / EDGE);
         let cell = (0..step * step).map(|i| map.at(view, left + i % step, top + i / step));
-        let light: f32 = cell.map(|near| if near > NOTHING { DARKEST + (near - far) * scale } else { 0.0 }).sum();
+        let light: f32 = cell.map(|near| if near > EMPTY { DARKEST + (near - far) * scale } else { 0.0 }).sum();
         Luma([(light / (step * step) as f32).round() as u8])
     })
 }

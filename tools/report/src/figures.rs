@@ -3,13 +3,14 @@
 //! It takes about two minutes on two cores. The qualities take turns frame by frame, so that other load on the machine
 //! affects them alike. Samples are eye rays, in the rasterizer's scenes shaded fragments; `sky` has none.
 
+use crate::likeness;
 use crate::options::{Quick, Result};
-use crate::{likeness, maps};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use std::time::Instant;
+use testkit::drawn::forget_maps;
 use testkit::median;
 use testkit::metrics::Difference;
 
@@ -77,7 +78,7 @@ fn time(renderer: &mut Renderer, scenes: &[Scene], effort: &Effort) -> Vec<[Cost
                 for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
                     // The frame before, so that the sun has moved by as much as it does while the scene plays.
                     renderer.render(scene, at - 1.0 / 60.0, quality, &mut frame);
-                    maps::forget();
+                    forget_maps(renderer);
                     let began = Instant::now();
                     let stats = renderer.render(scene, at, quality, &mut frame);
                     seconds[s][i][q].push(began.elapsed().as_secs_f64());

@@ -9,11 +9,7 @@ use crate::plot;
 use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::mesh::{Mesh, Paint};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, World, fit};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -100,13 +96,13 @@ impl Stage {
     fn light(&self, kind: Kind, index: usize, count: usize) -> Light {
         let time = self.count as f32 * 0.01;
         let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
-        let plan = |views| ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false };
+        let plan = |views| ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
             let towards = vec3(cos, 0.8, sin).normalize();
             let view = Projection::parallel(towards, Vec3::ZERO, 1.5 * FIELD, MAP);
             let color = Vec3::splat(1.0 / count as f32);
-            return Light { source: Source::Sun(towards), color, shadow: Some(plan(vec![view])) };
+            return Light::sun(towards, color).with_shadow(plan(vec![view]));
         }
         // A spiral of equal areas, which turns.
         let radius = 0.45 * FIELD * ((index as f32 + 0.5) / count as f32).sqrt();
@@ -117,8 +113,7 @@ impl Stage {
             Kind::Lamps(reach) => (reach, None),
             Kind::Suns => unreachable!("suns are made above"),
         };
-        let source = Source::Lamp { position, falloff: Vec2::new(0.0, 0.1), reach };
-        Light { source, color: vec3(1.5, 1.2, 0.8), shadow }
+        Light { shadow, ..Light::lamp(position, vec3(1.5, 1.2, 0.8), Vec2::new(0.0, 0.1), reach) }
     }
 
     /// Draws a frame, and returns its milliseconds.
@@ -140,19 +135,15 @@ impl Stage {
             let camera = Camera::look_at(vec3(0.0, 26.0, 44.0), vec3(0.0, 0.0, 4.0), 50f32.to_radians(), 0.0);
             let fog = vec3(0.4, 0.5, 0.7);
             let world = World {
-                bodies: self.bodies[..=case.objects].to_vec(),
-                textures: Vec::new(),
                 lights,
                 ambient: [Vec3::splat(0.1); 2],
-                veil: None,
-                snow: None,
                 haze: Haze::even(fog, 0.0),
                 zenith: fog,
-                film: false,
                 background: Some(fog),
+                ..World::new(self.bodies[..=case.objects].to_vec())
             };
             let began = Instant::now();
-            let drawn = RasterLayer::new(world, View::new(camera, SIZE.0, SIZE.1), SIZE.0, SIZE.1, case.quality);
+            let drawn = RasterLayer::new(world, &View::new(camera, SIZE.0, SIZE.1), &case.quality.raster);
             self.renderer.draw(Picture { layers: vec![Box::new(drawn)], transfer: Transfer::Srgb }, &mut self.frame);
             ms += began.elapsed().as_secs_f64() * 1e3;
         }

@@ -11,7 +11,6 @@ mod imposters;
 mod lights;
 mod likeness;
 mod machine;
-mod maps;
 mod metrics;
 mod options;
 mod particles;

@@ -2,15 +2,13 @@
 
 use fearless_simd::Level;
 use glam::{Affine3A, DVec3, Mat3, Vec3};
-use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
-use paprsek::raster::light::Haze;
-use paprsek::raster::mesh::{Face, Mesh, Paint};
-use paprsek::raster::{Body, RasterLayer, World, shadow};
+use paprsek::frame::cache::lock;
+use paprsek::frame::{Cache, Layer, Renderer, Tile};
+use paprsek::raster::{Body, Face, Mesh, Paint, RasterLayer, RasterMemory, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use paprsek::view::View;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// A picture before it becomes codes, row by row from the top left.
 #[derive(Clone)]
@@ -38,37 +36,39 @@ impl Planes {
     }
 }
 
-/// A layer that draws nothing and remembers what is below it.
-struct Probe(Arc<Mutex<Planes>>);
-
-impl Layer for Probe {
-    fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
-        let mut planes = self.0.lock().unwrap();
-        for row in 0..tile.height {
-            for column in 0..tile.width {
-                let (from, to) = (row * Tile::SIZE + column, (tile.y + row) * planes.width + tile.x + column);
-                planes.color[to] = Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
-                planes.inv_depth[to] = tile.inv_depth[from];
-                planes.coverage[to] = tile.coverage[from];
-            }
-        }
-        Stats::default()
-    }
-}
-
 /// Draws a world on one thread.
 pub fn draw(world: &World, camera: Camera, size: [usize; 2], quality: Quality, level: Level) -> Planes {
-    let [width, height] = size;
+    draw_with(&Cache::default(), world, camera, size, quality, level)
+}
+
+/// The same as a renderer does that keeps `cache` from frame to frame.
+pub fn draw_with(
+    cache: &Cache,
+    world: &World,
+    camera: Camera,
+    [width, height]: [usize; 2],
+    quality: Quality,
+    level: Level,
+) -> Planes {
     let n = width * height;
-    let planes =
+    let mut planes =
         Planes { width, height, color: vec![Vec3::NAN; n], inv_depth: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
-    let planes = Arc::new(Mutex::new(planes));
-    let drawn = RasterLayer::new(world.clone(), View::new(camera, width, height), width, height, quality);
-    let layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn), Box::new(Probe(planes.clone()))];
-    let mut renderer = Renderer::new(1).unwrap().at_level(level);
-    renderer.draw(Picture { layers, transfer: Transfer::Gamma22 }, &mut Frame::new(width, height));
-    let planes = planes.lock().unwrap();
-    planes.clone()
+    let renderer = Renderer::new(1).unwrap().at_level(level);
+    let mut layer = RasterLayer::new(world.clone(), &View::new(camera, width, height), &quality.raster);
+    layer.prepare(renderer.workers(), cache);
+    for (row, column) in
+        (0..height.div_ceil(Tile::SIZE)).flat_map(|y| (0..width.div_ceil(Tile::SIZE)).map(move |x| (y, x)))
+    {
+        let mut tile = Tile::at(column, row, width, height);
+        layer.draw(level, &mut tile);
+        for (y, x) in (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| (y, x))) {
+            let (from, to) = (y * Tile::SIZE + x, (tile.y + y) * width + tile.x + x);
+            planes.color[to] = Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
+            planes.inv_depth[to] = tile.inv_depth[from];
+            planes.coverage[to] = tile.coverage[from];
+        }
+    }
+    planes
 }
 
 /// The eye ray through a point of the picture, pixels from its top left: its axial part is 1.
@@ -80,18 +80,7 @@ pub fn ray(camera: &Camera, size: [usize; 2], x: f64, y: f64) -> DVec3 {
 
 /// No ambient light, no haze, nothing behind.
 pub fn dark(bodies: Vec<Body>) -> World {
-    World {
-        bodies,
-        textures: Vec::new(),
-        lights: Vec::new(),
-        ambient: [Vec3::ZERO; 2],
-        veil: None,
-        snow: None,
-        haze: Haze::even(Vec3::ZERO, 0.0),
-        zenith: Vec3::ZERO,
-        film: false,
-        background: None,
-    }
+    World::new(bodies)
 }
 
 /// A body that stands where its mesh is.
@@ -176,9 +165,6 @@ impl Count {
 
 /// Has the next frame draw the first light's map, as if that light had moved, as sun and torch do in every frame of a show:
 /// maps are kept while a light rests, which would spare whoever comes second in a comparison his own.
-pub fn forget_maps() {
-    for (key, _) in shadow::maps().iter_mut().filter(|(key, _)| key.slot == 0) {
-        // No light has a plan without views. The memory stays for the next map.
-        key.views.clear();
-    }
+pub fn forget_maps(renderer: &Renderer) {
+    lock(&renderer.cache().get::<RasterMemory>()).maps.forget(0);
 }

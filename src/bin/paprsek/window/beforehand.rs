@@ -1,8 +1,8 @@
-//! What minifb needs for a window on an X server, looked for beforehand.
+//! What minifb needs of an X server, checked before minifb starts.
 //!
-//! Where minifb 0.29 has reached the display and then finds anything amiss, it frees a graphics context that is Xlib's own
-//! and dies of it without a word. Xlib in its turn reads whatever the authority's name leads to, and asks an input method
-//! that nobody needs here.
+//! When minifb 0.29 has reached the display and then finds anything amiss, it frees a graphics context that is Xlib's
+//! own, and the process dies by a signal without a word. Xlib in its turn reads whatever the name of the authority file
+//! leads to, and asks an input method that nobody needs here.
 
 use super::protocol::{Server, UNFIT};
 use nix::unistd::execve;
@@ -15,14 +15,18 @@ use std::os::unix::ffi::OsStringExt;
 use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 
-/// More descriptors than Xlib's connection, its libraries and files, and our own use at a time.
+/// File descriptors that have to be free: more than Xlib's connection, its libraries and files, and our own use at
+/// once.
 const DESCRIPTORS: usize = 16;
-/// The variable that names an input method, and what names none.
-const METHOD: &str = "XMODIFIERS";
-const NONE: &str = "@im=none";
+/// The variable of the environment that names an input method.
+const INPUT_METHOD: &str = "XMODIFIERS";
+/// Its value that names none.
+const NO_INPUT_METHOD: &str = "@im=none";
+/// An authority file that is a device, but ends: the usual way to have none.
+const NULL: &str = "/dev/null";
 
-/// Is there nothing that keeps minifb from opening a window, or ends it? The error says what does.
-pub fn look() -> Result<(), String> {
+/// Checks that nothing keeps minifb from opening a window or ends it. The error says what would.
+pub fn check() -> Result<(), String> {
     descriptors()?;
     authority()?;
     server()?;
@@ -34,17 +38,17 @@ fn descriptors() -> Result<(), String> {
     copies.map(drop).map_err(|error| error.to_string())
 }
 
-/// Xlib waits for what a pipe says, and reads a device to the end that it does not have.
+/// Xlib would wait for ever for what a pipe says, and read a device to the end that it does not have.
 fn authority() -> Result<(), String> {
     let named = env::var_os("XAUTHORITY").map(PathBuf::from);
     let path = named.or_else(|| Some(Path::new(&env::var_os("HOME")?).join(".Xauthority")));
     let Some(path) = path.and_then(|path| path.canonicalize().ok()) else { return Ok(()) };
     let endless =
         fs::metadata(&path).is_ok_and(|about| about.file_type().is_fifo() || about.file_type().is_char_device());
-    if endless && path != Path::new("/dev/null") { Err("the X authority is no file".into()) } else { Ok(()) }
+    if endless && path != Path::new(NULL) { Err("the X authority is not a file".into()) } else { Ok(()) }
 }
 
-/// A server that we do not find may be one of another machine: Xlib's error for that is a safe one.
+/// A server that is not found here may be one of another machine, and Xlib's error for that is a safe one.
 fn server() -> Result<(), String> {
     let mut why = "";
     match Server::find(&mut why) {
@@ -54,20 +58,22 @@ fn server() -> Result<(), String> {
     }
 }
 
-/// Starts the program again without an input method where the environment names one: to change it here would be unsafe code.
+/// Starts the program again without an input method where the environment names one: changing the environment of a
+/// running process is unsafe code.
 fn input_method() -> Result<(), String> {
-    if env::var_os(METHOD).is_none_or(|named| named == NONE) {
+    if env::var_os(INPUT_METHOD).is_none_or(|named| named == NO_INPUT_METHOD) {
         return Ok(());
     }
-    // What came as such a string has no zero in it.
+    // These came as strings that end with a zero, so they have none inside.
     let text = |word: OsString| CString::new(word.into_vec()).unwrap_or_default();
     let program = env::current_exe().map_err(|error| error.to_string())?;
     let words: Vec<_> = env::args_os().map(text).collect();
-    let rest = env::vars_os().filter(|(name, _)| name != METHOD);
-    let variables = rest.chain([(METHOD.into(), NONE.into())]).map(|(name, value)| [name, value].join(OsStr::new("=")));
+    let rest = env::vars_os().filter(|(name, _)| name != INPUT_METHOD);
+    let all = rest.chain([(INPUT_METHOD.into(), NO_INPUT_METHOD.into())]);
+    let variables = all.map(|(name, value)| [name, value].join(OsStr::new("=")));
     match execve(&text(program.into()), &words, &variables.map(text).collect::<Vec<_>>()) {
         Ok(never) => match never {},
-        // As a number: nix has a text for each, which is 21 kB.
-        Err(error) => Err(format!("cannot do without the input method (os error {})", error as i32)),
+        // The error as a number: nix has a text for each, which is 21 kB.
+        Err(error) => Err(format!("cannot restart without the input method (os error {})", error as i32)),
     }
 }

@@ -1,14 +1,16 @@
-//! minifb's window: the only file that names minifb.
+//! minifb's window; the only file that names minifb.
+//!
+//! Each call into minifb may wait for the display or lose it, and then Xlib waits for ever or ends the process. So
+//! every call is watched (`patience.rs`, `xlib_exit.rs`), and what minifb cannot survive is looked for first
+//! (`beforehand.rs`).
 
 #[cfg(all(unix, not(feature = "wayland")))]
 use super::beforehand;
-#[cfg(unix)]
-use super::patience;
+use super::common::{TITLE, keysym};
 #[cfg(all(unix, not(feature = "wayland")))]
 use super::protocol::Server;
-use super::{BACK, FILL, FIRST_PART, FORWARD, LEAVE, PAUSE, STILL, TITLE};
 #[cfg(unix)]
-use crate::window::xlib_exit;
+use super::{patience, xlib_exit};
 use minifb::{InputCallback, Key, ScaleMode, WindowOptions};
 use paprsek::frame::Frame;
 use std::cell::RefCell;
@@ -18,16 +20,19 @@ use std::rc::Rc;
 pub struct Window {
     window: minifb::Window,
     keys: Keys,
-    /// Our own connection to the X server, once it is needed; width and height where it does not fill the screen, pixels.
+    /// A connection of our own to the X server, once it is needed.
     #[cfg(all(unix, not(feature = "wayland")))]
-    screen: (Option<Server>, (usize, usize)),
+    server: Option<Server>,
+    /// Width and height where the window does not fill the screen, pixels.
+    #[cfg(all(unix, not(feature = "wayland")))]
+    usual: (usize, usize),
 }
 
 impl Window {
-    /// Opens a window of `size`, in pixels; the error says why there is none.
+    /// Opens a window of `size`, width and height in pixels. The error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
         #[cfg(all(unix, not(feature = "wayland")))]
-        beforehand::look()?;
+        beforehand::check()?;
         #[cfg(unix)]
         patience::begin().map_err(|error| error.to_string())?;
         let options =
@@ -43,44 +48,46 @@ impl Window {
             window,
             keys,
             #[cfg(all(unix, not(feature = "wayland")))]
-            screen: (None, size),
+            server: None,
+            #[cfg(all(unix, not(feature = "wayland")))]
+            usual: size,
         })
     }
 
-    /// Shows a frame, as large as it fits.
+    /// Shows a frame, as large as it fits into the window at its own aspect.
     pub fn show(&mut self, frame: &Frame) -> Result<(), String> {
         during(|| self.window.update_with_buffer(&frame.pixels, frame.width, frame.height))
             .map_err(|error| error.to_string())
     }
 
-    /// Fills the screen, or does so no more: minifb cannot, but the X server of this machine lets any client ask for that.
+    /// Fills the screen, or goes back to the usual size. minifb cannot, but an X server of this machine lets any client
+    /// ask for it.
     #[cfg(all(unix, not(feature = "wayland")))]
-    pub fn fill(&mut self) {
-        let (server, size) = &mut self.screen;
-        *server = server.take().or_else(|| Server::find(&mut ""));
-        if let Some(server) = server {
-            server.fill(self.window.get_window_handle() as usize as u32, *size);
+    pub fn toggle_fullscreen(&mut self) {
+        self.server = self.server.take().or_else(|| Server::find(&mut ""));
+        if let Some(server) = &mut self.server {
+            server.toggle_fullscreen(self.window.get_window_handle() as usize as u32, self.usual);
         }
     }
 
     /// Elsewhere windows cannot fill the screen.
     #[cfg(any(not(unix), feature = "wayland"))]
-    pub fn fill(&mut self) {}
+    pub fn toggle_fullscreen(&mut self) {}
 
-    /// The keys that have gone down since the last call, one at a time; `None` when those were all.
-    pub fn press(&mut self) -> Option<u32> {
-        if self.keys.0.borrow().0.is_empty() {
+    /// The next key that has gone down, as a [`keysym`]; `None` when there are no more.
+    pub fn next_key(&mut self) -> Option<u32> {
+        if self.keys.0.borrow().pressed.is_empty() {
             during(|| self.window.update());
         }
         if !self.window.is_open() {
-            return Some(LEAVE);
+            return Some(keysym::ESCAPE);
         }
         let mut keys = self.keys.0.borrow_mut();
-        (!keys.0.is_empty()).then(|| keys.0.remove(0))
+        (!keys.pressed.is_empty()).then(|| keys.pressed.remove(0))
     }
 }
 
-/// A call that may wait for the display, or lose it.
+/// Makes calls that may wait for the display, or lose it.
 #[cfg(unix)]
 fn during<T>(call: impl FnOnce() -> T) -> T {
     patience::during(|| xlib_exit::during(call))
@@ -92,15 +99,23 @@ fn during<T>(call: impl FnOnce() -> T) -> T {
     call()
 }
 
-/// Keys as they go down, and the one that is held. minifb's own state loses a key that goes down and up between two polls.
+/// Hears the keys. minifb's own state loses a key that goes down and up between two polls.
 #[derive(Clone, Default)]
-struct Keys(Rc<RefCell<(Vec<u32>, Option<Key>)>>);
+struct Keys(Rc<RefCell<KeyState>>);
+
+#[derive(Default)]
+struct KeyState {
+    /// The symbols of keys that wait for [`Window::next_key`].
+    pressed: Vec<u32>,
+    /// The key that is down, if any.
+    held: Option<Key>,
+}
 
 impl InputCallback for Keys {
     fn add_char(&mut self, _: u32) {}
 
     fn set_key_state(&mut self, key: Key, down: bool) {
-        let (pressed, held) = &mut *self.0.borrow_mut();
+        let KeyState { pressed, held } = &mut *self.0.borrow_mut();
         let repeated = *held == Some(key);
         if down {
             *held = Some(key);
@@ -108,13 +123,13 @@ impl InputCallback for Keys {
             *held = None;
         }
         let symbol = match key {
-            Key::Escape => LEAVE,
-            Key::Space => PAUSE,
-            Key::Left => BACK,
-            Key::Right => FORWARD,
-            Key::F => FILL,
-            Key::S => STILL,
-            // minifb has them in a row too.
+            Key::Escape => keysym::ESCAPE,
+            Key::Space => keysym::SPACE,
+            Key::Left => keysym::LEFT,
+            Key::Right => keysym::RIGHT,
+            Key::F => keysym::F,
+            Key::S => keysym::S,
+            // Consecutive in minifb too.
             Key::Key1
             | Key::Key2
             | Key::Key3
@@ -123,11 +138,11 @@ impl InputCallback for Keys {
             | Key::Key6
             | Key::Key7
             | Key::Key8
-            | Key::Key9 => FIRST_PART + key as u32 - Key::Key1 as u32,
+            | Key::Key9 => keysym::DIGIT_1 + key as u32 - Key::Key1 as u32,
             _ => return,
         };
-        // Held keys repeat: right for seeking alone.
-        if down && (!repeated || matches!(symbol, BACK | FORWARD)) {
+        // A held key repeats, which only seeking wants.
+        if down && (!repeated || matches!(symbol, keysym::LEFT | keysym::RIGHT)) {
             pressed.push(symbol);
         }
     }

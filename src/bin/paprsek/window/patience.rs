@@ -1,44 +1,45 @@
-//! Ends calls into Xlib that take too long, and the process with them: Xlib waits for its server for ever.
+//! A limit on how long a call into Xlib may take.
+//!
+//! Xlib waits for its server for ever. So a thread watches the calls, and ends the process when one lasts too long.
 
+use crate::io::complain;
 use std::env;
-use std::fs::File;
-use std::io::{self, Write};
-use std::os::fd::AsFd;
+use std::io;
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// From look to look. Looks are counted and not time, so that a process that was stopped for long gives up nothing.
-const LOOK: Duration = Duration::from_millis(500);
-/// Looks that a call may last: less than 5 s; a minute over a network, whose waits are its own.
-const LOOKS: usize = 9;
-const FAR_LOOKS: usize = 120;
+/// Time from one check to the next. Checks are counted rather than timed, so that a process that was stopped for a
+/// while gives up nothing.
+const INTERVAL: Duration = Duration::from_millis(500);
+/// Checks that a call to a server of this machine may outlast: less than 5 s.
+const CHECKS: usize = 9;
+/// Checks that a call over a network may outlast, which has waits of its own: a minute.
+const NETWORK_CHECKS: usize = 120;
 
 /// How often calls have begun and ended: odd while one lasts.
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 
-/// Begins to look after the calls.
+/// Starts the thread that watches the calls.
 pub fn begin() -> io::Result<()> {
-    // While a call lasts stderr is elsewhere.
-    let mut stderr: File = io::stderr().as_fd().try_clone_to_owned()?.into();
     let display = env::var("DISPLAY").unwrap_or_default();
-    let most = if display.starts_with(':') || display.starts_with("unix:") { LOOKS } else { FAR_LOOKS };
-    let look = move || {
-        let (mut last, mut looks) = (0, 0);
-        while looks < most {
-            thread::sleep(LOOK);
+    let limit = if display.starts_with(':') || display.starts_with("unix:") { CHECKS } else { NETWORK_CHECKS };
+    let watch = move || {
+        let (mut last, mut checks) = (0, 0);
+        while checks < limit {
+            thread::sleep(INTERVAL);
             let calls = CALLS.load(Ordering::Relaxed);
-            looks = if calls == last && calls % 2 == 1 { looks + 1 } else { 0 };
+            checks = if calls == last && calls % 2 == 1 { checks + 1 } else { 0 };
             last = calls;
         }
-        let _ = stderr.write_all(b"paprsek: the display does not answer\n");
+        complain(b"the display does not answer");
         process::exit(1);
     };
-    thread::Builder::new().spawn(look).map(drop)
+    thread::Builder::new().spawn(watch).map(drop)
 }
 
-/// A call into Xlib.
+/// Makes calls into Xlib, watched.
 pub fn during<T>(call: impl FnOnce() -> T) -> T {
     CALLS.fetch_add(1, Ordering::Relaxed);
     let value = call();

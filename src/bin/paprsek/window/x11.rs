@@ -1,22 +1,70 @@
-//! A window on this machine's X server, by the protocol itself ([`super::protocol`]): 1 kB packed, where minifb, Xlib's
-//! table of functions and what they take of the standard library are 6.
+//! A window on this machine's X server by the protocol itself ([`super::protocol`]). It takes 1 kB packed, where
+//! minifb, Xlib's table of functions and what they take of the standard library are 6.
 
-use super::protocol::{PACKET, Server, UNFIT, WAITS, bytes};
-use super::{BACK, FORWARD, LEAVE, TITLE};
-use paprsek::frame::Frame;
-use paprsek::frame::resample;
+use super::common::{TITLE, keysym};
+use super::protocol::{BITS_32, CLIENT_MESSAGE, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes, request};
+use paprsek::frame::{Frame, resample};
 use rustix::io::read;
 use std::array::from_fn;
 use std::mem::take;
 
+// Codes of requests (X11/Xproto.h).
+const CREATE_WINDOW: u32 = 1;
+const MAP_WINDOW: u32 = 8;
+const CHANGE_PROPERTY: u32 = 18;
+const CREATE_PIXMAP: u32 = 53;
+const CREATE_GC: u32 = 55;
+const CLEAR_AREA: u32 = 61;
+const POLY_FILL_RECTANGLE: u32 = 70;
+const PUT_IMAGE: u32 = 72;
+const CREATE_CURSOR: u32 = 93;
+const GET_KEYBOARD_MAPPING: u32 = 101;
+
+/// The bits of an event's code. The eighth says that another client has sent the event.
+const EVENT_CODE: u32 = 0x7f;
+const KEY_PRESS: u32 = 2;
+const KEY_RELEASE: u32 = 3;
+const DESTROY_NOTIFY: u32 = 17;
+const CONFIGURE_NOTIFY: u32 = 22;
+
+// Words of what the server says of itself.
+/// The first of the numbers that the client may give to what it makes.
+const SETUP_ID: usize = 1;
+/// The code of the first key in the third byte, and that of the last in the fourth.
+const SETUP_KEYS: usize = 6;
+
+// Words of events.
+/// When a key was pressed or released, milliseconds.
+const KEY_TIME: usize = 1;
+/// The new width and height of the window, 16 bits each.
+const CONFIGURED_SIZE: usize = 5;
+/// What a message says.
+const MESSAGE: usize = 3;
+
+// Atoms that every server has: two types of properties, and the property that is the title.
+const ATOM: u32 = 4;
+const STRING: u32 = 31;
+const WM_NAME: u32 = 39;
+
+/// The size of the letters of a property.
+const BITS_8: u32 = 8;
+/// The layout of an image: whole pixels.
+const Z_PIXMAP: u32 = 2;
+/// What is set when a window is created: background, events and cursor.
+const BACKGROUND_EVENTS_CURSOR: u32 = 1 << 1 | 1 << 11 | 1 << 14;
+/// The events that are heard: key down, key up, and what happens to the window (StructureNotify).
+const EVENTS: u32 = 1 | 1 << 1 | 1 << 17;
+/// Width and height of one pixel.
+const ONE_PIXEL: u32 = 1 | 1 << 16;
+
 /// Words of a PutImage request before its pixels.
-const HEAD: usize = 6;
-/// Largest side of what is drawn, pixels: a frame's. In a larger window the picture is at its left upper corner, since X counts
-/// pixels up to 32,767.
+const PUT_IMAGE_HEAD: usize = 6;
+/// Largest side of what is drawn, pixels: that of a frame. In a larger window the picture is in the upper left corner,
+/// since X counts pixels up to 32,767.
 const MAX_SIDE: usize = 16384;
-/// Most events that are heard at once, so that a server that never ends does not keep us.
-const EVENTS: usize = 64;
-/// Longest time from the release to the press that the server makes up where a held key repeats, milliseconds.
+/// Most events that are heard at once, so that a server that never stops talking does not keep us.
+const EVENTS_AT_ONCE: usize = 64;
+/// Longest time from the release to the press that the server makes up while a held key repeats, milliseconds.
 const REPEAT: u32 = 20;
 
 /// An open window.
@@ -24,60 +72,60 @@ pub struct Window {
     server: Server,
     /// Bits of a pixel that are shown.
     depth: u32,
-    /// Width and height, pixels, now and where it does not fill the screen.
+    /// Width and height at present, pixels.
     size: (usize, usize),
+    /// Width and height where the window does not fill the screen, pixels.
     usual: (usize, usize),
     /// The atom `WM_DELETE_WINDOW`.
     delete: u32,
-    /// Symbols of the keys, the code of the first and how many each has.
+    /// The symbols of all keys, the code of the first key, and the number of symbols per key.
     symbols: (Vec<u32>, u32, u32),
-    /// Has the size changed since the last frame was sent?
+    /// Whether the size has changed since the last frame was sent.
     resized: bool,
-    /// Code of the key that was released last, and when, milliseconds.
+    /// The code of the key that was released last, and when, milliseconds.
     released: (u32, u32),
-    /// An event, and how many bytes of it have come.
+    /// An event, and how many of its bytes have come.
     event: ([u8; 4 * PACKET], usize),
-    /// The keys that wait for [`Window::press`].
+    /// The symbols of keys that wait for [`Window::next_key`].
     pressed: Vec<u32>,
 }
 
 impl Window {
-    /// Opens a window of `size`, in pixels; the error says why there is none.
+    /// Opens a window of `size`, width and height in pixels. The error says why there is none.
     pub fn open(size: (usize, usize)) -> Result<Window, String> {
         let mut why = UNFIT;
         Server::find(&mut why).and_then(|server| Window::create(server, size)).ok_or_else(|| why.into())
     }
 
-    /// The window, where the server has 32 bits a pixel, little-endian.
+    /// The window, where the server has 32 bits per pixel, little-endian.
     fn create(mut server: Server, size: (usize, usize)) -> Option<Window> {
         let [root, black, depth] = server.screen()?;
-        let (id, codes) = (server.setup[1], server.setup[6]);
+        let (id, codes) = (server.setup[SETUP_ID], server.setup[SETUP_KEYS]);
         let (first, last) = (codes >> 16 & 255, codes >> 24);
         let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
-        // GetKeyboardMapping
-        server.send(&[101 | 2 << 16, first | (last + 1).wrapping_sub(first) << 8])?;
+        server.send(&[request(GET_KEYBOARD_MAPPING, 0, 2), first | (last + 1).wrapping_sub(first) << 8])?;
+        // How many symbols each key has is in the second byte, how many words follow in the second word.
         let keyboard = server.receive(PACKET)?;
         let symbols = (server.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
         let [left, top, width, height] = server.place(size);
         let [context, pixmap, cursor, pen] = [id | 1, id | 2, id | 3, id | 4];
         let [name, end] = TITLE_WORDS;
         server.send(&[
-            // CreatePixmap of one pixel of one bit, CreateGC of black, PolyFillRectangle.
-            53 | 1 << 8 | 4 << 16,
+            // A cursor that shows nothing: its picture and its mask are one black pixel of one bit.
+            request(CREATE_PIXMAP, 1, 4),
             pixmap,
             root,
-            1 | 1 << 16,
-            55 | 4 << 16,
+            ONE_PIXEL,
+            request(CREATE_GC, 0, 4),
             pen,
             pixmap,
             0,
-            70 | 5 << 16,
+            request(POLY_FILL_RECTANGLE, 0, 5),
             pixmap,
             pen,
             0,
-            1 | 1 << 16,
-            // CreateCursor that shows nothing.
-            93 | 8 << 16,
+            ONE_PIXEL,
+            request(CREATE_CURSOR, 0, 8),
             cursor,
             pixmap,
             pixmap,
@@ -85,41 +133,41 @@ impl Window {
             0,
             0,
             0,
-            // CreateWindow: no border, background, events (keys down and up, StructureNotify), cursor.
-            1 | 11 << 16,
+            // The window, of the root's depth and without a border (the 1 is its class, InputOutput).
+            request(CREATE_WINDOW, 0, 11),
             id,
             root,
             left | top << 16,
             width | height << 16,
             1 << 16,
             0,
-            0x4802,
+            BACKGROUND_EVENTS_CURSOR,
             black,
-            0x20003,
+            EVENTS,
             cursor,
-            // CreateGC
-            55 | 4 << 16,
+            // What its pictures are put with.
+            request(CREATE_GC, 0, 4),
             context,
             id,
             0,
-            // ChangeProperty WM_NAME of STRING, WM_PROTOCOLS of ATOM.
-            18 | 8 << 16,
+            // Its title.
+            request(CHANGE_PROPERTY, 0, 8),
             id,
-            39,
-            31,
-            8,
+            WM_NAME,
+            STRING,
+            BITS_8,
             TITLE.len() as u32,
             name,
             end,
-            18 | 7 << 16,
+            // A window manager is to ask for the end, not to cut the connection.
+            request(CHANGE_PROPERTY, 0, 7),
             id,
             protocols,
-            4,
-            32,
+            ATOM,
+            BITS_32,
             1,
             delete,
-            // MapWindow
-            8 | 2 << 16,
+            request(MAP_WINDOW, 0, 2),
             id,
         ])?;
         Some(Window {
@@ -136,42 +184,43 @@ impl Window {
         })
     }
 
-    /// Shows a frame, as large as it fits.
+    /// Shows a frame, as large as it fits into the window at its own aspect.
     pub fn show(&mut self, frame: &Frame) -> Result<(), String> {
         self.put(frame).ok_or_else(|| "the display went away".into())
     }
 
     fn put(&mut self, frame: &Frame) -> Option<()> {
-        // Pixels that the longest request has room for. A picture has a row at least of them, and no more rows.
-        let room = ((self.server.setup[4] >> 16) as usize).saturating_sub(HEAD).clamp(1, MAX_SIDE);
+        // Pixels that the longest request has room for. A picture is no wider, so that one row fits, and no higher
+        // either.
+        let room = (self.server.setup[SETUP_LENGTHS] >> 16) as usize;
+        let room = room.saturating_sub(PUT_IMAGE_HEAD).clamp(1, MAX_SIDE);
         let size = (self.size.0.min(room), self.size.1.min(room));
         let (columns, count) = resample::fit(frame, size);
         let (left, top) = (size.0.saturating_sub(columns) / 2, size.1.saturating_sub(count) / 2);
-        let id = self.server.setup[1];
-        let band = room / columns;
+        let id = self.server.setup[SETUP_ID];
+        let band_rows = room / columns;
         self.server.waits = WAITS;
         if take(&mut self.resized) {
-            // ClearArea, of what was sent for another size.
-            self.server.send(&[61 | 4 << 16, id, 0, 0])?;
+            // What was sent for another size may lie outside of this picture.
+            self.server.send(&[request(CLEAR_AREA, 0, 4), id, 0, 0])?;
         }
-        for first in (0..count).step_by(band) {
-            let rows = first..count.min(first + band);
-            // PutImage of whole pixels.
-            let mut request = bytes(&[
-                72 | 2 << 8 | ((HEAD + rows.len() * columns) as u32) << 16,
+        for first in (0..count).step_by(band_rows) {
+            let rows = first..count.min(first + band_rows);
+            let mut band = bytes(&[
+                request(PUT_IMAGE, Z_PIXMAP, (PUT_IMAGE_HEAD + rows.len() * columns) as u32),
                 id,
                 id | 1,
                 columns as u32 | (rows.len() as u32) << 16,
                 left as u32 | ((top + first) as u32) << 16,
                 self.depth << 8,
             ]);
-            request.extend_from_slice(&resample::rows(frame, columns, count, rows));
+            band.extend_from_slice(&resample::rows(frame, columns, count, rows));
             self.server.waits = WAITS;
-            let mut rest = &*request;
+            let mut rest = &*band;
             while !rest.is_empty() {
-                // However long all of it takes, Esc ends at once.
+                // However long the whole frame takes, Esc ends at once.
                 self.listen()?;
-                if self.pressed.contains(&LEAVE) {
+                if self.pressed.contains(&keysym::ESCAPE) {
                     return Some(());
                 }
                 rest = &rest[self.server.push(rest)?..];
@@ -180,21 +229,21 @@ impl Window {
         Some(())
     }
 
-    /// Fills the screen, or does so no more.
-    pub fn fill(&mut self) {
-        self.server.fill(self.server.setup[1], self.usual);
+    /// Fills the screen, or goes back to the usual size.
+    pub fn toggle_fullscreen(&mut self) {
+        self.server.toggle_fullscreen(self.server.setup[SETUP_ID], self.usual);
     }
 
-    /// The keys that have gone down since the last call, one at a time; `None` when those were all.
-    pub fn press(&mut self) -> Option<u32> {
-        // A lost display is noticed where the next frame is shown.
+    /// The next key that has gone down, as a [`keysym`]; `None` when there are no more.
+    pub fn next_key(&mut self) -> Option<u32> {
+        // A lost display is noticed when the next frame is shown.
         let _ = self.listen();
         if self.pressed.is_empty() { None } else { Some(self.pressed.remove(0)) }
     }
 
-    /// Hears what the server has said by now; `None` where it has hung up.
+    /// Hears what the server has said by now. `None` where it has hung up.
     fn listen(&mut self) -> Option<()> {
-        for _ in 0..EVENTS {
+        for _ in 0..EVENTS_AT_ONCE {
             let (packet, got) = &mut self.event;
             match read(&self.server.socket, &mut packet[*got..]) {
                 Ok(0) => return None,
@@ -207,30 +256,27 @@ impl Window {
             *got = 0;
             let event = packet.as_chunks().0;
             let event: [u32; PACKET] = from_fn(|at| u32::from_le_bytes(event[at]));
-            let (key, time) = (event[0] >> 8 & 255, event[1]);
-            match event[0] & 127 {
-                // KeyPress
-                2 => {
+            let (key, time) = (event[0] >> 8 & 255, event[KEY_TIME]);
+            match event[0] & EVENT_CODE {
+                KEY_PRESS => {
                     let (symbols, first, each) = &self.symbols;
                     let place = key.wrapping_sub(*first).wrapping_mul(*each);
                     let held = self.released.0 == key && time.wrapping_sub(self.released.1) < REPEAT;
                     if let Some(&symbol) = symbols.get(place as usize)
-                        && (!held || matches!(symbol, BACK | FORWARD))
+                        && (!held || matches!(symbol, keysym::LEFT | keysym::RIGHT))
                     {
                         self.pressed.push(symbol);
                     }
                 }
-                // KeyRelease
-                3 => self.released = (key, time),
-                // DestroyNotify: another client closed it.
-                17 => self.pressed.push(LEAVE),
-                // ConfigureNotify
-                22 => {
-                    self.size = ((event[5] & 0xffff) as usize, (event[5] >> 16) as usize);
+                KEY_RELEASE => self.released = (key, time),
+                // Another client has closed the window.
+                DESTROY_NOTIFY => self.pressed.push(keysym::ESCAPE),
+                CONFIGURE_NOTIFY => {
+                    let size = event[CONFIGURED_SIZE];
+                    self.size = ((size & 0xffff) as usize, (size >> 16) as usize);
                     self.resized = true;
                 }
-                // ClientMessage
-                33 if event[3] == self.delete => self.pressed.push(LEAVE),
+                CLIENT_MESSAGE if event[MESSAGE] == self.delete => self.pressed.push(keysym::ESCAPE),
                 _ => {}
             }
         }
@@ -238,7 +284,7 @@ impl Window {
     }
 }
 
-/// The title, of up to eight bytes.
+/// The title as words: up to eight bytes, and zeros.
 const TITLE_WORDS: [u32; 2] = {
     let mut words = [0; 2];
     let mut i = 0;

@@ -2,12 +2,12 @@
 
 use super::subject::Subject;
 use super::sweep::{Point, Sweep, Truth};
-use crate::maps;
 use crate::metrics::Error;
 use fearless_simd::Level;
 use paprsek::frame::{Frame, Renderer};
 use std::collections::HashMap;
 use std::time::Instant;
+use testkit::drawn::forget_maps;
 use testkit::median;
 
 /// How much is measured.
@@ -91,8 +91,8 @@ impl<'a> Bench<'a> {
         let mut frame = Frame::new(self.effort.size.0, self.effort.size.1);
         let instants = self.effort.instants;
         for round in 0..self.effort.rounds {
-            let mut timed = |point| {
-                maps::forget();
+            let mut timed = |point: &Point| {
+                forget_maps(self.renderers.with(point.threads.unwrap_or(self.effort.threads), point.level));
                 let began = Instant::now();
                 self.render(point, round % instants, &mut frame);
                 began.elapsed().as_secs_f64() * 1000.0

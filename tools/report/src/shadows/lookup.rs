@@ -5,11 +5,12 @@ use super::truth::Pixel;
 use fearless_simd::{Level, dispatch};
 use glam::{Affine3A, DMat4, DVec3, Vec3};
 use paprsek::frame::Tile;
-use paprsek::raster::bins::{Bins, NOTHING};
+use paprsek::raster::bins::Bins;
+use paprsek::raster::depth_map::EMPTY;
 use paprsek::raster::fill::{CENTER, Visible, fill};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{self, Bias};
+use paprsek::raster::id::NOTHING;
 use paprsek::raster::triangle::{SetupMesh, TriangleSetup};
+use paprsek::raster::{Bias, Projection};
 
 /// A shadow map.
 pub struct Map {
@@ -28,12 +29,12 @@ impl Map {
     /// Draws a set into the map on this thread.
     pub fn draw(&mut self, set: &Set, projection: Projection) {
         let setup = TriangleSetup { projection, back_faces: false, shaded: false };
-        let pieces: Vec<SetupMesh> = set.meshes.iter().map(|mesh| setup.piece(mesh, &Affine3A::IDENTITY)).collect();
+        let pieces: Vec<SetupMesh> = set.meshes.iter().map(|mesh| setup.set_up(mesh, &Affine3A::IDENTITY)).collect();
         let bins = Bins::new(&pieces, projection.size);
         let (size, edge, level) = (self.size, Tile::SIZE, Level::new());
         let mut visible = Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
         for (y, x) in (0..size / edge).flat_map(|y| (0..size / edge).map(move |x| (y, x))) {
-            visible.inv_depth.fill(shadow::NOTHING);
+            visible.inv_depth.fill(EMPTY);
             let (ids, left, top) = (bins.of(x, y), (x * edge) as i32, (y * edge) as i32);
             dispatch!(level, simd => fill(simd, &pieces, ids, left, top, CENTER, &mut visible));
             for (row, from) in visible.inv_depth.chunks(edge).enumerate() {

@@ -10,7 +10,7 @@ use crate::options::{Common, Result};
 use crate::plot::{self, Axis, Curve};
 use glam::Vec3;
 use paprsek::frame::Renderer;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::{Bias, ShadowViews};
 use set::{Set, sun};
 use std::fmt::Write;
 use std::time::Instant;

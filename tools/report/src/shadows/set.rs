@@ -4,11 +4,7 @@ use fearless_simd::Level;
 use glam::{Affine3A, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::mesh::{Mesh, Paint};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, World, fit};
 use paprsek::scenes::bench::shadow_set;
 use paprsek::scenes::models::{chapel, land, tree};
 use paprsek::settings::Quality;
@@ -140,35 +136,24 @@ impl Set {
 
     /// Shadow views with the scene's bias.
     pub fn plan(&self, views: Vec<Projection>) -> ShadowViews {
-        ShadowViews { views, bias: self.bias, back_faces: false, traced: false, from: 0, smooth: self.smooth }
+        ShadowViews { smooth: self.smooth, ..ShadowViews::new(views, self.bias) }
     }
 
     /// Draws the set under suns, given by direction, colour and shadow views.
     pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3, Vec3, Option<ShadowViews>)]) -> Shot {
         let light = |(towards, color, shadow): &(Vec3, Vec3, Option<ShadowViews>)| Light {
-            source: Source::Sun(*towards),
-            color: *color,
             shadow: shadow.clone(),
+            ..Light::sun(*towards, *color)
         };
-        let world = World {
-            bodies: self.bodies.clone(),
-            textures: Vec::new(),
-            lights: suns.iter().map(light).collect(),
-            ambient: [Vec3::ZERO; 2],
-            veil: None,
-            snow: None,
-            haze: Haze::even(Vec3::ZERO, 0.0),
-            zenith: Vec3::ZERO,
-            film: false,
-            background: None,
-        };
+        let lights = suns.iter().map(light).collect();
+        let world = World { lights, ..World::new(self.bodies.clone()) };
         let (width, height) = self.size;
         let kept = Arc::new(Mutex::new((vec![[0.0; 4]; width * height], 0.0)));
-        let drawn = RasterLayer::new(world, self.view(), width, height, Quality::FAST);
+        let drawn = RasterLayer::new(world, &self.view(), &Quality::FAST.raster);
         let layer = Probe { drawn, width, kept: kept.clone() };
         let picture = Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb };
         let mut frame = Frame::new(width, height);
-        crate::maps::forget();
+        testkit::drawn::forget_maps(renderer);
         let began = Instant::now();
         renderer.draw(picture, &mut frame);
         let all = began.elapsed().as_secs_f64() * 1e3;

@@ -3,10 +3,10 @@
 use super::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3};
 use paprsek::frame::{Renderer, Tile};
-use paprsek::raster::bins::{Bins, parts};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{Bias, ShadowViews};
+use paprsek::raster::bins::Bins;
+use paprsek::raster::id::parts;
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
+use paprsek::raster::{Bias, Projection, ShadowViews};
 
 /// Edge of the rasters that sort triangles, texels. Corners are snapped to 1/256 texel.
 const SIZE: u32 = 4096;
@@ -35,7 +35,7 @@ impl Tracer {
     fn new(set: &Set, views: Vec<Projection>) -> Tracer {
         let view = |projection: Projection| {
             let setup = TriangleSetup { projection, back_faces: false, shaded: false };
-            let pieces: Vec<_> = set.meshes.iter().map(|mesh| setup.piece(mesh, &Affine3A::IDENTITY)).collect();
+            let pieces: Vec<_> = set.meshes.iter().map(|mesh| setup.set_up(mesh, &Affine3A::IDENTITY)).collect();
             let bins = Bins::new(&pieces, projection.size);
             (projection.matrix().as_dmat4(), pieces, bins)
         };

@@ -2,7 +2,7 @@
 
 use super::set::Set;
 use glam::{Vec3, Vec4};
-use paprsek::raster::project::Projection;
+use paprsek::raster::Projection;
 
 /// A warped map of `size` texels for what a set's camera sees between the ends of its range. Its w is the distance from a
 /// point behind the eye, along the view axis as the sun sees it; so heights towards the sun divided by w are affine in the
