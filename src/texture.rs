@@ -7,8 +7,7 @@
 
 use crate::cuts;
 use crate::noise::{self, Footprint};
-pub use crate::simd::block::Block3;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
