@@ -3,7 +3,7 @@
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture, Stats, Tile};
-use crate::particles::{Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
+use crate::particles::{Emitter, Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
 use crate::settings::Quality;
 use crate::view::Camera;
 use crate::view::View;
@@ -68,7 +68,8 @@ pub fn snowfall(spec: &FrameSpec, of: &Flakes) -> ParticleLayer {
     // The eye is the origin, since far from it there are no fractions of metres.
     let camera = spec.camera(Camera::look_at(Vec3::ZERO, way.as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
-    ParticleLayer::new([flakes(of, t, camera.eye)], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
+    ParticleLayer::new(vec![flakes(of, t, camera.eye).into()], &view, &spec.quality.particles)
+        .colored(vec3(0.95, 0.97, 1.0))
 }
 
 /// The torches at `time` seconds, as specified.
@@ -97,7 +98,8 @@ fn fire(spec: &FrameSpec) -> Picture {
     let camera = spec.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
     // All particles that are specified, whatever the quality.
-    let particles = ParticleLayer::new(fires(spec.time), &view, &Quality::EXACT.particles);
+    let particles =
+        ParticleLayer::new(fires(spec.time).into_iter().map(Emitter::Fire).collect(), &view, &Quality::EXACT.particles);
     over(spec, FIRE_SKY, particles)
 }
 

@@ -47,7 +47,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let way = wind.as_dvec3() * t + DVec3::X * (1.5 * (t / 1.5).sin());
     let mut rain = Snow::new(&DROPS, t, camera.eye.as_dvec3(), way, 0.3 + 0.7 * ease(0.0, 6.0, t));
     rain.streak = (wind - Vec3::Y * DROPS.fall[0] as f32) * (0.5 * SHUTTER);
-    let rain = ParticleLayer::new([rain], &view, &spec.quality.particles).colored(sky * 1.6);
+    let rain = ParticleLayer::new(vec![rain.into()], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = day::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));
     picture
