@@ -138,7 +138,7 @@ fn one_eye_in_the_middle_is_the_camera() {
 /// The middle of the light in the picture of a glowing ball, pixels.
 fn middle(ball: Vec3, radius: f32, camera: Camera) -> (f64, f64) {
     let ball = Object::new(Shape::Sphere { center: ball, radius }, Material::plain(Vec3::ONE));
-    let world = World { objects: vec![ball], ambient: Vec3::ONE, max_level: 1, ..World::EMPTY };
+    let world = World { ambient: Vec3::ONE, max_level: 1, ..World::new(vec![ball]) };
     let light = traced(&world, camera, (200, 150), Quality::REFERENCE, fearless_simd::Level::new());
     let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
     for (i, pixel) in light.pixels.iter().enumerate() {
