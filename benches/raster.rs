@@ -20,11 +20,7 @@ use paprsek::view::View;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
-
-#[path = "../tests/common/mod.rs"]
-mod common;
-#[path = "../examples/common/maps.rs"]
-mod maps;
+use testkit::drawn::forget_maps;
 
 /// Triangles of the set.
 const TRIANGLES: usize = 9984;
@@ -111,9 +107,7 @@ fn median(mut frame: impl FnMut(f64)) -> f64 {
         frame(START + k as f64 * STEP);
         began.elapsed().as_secs_f64() * 1000.0
     };
-    let mut times: Vec<f64> = (0..FRAMES).map(timed).collect();
-    times.sort_by(f64::total_cmp);
-    times[FRAMES / 2]
+    testkit::median((0..FRAMES).map(timed).collect())
 }
 
 fn depth(criterion: &mut Criterion) {
@@ -126,11 +120,11 @@ fn depth(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("depth {name}"));
         group.throughput(Throughput::Elements((TRIANGLES * count) as u64)).sample_size(20);
         let mut expected = None;
-        let settings = common::levels().into_iter().map(|level| (level, 1)).chain([(common::levels()[0], 2)]);
+        let settings = testkit::levels().into_iter().map(|level| (level, 1)).chain([(testkit::levels()[0], 2)]);
         for ((level_name, level), threads) in settings {
             let mut renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
             let mut draw = |renderer: &mut Renderer, time: f64| {
-                maps::forget(renderer);
+                forget_maps(renderer);
                 black_box(renderer.draw(depth_only(&bodies, case.light(time)), &mut frame));
             };
             draw(&mut renderer, START);
@@ -163,7 +157,7 @@ fn frames(criterion: &mut Criterion) {
             let quality = Quality::named(quality_name).expect("a quality of the command line");
             let mut frame = Frame::new(SIZE.0, SIZE.1);
             let mut draw = |time: f64| {
-                maps::forget(&renderer);
+                forget_maps(&renderer);
                 renderer.render(&scene, time, &quality, &mut frame).samples
             };
             // Every pixel but those of the sky has a fragment.

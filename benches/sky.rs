@@ -14,9 +14,6 @@ use paprsek::sky::layer::SkyLayer;
 use paprsek::view::{Camera, View};
 use std::hint::black_box;
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 const SIZE: (usize, usize) = (640, 360);
 /// Altitudes of the sun, degrees: by day, and in the dusk, which takes three times as many points.
 const ALTITUDES: [f32; 2] = [30.0, -6.0];
@@ -52,14 +49,14 @@ fn dome(criterion: &mut Criterion) {
         let mut truth = Frame::new(SIZE.0, SIZE.1);
         let mut group = criterion.benchmark_group(format!("dome at {altitude} degrees"));
         group.throughput(Throughput::Elements((SIZE.0 * SIZE.1) as u64)).sample_size(10);
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let mut renderer = Renderer::new(1).expect("the thread that is there").at_level(level);
             for cell in CELLS {
                 let mut frame = Frame::new(SIZE.0, SIZE.1);
                 renderer.draw(picture(altitude, cell), &mut frame);
                 if cell > 0.0 {
                     assert!(off(&frame, &truth) <= OFF, "{cell} {level_name}: {} codes", off(&frame, &truth));
-                } else if level_name == common::levels()[0].0 {
+                } else if level_name == testkit::levels()[0].0 {
                     truth = frame.clone();
                 } else {
                     assert_eq!(frame, truth, "{level_name}");

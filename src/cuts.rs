@@ -32,6 +32,12 @@ pub const LIGHT_WITHOUT_FILM: bool = FULL;
 /// Whether the rasterizer can fill what solids leave open with a colour.
 pub const BACKGROUND: bool = FULL;
 
+/// Whether imposters can stand for clouds.
+pub const IMPOSTERS: bool = FULL;
+
+/// Whether particles can be drawn as streaks along their way, as rain is.
+pub const STREAKS: bool = FULL;
+
 /// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
 pub const SOFT_LIGHTS: bool = FULL;
 

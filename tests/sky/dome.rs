@@ -1,6 +1,5 @@
 //! The light of the air: against an integral in f64 and without seams.
 
-use crate::common;
 use glam::{DVec3, Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
@@ -243,7 +242,7 @@ fn the_same_bytes_at_every_level_and_on_any_threads() {
         for quality in [Quality::FAST, Quality::EXACT].map(|q| q.sky) {
             for size in [(200, 130), (67, 3), (1, 1)] {
                 let truth = frame(&mut Renderer::new(1).unwrap(), sky, &quality, 12.0, size);
-                for (name, level) in common::levels() {
+                for (name, level) in testkit::levels() {
                     for threads in [1, 3] {
                         let mut renderer = Renderer::new(threads).unwrap().at_level(level);
                         assert!(frame(&mut renderer, sky, &quality, 12.0, size) == truth, "{name}, {threads} threads");
@@ -282,7 +281,7 @@ fn fills_what_solids_leave() {
     for sky in skies() {
         let settings = Quality::FAST.sky;
         let layer = || SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings);
-        for (_, level) in common::levels() {
+        for (_, level) in testkit::levels() {
             let (mut all, mut rest) = (Tile::at(0, 0, 64, 64), Tile::at(0, 0, 64, 64));
             for plane in [&mut all.red, &mut rest.red] {
                 plane.fill(0.25);
@@ -353,7 +352,7 @@ fn the_moon_is_lit_where_the_sun_is() {
         let settings = Quality::FAST.sky;
         let dome = Dome::new(sky, &settings).with_sizes(2.0, 10.0);
         let layer = SkyLayer::new(dome, &View::new(camera, 64, 64), &settings);
-        layer.draw(common::levels()[0].1, &mut tile);
+        layer.draw(testkit::levels()[0].1, &mut tile);
         let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
         for i in 0..Tile::AREA {
             if tile.green[i] > 0.15 {
@@ -381,7 +380,7 @@ fn the_sun_reddens_towards_the_horizon() {
         let mut tile = Tile::at(0, 0, 64, 64);
         let settings = Quality::FAST.sky;
         SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings)
-            .draw(common::levels()[0].1, &mut tile);
+            .draw(testkit::levels()[0].1, &mut tile);
         let middle = 32 * Tile::SIZE + 32;
         let (red, blue) = (tile.red[middle], tile.blue[middle]);
         assert!(red > 0.9 && red <= 1.0, "{altitude}: {red}");

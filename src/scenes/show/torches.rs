@@ -5,10 +5,8 @@ use super::day;
 use crate::cuts;
 use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
-use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
-use crate::particles::sprite::Lens;
-use crate::particles::{Emitter, ParticleLayer};
+use crate::particles::{Emitter, Fire, Flame, Lens, ParticleLayer};
 use crate::raster::{Body, Light, Mesh, form};
 use crate::scenes::models::{PAINTS, paint};
 use crate::timeline::{self, Key};
@@ -134,7 +132,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.7,
         radius: [0.11, 0.03],
         light: [vec3(0.02, 0.0105, 0.003), vec3(0.012, 0.002, 0.0003)],
-        alpha: 0.0,
     },
     Flame {
         life: [0.8, 1.2],
@@ -147,7 +144,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.4,
         radius: [0.008, 0.005],
         light: [vec3(0.25, 0.12, 0.04), vec3(0.2, 0.05, 0.01)],
-        alpha: 0.0,
     },
 ];
 
@@ -171,10 +167,10 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
                 weight: 1.0,
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
-            flames.push(Emitter::Fire(fire.detailed(view, spec.quality.particles.detail)));
+            flames.push(Emitter::Fire(fire));
         }
     }
-    ParticleLayer::new(flames, Vec3::ZERO, 1.6, view, spec.width, spec.height)
+    ParticleLayer::new(flames, view, &spec.quality.particles)
 }
 
 fn picture(spec: &FrameSpec) -> Picture {
