@@ -9,9 +9,6 @@ use fearless_simd::{Level, dispatch};
 use paprsek::frame::encode::{Transfer, encode};
 use std::time::Instant;
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 const PIXELS: usize = 1280;
 const ROWS: u32 = 720;
 
@@ -33,7 +30,7 @@ fn bench(c: &mut Criterion) {
         let mut group = c.benchmark_group(name);
         group.throughput(Throughput::Elements(PIXELS as u64 * ROWS as u64)).sample_size(10);
         let mut expected = None;
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let sum = frame(level, transfer, light, &mut out);
             assert_eq!(*expected.get_or_insert(sum), sum, "{name} {level_name}");
             let best = (0..7).map(|_| {

@@ -11,9 +11,6 @@ use paprsek::noise::{fbm, noise, noise_block, octaves_block};
 use paprsek::simd::block::BLOCK;
 use std::time::Instant;
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 const SIZE: [usize; 3] = [256, 128, 128];
 const STEP: f32 = 0.05;
 
@@ -94,7 +91,7 @@ fn bench(c: &mut Criterion) {
         group.throughput(Throughput::Elements(points as u64)).sample_size(10);
         report(&format!("{name} scalar"), points, || scalar(planes, octaves));
         group.bench_function("scalar", |b| b.iter(|| scalar(planes, octaves)));
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             assert_eq!(wide(level, planes, octaves), expected, "{name} {level_name}");
             report(&format!("{name} {level_name}"), points, || wide(level, planes, octaves));
             group.bench_function(level_name, |b| b.iter(|| wide(level, planes, octaves)));

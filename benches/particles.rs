@@ -17,9 +17,6 @@ use paprsek::view::View;
 use std::hint::black_box;
 use std::time::Instant;
 
-#[path = "../tests/common/mod.rs"]
-mod common;
-
 /// Frames of a figure that is printed, and the seconds between them: those of the other renderers.
 const FRAMES: usize = 20;
 const STEP: f64 = 0.05;
@@ -36,7 +33,7 @@ fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
         return snowfall(&renderer.spec(time, &Quality::FAST, SIZE), &FLAKES).without_solids();
     }
     let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
-    ParticleLayer::fire(fires(time), 1.6, &View::new(camera, width, height), width, height).without_solids()
+    ParticleLayer::new(fires(time), &View::new(camera, width, height), &Quality::EXACT.particles).without_solids()
 }
 
 /// Milliseconds: the median.
@@ -47,9 +44,7 @@ fn median(mut frame: impl FnMut(f64)) -> f64 {
         frame(START + k as f64 * STEP);
         began.elapsed().as_secs_f64() * 1000.0
     };
-    let mut times: Vec<f64> = (0..FRAMES).map(timed).collect();
-    times.sort_by(f64::total_cmp);
-    times[FRAMES / 2]
+    testkit::median((0..FRAMES).map(timed).collect())
 }
 
 /// Draws prepared particles into all tiles of the picture.
@@ -73,7 +68,7 @@ fn motion(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("motion of {name}"));
         group.throughput(Throughput::Elements(count as u64)).sample_size(20);
         let mut expected = None;
-        let settings = common::levels().into_iter().map(|level| (level, 1)).chain([(common::levels()[0], 2)]);
+        let settings = testkit::levels().into_iter().map(|level| (level, 1)).chain([(testkit::levels()[0], 2)]);
         for ((level_name, level), threads) in settings {
             let renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
             let prepare = |time: f64| {
@@ -109,7 +104,7 @@ fn sprites(criterion: &mut Criterion) {
     for (kind, (name, _)) in KINDS.into_iter().enumerate() {
         let mut group = criterion.benchmark_group(format!("sprites of {name}"));
         let mut expected = None;
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let renderer = Renderer::new(1).expect("threads can be started").at_level(level);
             let mut particles = particles(&renderer, kind, START);
             particles.prepare(renderer.workers(), renderer.cache());

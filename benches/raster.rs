@@ -8,12 +8,10 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
+use paprsek::frame::cache::lock;
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
-use paprsek::raster::light::{Haze, Light, Source};
-use paprsek::raster::project::Projection;
-use paprsek::raster::shadow::{self, Bias, ShadowViews};
-use paprsek::raster::{Body, RasterLayer, World, fit};
+use paprsek::raster::{Bias, Body, Light, Projection, RasterLayer, RasterMemory, ShadowViews, World, fit};
 use paprsek::scenes;
 use paprsek::scenes::bench::shadow_set;
 use paprsek::settings::Quality;
@@ -22,11 +20,7 @@ use paprsek::view::View;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
-
-#[path = "../tests/common/mod.rs"]
-mod common;
-#[path = "../examples/common/maps.rs"]
-mod maps;
+use testkit::drawn::forget_maps;
 
 /// Triangles of the set.
 const TRIANGLES: usize = 9984;
@@ -67,47 +61,35 @@ impl Case {
 
     fn light(self, time: f64) -> Light {
         let (_, size, _) = self.numbers();
-        let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let (source, views) = match self {
+        let (light, views) = match self {
             Case::Sun => {
                 let towards = shadow_set::sun(time).as_vec3();
-                (Source::Sun(towards), vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)])
+                let views = vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)];
+                (Light::sun(towards, Vec3::ONE), views)
             }
             Case::Cube => {
                 let position = shadow_set::torch(time).as_vec3();
-                let falloff = Vec2::new(0.0, 0.06);
-                (Source::Lamp { position, falloff, reach: f32::INFINITY }, fit::cube(position, size as u32))
+                let light = Light::lamp(position, Vec3::ONE, Vec2::new(0.0, 0.06), f32::INFINITY);
+                (light, fit::cube(position, size as u32))
             }
         };
-        let shadow = Some(ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: false });
-        Light { source, color: Vec3::ONE, shadow }
+        light.with_shadow(ShadowViews { smooth: false, ..ShadowViews::new(views, Bias::default()) })
     }
 }
 
 /// The set under a light, whose maps are all that is drawn: the camera is far off and looks away.
 fn depth_only(bodies: &[Body], light: Light) -> Picture {
     let camera = Camera::look_at(Vec3::splat(1e4), Vec3::splat(2e4), 0.1, 0.0);
-    let world = World {
-        bodies: bodies.to_vec(),
-        textures: Vec::new(),
-        lights: vec![light],
-        ambient: [Vec3::ZERO; 2],
-        veil: None,
-        snow: None,
-        haze: Haze::even(Vec3::ZERO, 0.0),
-        zenith: Vec3::ZERO,
-        film: false,
-        background: None,
-    };
-    let drawn =
-        RasterLayer::new(world, View::new(camera, Tile::SIZE, Tile::SIZE), Tile::SIZE, Tile::SIZE, Quality::FAST);
+    let world = World { lights: vec![light], ..World::new(bodies.to_vec()) };
+    let drawn = RasterLayer::new(world, &View::new(camera, Tile::SIZE, Tile::SIZE), &Quality::FAST.raster);
     Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }
 }
 
 /// The bits of every texel, mixed.
-fn sum() -> u64 {
-    let maps = shadow::maps();
-    let (key, map) = maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
+fn sum(renderer: &Renderer) -> u64 {
+    let memory = renderer.cache().get::<RasterMemory>();
+    let memory = lock(&memory);
+    let (key, map) = memory.maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
     let mut sum = 0u64;
     for view in 0..key.views.len() {
         for (x, y) in (0..map.size).flat_map(|y| (0..map.size).map(move |x| (x, y))) {
@@ -125,9 +107,7 @@ fn median(mut frame: impl FnMut(f64)) -> f64 {
         frame(START + k as f64 * STEP);
         began.elapsed().as_secs_f64() * 1000.0
     };
-    let mut times: Vec<f64> = (0..FRAMES).map(timed).collect();
-    times.sort_by(f64::total_cmp);
-    times[FRAMES / 2]
+    testkit::median((0..FRAMES).map(timed).collect())
 }
 
 fn depth(criterion: &mut Criterion) {
@@ -140,16 +120,17 @@ fn depth(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("depth {name}"));
         group.throughput(Throughput::Elements((TRIANGLES * count) as u64)).sample_size(20);
         let mut expected = None;
-        let settings = common::levels().into_iter().map(|level| (level, 1)).chain([(common::levels()[0], 2)]);
+        let settings = testkit::levels().into_iter().map(|level| (level, 1)).chain([(testkit::levels()[0], 2)]);
         for ((level_name, level), threads) in settings {
             let mut renderer = Renderer::new(threads).expect("threads can be started").at_level(level);
-            let mut draw = |time: f64| {
-                maps::forget();
+            let mut draw = |renderer: &mut Renderer, time: f64| {
+                forget_maps(renderer);
                 black_box(renderer.draw(depth_only(&bodies, case.light(time)), &mut frame));
             };
-            draw(START);
-            assert_eq!(*expected.get_or_insert_with(sum), sum(), "{name} {level_name} on {threads} threads");
-            let ms = median(&mut draw);
+            draw(&mut renderer, START);
+            let found = sum(&renderer);
+            assert_eq!(*expected.get_or_insert(found), found, "{name} {level_name} on {threads} threads");
+            let ms = median(|time| draw(&mut renderer, time));
             println!(
                 "{name:15} {level_name:7} {threads} threads {ms:7.3} ms {:7.2} Mtri/s {:8.1} Mpixel/s",
                 (TRIANGLES * count) as f64 / ms * 1e-3,
@@ -159,7 +140,7 @@ fn depth(criterion: &mut Criterion) {
             group.bench_function(format!("{level_name} {threads} threads"), |bencher| {
                 bencher.iter(|| {
                     step += 1;
-                    draw(START + step as f64 * STEP);
+                    draw(&mut renderer, START + step as f64 * STEP);
                 });
             });
         }
@@ -176,7 +157,7 @@ fn frames(criterion: &mut Criterion) {
             let quality = Quality::named(quality_name).expect("a quality of the command line");
             let mut frame = Frame::new(SIZE.0, SIZE.1);
             let mut draw = |time: f64| {
-                maps::forget();
+                forget_maps(&renderer);
                 renderer.render(&scene, time, &quality, &mut frame).samples
             };
             // Every pixel but those of the sky has a fragment.

@@ -10,12 +10,9 @@ use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
-use paprsek::view::Camera;
+use paprsek::sky::layer::SkyLayer;
+use paprsek::view::{Camera, View};
 use std::hint::black_box;
-
-#[path = "../tests/common/mod.rs"]
-mod common;
 
 const SIZE: (usize, usize) = (640, 360);
 /// Altitudes of the sun, degrees: by day, and in the dusk, which takes three times as many points.
@@ -36,10 +33,9 @@ fn picture(altitude: f32, cell: f32) -> Picture {
         turn: Mat3::IDENTITY,
         air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
     };
-    let steps = Quality::DEFAULT.sky.steps;
-    let dome = Dome::new(sky, SkySettings { steps, cell, grid: 1 });
+    let settings = SkySettings { cell, ..Quality::DEFAULT.sky };
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
-    let layer = SkyLayer::new(dome, camera, SIZE.0, SIZE.1, Look::default());
+    let layer = SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, SIZE.0, SIZE.1), &settings);
     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
 }
 
@@ -53,14 +49,14 @@ fn dome(criterion: &mut Criterion) {
         let mut truth = Frame::new(SIZE.0, SIZE.1);
         let mut group = criterion.benchmark_group(format!("dome at {altitude} degrees"));
         group.throughput(Throughput::Elements((SIZE.0 * SIZE.1) as u64)).sample_size(10);
-        for (level_name, level) in common::levels() {
+        for (level_name, level) in testkit::levels() {
             let mut renderer = Renderer::new(1).expect("the thread that is there").at_level(level);
             for cell in CELLS {
                 let mut frame = Frame::new(SIZE.0, SIZE.1);
                 renderer.draw(picture(altitude, cell), &mut frame);
                 if cell > 0.0 {
                     assert!(off(&frame, &truth) <= OFF, "{cell} {level_name}: {} codes", off(&frame, &truth));
-                } else if level_name == common::levels()[0].0 {
+                } else if level_name == testkit::levels()[0].0 {
                     truth = frame.clone();
                 } else {
                     assert_eq!(frame, truth, "{level_name}");

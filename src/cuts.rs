@@ -20,5 +20,29 @@ pub const REFERENCE: bool = FULL;
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
 
+/// Whether imposters can stand for clouds.
+pub const IMPOSTERS: bool = FULL;
+
+/// Whether particles can be drawn as streaks along their way, as rain is.
+pub const STREAKS: bool = FULL;
+
+/// Whether the rasterizer can trace shadows through triangles instead of looking them up in maps.
+pub const TRACED_SHADOWS: bool = FULL;
+
+/// Whether a lookup of a shadow map can count 3x3 texels alike, as the bench scenes specify, instead of weighting them.
+pub const COUNTED_TEXELS: bool = FULL;
+
+/// Whether the rasterizer can leave light as it is, without the film's compression.
+pub const LIGHT_WITHOUT_FILM: bool = FULL;
+
+/// Whether the rasterizer can fill what solids leave open with a colour.
+pub const BACKGROUND: bool = FULL;
+
+/// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
+pub const SOFT_LIGHTS: bool = FULL;
+
+/// Whether textures can be checkers: the show has none.
+pub const CHECKER: bool = FULL;
+
 /// Whether the command line has the options beyond playing and capturing, and `--help` names them.
 pub const ALL_OPTIONS: bool = FULL;

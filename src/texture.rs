@@ -1,7 +1,12 @@
-//! Solid textures: a scalar field in space, through a palette. The hit point is the only coordinate (thesis A).
+//! Solid textures `[Perlin02]`: a scalar field in space, turned into colours by a palette.
+//!
+//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (`[Intro07]`). The plain truth is
+//! [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the size of a pixel
+//! on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed form.
 
-use crate::cuts::BENCH;
-use crate::noise::{self, Fade};
+use crate::cuts;
+use crate::noise::{self, Footprint};
+pub use crate::simd::block::Block3;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, V3};
 use crate::simd::math;
@@ -10,51 +15,51 @@ use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
 use std::f32::consts::{LOG2_E, TAU};
 
-/// The scalar field, about 0 to 1.
+/// A scalar field in texture space, about 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pattern {
     /// 0 everywhere.
     Plain,
-    /// 0 and 1 in turn, in unit squares of x and z.
+    /// 0 and 1 in turn, in unit squares of x and z; the same at every y.
     Checker,
-    /// 1/2 + 1/2 fbm.
+    /// `1/2 + 1/2 fbm(p)`, see [`noise::fbm`].
     Clouds {
-        /// Octaves of noise.
+        /// The number of octaves of noise.
         octaves: u32,
     },
-    /// Turbulence: the sum of octaves of |noise|.
+    /// [`noise::turbulence`], the sum of octaves of |noise|.
     Turbulence {
-        /// Octaves of noise.
+        /// The number of octaves of noise.
         octaves: u32,
     },
-    /// 1/2 + 1/2 sin(x + warp fbm(p / scale)): layers along x, folded.
+    /// `1/2 + 1/2 sin(x + warp fbm(p / scale))`: layers along x, folded.
     Marble {
-        /// Radians that the noise moves the layers.
+        /// How far noise of 1 moves the layers, radians of x.
         warp: f32,
-        /// Length of the lowest octave, in radians of x.
+        /// Size of the first octave's cells, radians of x.
         scale: f32,
-        /// Octaves of noise.
+        /// The number of octaves of noise.
         octaves: u32,
     },
-    /// Year rings around the y axis, one a unit, bent by noise.
+    /// Year rings around the y axis, one per unit, bent by noise.
     Wood {
-        /// Rings that the noise moves them.
+        /// How far noise of 1 moves the rings, in rings.
         warp: f32,
-        /// Octaves of noise.
+        /// The number of octaves of noise.
         octaves: u32,
     },
 }
 
-/// How a texture's colour changes, for the error of a displaced lookup.
+/// How much a texture's colour changes: from this follows the error of a lookup at a slightly wrong point.
 #[derive(Clone, Copy, Debug)]
 pub struct Variation {
-    /// At most, linear light.
+    /// The largest difference between two colours, linear light.
     pub contrast: f32,
-    /// Typically, linear light a metre.
+    /// The typical change per metre, linear light.
     pub slope: f32,
 }
 
-/// From the field to a colour.
+/// The colours, in linear light, of a field's values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Palette {
     /// From the first colour at 0 to the second at 1, not clamped.
@@ -66,34 +71,35 @@ pub enum Palette {
 /// A solid texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texture {
-    /// The field.
+    /// The field in texture space.
     pub pattern: Pattern,
-    /// Its colours.
+    /// The colours of its values.
     pub palette: Palette,
-    /// World to texture: a point p is looked up at `turn * (p - origin)`. Scales, and ties the texture to an object.
+    /// From world to texture space: a point `p` is looked up at `turn * (p - origin)`. The matrix holds the scale, and the
+    /// rotation of the object that the texture is tied to.
     pub turn: Mat3,
-    /// Where the texture's origin lies in the world.
+    /// Where the origin of texture space lies in the world, metres.
     pub origin: Vec3,
 }
 
 impl Texture {
-    /// One colour.
+    /// One colour everywhere, linear light.
     pub const fn plain(color: Vec3) -> Texture {
         Texture::new(Pattern::Plain, Palette::Mix(color, color), 1.0)
     }
 
-    /// A pattern in world space, `scale` units of texture a metre.
+    /// A pattern that is not tied to an object, with `scale` units of texture space per metre.
     pub const fn new(pattern: Pattern, palette: Palette, scale: f32) -> Texture {
         let turn = Mat3::from_cols(Vec3::new(scale, 0.0, 0.0), Vec3::new(0.0, scale, 0.0), Vec3::new(0.0, 0.0, scale));
         Texture { pattern, palette, turn, origin: Vec3::ZERO }
     }
 
-    /// The same texture, tied to an object at `origin` that is turned by `turn` (world to object).
+    /// The same texture tied to an object at `origin`, metres, whose rotation from world to object is `turn`.
     pub fn on(self, origin: Vec3, turn: Mat3) -> Texture {
         Texture { turn: self.turn * turn, origin, ..self }
     }
 
-    /// The colour that stands for all of the texture where it is too faint to be seen.
+    /// The colour that stands for all of the texture where its details are too faint to be seen, linear light.
     pub fn mean(&self) -> Vec3 {
         self.paint(match self.pattern {
             Pattern::Plain => 0.0,
@@ -102,9 +108,9 @@ impl Texture {
         })
     }
 
-    /// How the colour changes.
+    /// How much the colour changes.
     pub fn variation(&self) -> Variation {
-        // The gradient of fbm with n octaves is about n/2 times that of noise, whose typical size is 1.
+        // Slope of the field. The gradient of noise is typically 1, that of fbm with n octaves n / 2.
         let field = match self.pattern {
             Pattern::Plain => 0.0,
             Pattern::Checker => 1.0,
@@ -121,7 +127,7 @@ impl Texture {
         Variation { contrast, slope: field * contrast * zoom }
     }
 
-    /// The colour at a point: the truth that [`shade`] is tested against.
+    /// The colour at a point of the world, linear light: the truth that [`shade`] is tested against.
     pub fn color(&self, p: Vec3) -> Vec3 {
         let p = self.turn * (p - self.origin);
         let s = match self.pattern {
@@ -140,7 +146,7 @@ impl Texture {
         self.paint(s)
     }
 
-    /// The palette's colour for a value of the field.
+    /// The palette's colour of a value of the field.
     fn paint(&self, s: f32) -> Vec3 {
         match self.palette {
             Palette::Mix(a, b) => a + (b - a) * s,
@@ -151,26 +157,76 @@ impl Texture {
     }
 }
 
-/// x, y and z (or red, green and blue) of [`BLOCK`] points.
-pub type Block3 = [[f32; BLOCK]; 3];
-
-/// The colours of a block of points: [`Texture::color`], [`BLOCK`] at a time.
-///
-/// `footprint`, metres, is the length of a pixel's picture on the surface; where it is not 0 the colour is an estimate of
-/// the mean over it. Octaves of noise fade ([`noise::octaves_block`]), and what has faded inside of a sine damps it by
-/// `exp(-variance / 2)`, the mean of a sine with a normal phase.
-#[simd]
-pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Option<&[f32; BLOCK]>, out: &mut Block3) {
-    let mut local = [[0.0; BLOCK]; 3];
-    let (octaves, absolute, warp, scale) = match texture.pattern {
+/// What of a pattern is a sum of octaves of noise: the number of octaves, whether they are absolute, how far the sum moves
+/// the pattern, and the size of the first octave's cells.
+#[inline(always)]
+fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
+    match *pattern {
         Pattern::Plain | Pattern::Checker => (0, false, 0.0, 1.0),
         Pattern::Clouds { octaves } => (octaves, false, 0.0, 1.0),
         Pattern::Turbulence { octaves } => (octaves, true, 0.0, 1.0),
         Pattern::Marble { warp, scale, octaves } => (octaves, false, warp, scale),
         Pattern::Wood { warp, octaves } => (octaves, false, warp, 1.0),
-    };
-    let pre = 1.0 / scale;
+    }
+}
+
+/// The colours of a block of points, linear light: [`Texture::color`], [`BLOCK`] at a time.
+///
+/// `footprint` is the length of a pixel's picture on the surface, metres. Where it is given, a colour is an estimate of the
+/// mean over it.
+///
+/// ```text
+/// points -> texture space, in cells of the first octave
+/// octaves of noise there, faded by the footprint -> noise, and the variance that it lost
+/// for each vector of points: the pattern's value from point and noise -> the palette's colour
+/// ```
+#[simd]
+pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Option<&[f32; BLOCK]>, out: &mut Block3) {
+    let mut local = [[0.0; BLOCK]; 3];
+    let (octaves, absolute, warp, scale) = octaves_of(&texture.pattern);
     let mut foot = [0.0; BLOCK];
+    localize(simd, texture, 1.0 / scale, points, footprint, &mut local, &mut foot);
+    let mut field = [0.0; BLOCK];
+    let mut lost = [0.0; BLOCK];
+    let [x, y, z] = &local;
+    let fading = if footprint.is_some() { Some(Footprint { length: &foot, lost: &mut lost }) } else { None };
+    noise::octaves_block(simd, [x, y, z], octaves, absolute, fading, &mut field);
+    let mut i = 0;
+    while i < BLOCK / F::<S>::LEN {
+        let p = V3::load(simd, &local, i);
+        let n = load::<S, F<S>>(simd, &field, i);
+        let w = load::<S, F<S>>(simd, &foot, i);
+        let lost = load::<S, F<S>>(simd, &lost, i);
+        let filter = footprint.is_some();
+        let s = match texture.pattern {
+            Pattern::Checker if cuts::CHECKER => checker(simd, p, if filter { Some(w) } else { None }),
+            Pattern::Plain | Pattern::Turbulence { .. } | Pattern::Checker => n,
+            Pattern::Clouds { .. } => n * 0.5 + 0.5,
+            Pattern::Marble { .. } | Pattern::Wood { .. } => {
+                let wood = matches!(texture.pattern, Pattern::Wood { .. });
+                let mut wave = wave(simd, wood, p, n, warp, scale);
+                if filter {
+                    wave *= damping(simd, wood, w * scale, lost * (warp * warp));
+                }
+                wave + 0.5
+            }
+        };
+        paint(simd, &texture.palette, s, i, out);
+        i += 1;
+    }
+}
+
+/// Points and footprints in texture space times `pre`.
+#[inline(always)]
+fn localize<S: Simd>(
+    simd: S,
+    texture: &Texture,
+    pre: f32,
+    points: &Block3,
+    footprint: Option<&[f32; BLOCK]>,
+    local: &mut Block3,
+    foot: &mut [f32; BLOCK],
+) {
     let zoom = texture.turn.x_axis.length() * pre;
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
@@ -179,68 +235,21 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
             store(p.dot1(texture.turn.row(axis)) * pre, local, i);
         }
         if let Some(footprint) = footprint {
-            store(load::<S, F<S>>(simd, footprint, i) * zoom, &mut foot, i);
+            store(load::<S, F<S>>(simd, footprint, i) * zoom, foot, i);
         }
         i += 1;
     }
-    let mut field = [0.0; BLOCK];
-    let mut lost = [0.0; BLOCK];
-    let [x, y, z] = &local;
-    let fade = if footprint.is_some() { Some(Fade { footprint: &foot, lost: &mut lost }) } else { None };
-    noise::octaves_block(simd, [x, y, z], octaves, absolute, fade, &mut field);
-    let wood = matches!(texture.pattern, Pattern::Wood { .. });
-    // A sine's phase is even over the footprint, of which a third lies along any one axis; and radians of a wave.
-    let (spread, radians) = if wood { (1.0 / 24.0, TAU * TAU) } else { (1.0 / 36.0, 1.0) };
-    let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let p = V3::load(simd, &local, i);
-        let n = load::<S, F<S>>(simd, &field, i);
-        let w = load::<S, F<S>>(simd, &foot, i);
-        let lost = load::<S, F<S>>(simd, &lost, i);
-        let s = match texture.pattern {
-            // What the show has of lumen has none.
-            Pattern::Checker if BENCH && footprint.is_some() => {
-                let w = w.max(F::<S>::splat(simd, 1e-3));
-                checks(simd, p.x, w) * checks(simd, p.z, w) * -0.5 + 0.5
-            }
-            Pattern::Checker if BENCH => {
-                let half = (p.x.floor() + p.z.floor()) * 0.5;
-                (half - half.floor()) * 2.0
-            }
-            Pattern::Plain | Pattern::Turbulence { .. } | Pattern::Checker => n,
-            Pattern::Clouds { .. } => n * 0.5 + 0.5,
-            Pattern::Marble { .. } | Pattern::Wood { .. } => {
-                let mut wave = if wood {
-                    let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
-                    ring - ring.floor() - 0.5
-                } else {
-                    math::sin(simd, p.x * scale + n * warp) * 0.5
-                };
-                if footprint.is_some() {
-                    let phase = w * scale;
-                    let variance = (lost * (warp * warp) + phase * phase * spread) * radians;
-                    wave *= math::exp2(simd, variance * (-0.5 * LOG2_E));
-                }
-                wave + 0.5
-            }
-        };
-        for channel in 0..3 {
-            let color = match &texture.palette {
-                Palette::Mix(a, b) => s * (b[channel] - a[channel]) + a[channel],
-                Palette::Ramp(c) => {
-                    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-                    let mut sum = F::<S>::splat(simd, c[0][channel]);
-                    for k in 0..3 {
-                        let step = (s * 3.0 - k as f32).max(zero).min(one);
-                        sum += step * (c[k + 1][channel] - c[k][channel]);
-                    }
-                    sum
-                }
-            };
-            store(color, &mut out[channel], i);
-        }
-        i += 1;
+}
+
+/// The checker's value at points, or its mean over windows of the width `w`.
+#[inline(always)]
+fn checker<S: Simd>(simd: S, p: V3<S>, w: Option<F<S>>) -> F<S> {
+    if let Some(w) = w {
+        let w = w.max(F::<S>::splat(simd, 1e-3));
+        return checks(simd, p.x, w) * checks(simd, p.z, w) * -0.5 + 0.5;
     }
+    let half = (p.x.floor() + p.z.floor()) * 0.5;
+    (half - half.floor()) * 2.0
 }
 
 /// Mean of a square wave of period 2 and height 1 over a window of width `w` around `x`.
@@ -249,4 +258,47 @@ fn checks<S: Simd>(simd: S, x: F<S>, w: F<S>) -> F<S> {
     let (a, b) = ((x - w * 0.5) * 0.5, (x + w * 0.5) * 0.5);
     let half = F::<S>::splat(simd, 0.5);
     ((a - a.floor() - half).abs() - (b - b.floor() - half).abs()) * 2.0 / w
+}
+
+/// The wave of wood or marble, -1/2 to 1/2: a sawtooth over the rings, or a sine over the layers.
+#[inline(always)]
+fn wave<S: Simd>(simd: S, wood: bool, p: V3<S>, n: F<S>, warp: f32, scale: f32) -> F<S> {
+    if wood {
+        let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
+        ring - ring.floor() - 0.5
+    } else {
+        math::sin(simd, p.x * scale + n * warp) * 0.5
+    }
+}
+
+/// What is left of such a wave over a footprint that is `phase` long, whose faded noise had the variance `lost`.
+///
+/// The mean of a sine with a normally distributed phase is damped by `exp(-variance / 2)`. The phase is spread evenly over the
+/// footprint, of which a third lies along any one axis; wood's sawtooth counts as its first sine.
+#[inline(always)]
+fn damping<S: Simd>(simd: S, wood: bool, phase: F<S>, lost: F<S>) -> F<S> {
+    // The variance of the phase, and the square of the radians of a wave.
+    let (spread, radians) = if wood { (1.0 / 24.0, TAU * TAU) } else { (1.0 / 36.0, 1.0) };
+    let variance = (lost + phase * phase * spread) * radians;
+    math::exp2(simd, variance * (-0.5 * LOG2_E))
+}
+
+/// The palette's colours of the values `s`, as vector `i` of the block.
+#[inline(always)]
+fn paint<S: Simd>(simd: S, palette: &Palette, s: F<S>, i: usize, out: &mut Block3) {
+    for channel in 0..3 {
+        let color = match palette {
+            Palette::Mix(a, b) => s * (b[channel] - a[channel]) + a[channel],
+            Palette::Ramp(c) => {
+                let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+                let mut sum = F::<S>::splat(simd, c[0][channel]);
+                for k in 0..3 {
+                    let step = (s * 3.0 - k as f32).max(zero).min(one);
+                    sum += step * (c[k + 1][channel] - c[k][channel]);
+                }
+                sum
+            }
+        };
+        store(color, &mut out[channel], i);
+    }
 }

@@ -1,29 +1,28 @@
-//! Keyframes with easing, and cuts: from seconds to values.
+//! Keyframes, easing and cuts: from seconds to values.
 //!
-//! A table has one line a key: the time, then the values. Between keys runs Steffen's monotone cubic: the speed is
-//! continuous, a value between two keys never leaves their range, so nothing swings past a wall, and two keys of the
-//! same value hold it still. Catmull-Rom, which does neither, was the alternative.
-//!
-//! M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy & Astrophysics 239, 1990.
+//! A table of keys has a time and some values per line. Between the keys each value runs along Steffen's monotone cubic
+//! `[Steffen90]`: its speed is continuous, and between two keys it never leaves their range. So nothing swings past a wall,
+//! and two keys of the same value hold it still. Catmull-Rom, the alternative, does neither.
 
-/// A key: seconds, then the values there. Times ascend within a table.
+/// A key: its time in seconds, then the values at that time. Times ascend within a table.
 pub type Key<const N: usize> = [f32; N];
 
-/// The line of a table at `time`: the first key before it and at NaN, the last after it.
+/// The values of a table of keys at `time` seconds.
 ///
-/// Panics where the table is empty.
+/// Before the first key, and where `time` is NaN, they are those of the first key; after the last key, those of the last. The
+/// result's own time is interpolated as the values are. Panics where the table is empty.
 pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
     let mut line = keys[0];
     blend(keys.as_flattened(), N, time, &mut line);
     line
 }
 
-/// The same for a table with keys of `width` numbers: once, and not for each width.
-#[inline(never)]
+/// [`sample`] for keys of `width` numbers.
+#[inline(never)] // The code is there once, and not for each width.
 fn blend(keys: &[f32], width: usize, time: f64, line: &mut [f32]) {
     let at = |key: usize, value: usize| keys[key * width + value];
     let last = keys.len() / width - 1;
-    // NaN is after no key.
+    // The first key after `time`. NaN is after no key.
     let mut next = 0;
     while next <= last && at(next, 0) as f64 <= time {
         next += 1;
@@ -35,12 +34,13 @@ fn blend(keys: &[f32], width: usize, time: f64, line: &mut [f32]) {
     for (i, value) in line.iter_mut().enumerate() {
         *value = at(here, i);
         if next > 0 && next <= last {
-            // This interval, and its neighbours if there are: their lengths and mean speeds.
+            // Lengths and mean speeds of this interval and of its neighbours, where there are any.
             let [(h0, s0), (h, s), (h1, s1)] = [here.max(1) - 1, here, next.min(last - 1)].map(|k| {
                 let length = at(k + 1, 0) - at(k, 0);
                 (length, (at(k + 1, i) - at(k, i)) / length)
             });
-            // The parabola's speed at both ends; the first and the last are those of its neighbour's.
+            // Speeds at both ends: those of parabolas through three keys. At the table's ends the parabola is the
+            // neighbour's.
             let (mut from, mut to) = ((s0 * h + s * h0) / (h0 + h), (s * h1 + s1 * h) / (h + h1));
             if here == 0 {
                 from = 2.0 * s - to;
@@ -55,8 +55,8 @@ fn blend(keys: &[f32], width: usize, time: f64, line: &mut [f32]) {
     }
 }
 
-/// A speed where intervals of two mean speeds meet, as far as the curve stays monotone in both.
-#[inline(never)]
+/// `speed` where intervals of the mean speeds `a` and `b` meet, limited so that the curve stays monotone in both.
+#[inline(never)] // Called twice per value, never in a hot loop.
 fn monotone(speed: f32, a: f32, b: f32) -> f32 {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
     let most = if low > 0.0 { 2.0 * low } else { 0.0 };
@@ -70,7 +70,8 @@ fn monotone(speed: f32, a: f32, b: f32) -> f32 {
     }
 }
 
-/// 0 up to `from`, 1 from `to` on, at rest at both: Perlin's quintic. NaN is 0.
+/// An ease from 0 at `from` seconds to 1 at `to` seconds, with no speed and no acceleration at either end: Perlin's quintic
+/// `[Perlin02]`. A `time` of NaN gives 0.
 #[inline(never)] // Called in many places, never in a hot loop.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     let x = (time - from) / (to - from);
@@ -78,9 +79,10 @@ pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     x * x * x * (x * (x * 6.0 - 15.0) + 10.0)
 }
 
-/// The shot of a list of starts and shots that runs at `time`, and the seconds since its start.
+/// The shot that runs at `time`, of a list of shots with the seconds at which they start, and the seconds since its start.
 ///
-/// The first before its start and at NaN; the last up to `end`, where it stops. Panics where the list is empty.
+/// Before the first start, and where `time` is NaN, it is the start of the first shot. From `end` seconds on it is the end of
+/// the last one, where time stops. Panics where the list is empty.
 pub fn cut<T>(list: &[(f64, T)], end: f64, time: f64) -> (&T, f64) {
     let mut next = 1;
     while next < list.len() && list[next].0 <= time {

@@ -1,71 +1,62 @@
 //! Rays through the voxels of one cloud, a vector of rays at a time.
+//!
+//! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, and the density
+//! in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
+//! exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
+//! square of the step. The reference is the same march in `f64` (`tests/cloud/oracle.rs`), and in the limit of many
+//! steps the transmittance of clouds that have one in closed form.
 
-use super::voxels::Voxels;
+use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, V3};
-use crate::simd::math;
+use crate::simd::math::{exp2, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;
 use std::f32::consts::LOG2_E;
-use std::sync::Arc;
 
-/// A cube of voxels in the world.
-#[derive(Clone)]
-pub struct Cloud {
-    /// Density and light.
-    pub voxels: Arc<Voxels>,
-    /// The cube's middle, metres.
-    pub centre: Vec3,
-    /// Half of the cube's edge, metres.
-    pub size: f32,
-    /// Extinction of the greatest density, per half of the cube's edge.
-    pub extinction: f32,
-}
-
-/// What lights a cloud. Colours are linear light.
-#[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// Light from everywhere, at the cube's bottom and at its top.
-    pub ambient: [Vec3; 2],
-    /// Unit direction to the sun.
-    pub towards: Vec3,
-    /// The sun's light.
-    pub sun: Vec3,
-    /// Shares of it that are scattered everywhere, and most of it forwards: by the sixth power of the cosine.
-    pub phase: [f32; 2],
-}
-
-/// What rays meet in a cloud, apart from its light's colours.
+/// What rays meet in a cloud, without the colours of its light.
 pub struct Passage<S: Simd> {
-    /// The share that is hidden; of that what is lit from above, as the height in the cube has it; and by the sun, of 255.
-    pub light: F<S>,
-    /// See there.
+    /// The share of what is behind the cloud that it hides.
+    pub hidden: F<S>,
+    /// The part of `hidden` that is lit by the light from above, which grows linearly with the height in the cube.
     pub upper: F<S>,
-    /// See there.
+    /// The part of `hidden` that is lit by the sun, of 255.
     pub lit: F<S>,
-    /// The share that comes through.
+    /// The share of what is behind the cloud that comes through: 1 less `hidden`.
     pub transmittance: F<S>,
 }
 
 impl<S: Simd> Passage<S> {
-    /// Premultiplied light towards where rays along unit directions `d` come from, and the transmittance.
+    /// The light that reaches the eye along unit directions `d`, premultiplied; and the transmittance.
     #[inline(always)]
-    pub fn shine(self, simd: S, look: &Look, d: V3<S>) -> (V3<S>, F<S>) {
-        let [low, high] = look.ambient;
-        let c = d.dot1(look.towards).max(0.0);
+    pub fn shine(self, simd: S, light: &CloudLight, d: V3<S>) -> (V3<S>, F<S>) {
+        let [low, high] = light.ambient;
+        let c = d.dot1(light.towards).max(0.0);
         let c2 = c * c;
-        let phase = c2 * c2 * c2 * look.phase[1] + look.phase[0];
-        let color = V3::splat(simd, low) * Lane(self.light)
+        let phase = c2 * c2 * c2 * light.phase[1] + light.phase[0];
+        let color = V3::splat(simd, low) * Lane(self.hidden)
             + V3::splat(simd, high - low) * Lane(self.upper)
-            + V3::splat(simd, look.sun * (1.0 / 255.0)) * Lane(self.lit * phase);
+            + V3::splat(simd, light.sun * (1.0 / 255.0)) * Lane(self.lit * phase);
         (color, self.transmittance)
     }
 }
 
-/// What rays from `eye` along unit directions `d` meet of a cloud, nothing beyond `limit` metres. The way through the cube
-/// is cut into `steps`, whose middles stand for them, as far as more than `opaque` comes through.
+/// What rays from `eye` along unit directions `d` meet of a cloud, up to `limit` metres from the eye.
 ///
-/// Beer and Lambert: `1 - exp(-extinction density length)` of a step is what it hides.
+/// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
+///
+/// ```text
+/// entry, exit = the ray against the three slabs of the cube, ended by the limit
+/// for each step, as long as a lane of the vector has one left:
+///     u = the middle of the step, in voxels
+///     where anything is within a cell of u in any lane:
+///         depth += density(u) * extinction * length            for lanes that are not through
+///         hidden += transmittance - exp(-depth)                 and as much is lit
+///     step over as many steps as the empty space around u is wide
+/// ```
+///
+/// Lanes are independent: a lane that is through adds an optical depth of 0 as long as others go on, so a ray has the
+/// same bits in any company.
 #[simd]
 pub fn march<S: Simd>(
     simd: S,
@@ -77,21 +68,18 @@ pub fn march<S: Simd>(
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let q = (eye - cloud.centre) / cloud.size;
-    let [x0, x1] = slab(simd, q.x, d.x);
-    let [y0, y1] = slab(simd, q.y, d.y);
-    let [z0, z1] = slab(simd, q.z, d.z);
-    let entry = x0.max(y0).max(z0).max(zero);
-    let exit = x1.min(y1).min(z1).min(limit * (1.0 / cloud.size));
-    let (mut light, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let [entry, exit] = cube(simd, q, d);
+    let exit = exit.min(limit * (1.0 / cloud.size));
+    let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
     if missed.all_true() {
-        return Passage { light: zero, upper: zero, lit: zero, transmittance: one };
+        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one };
     }
     let mut step = missed.select(F::<S>::splat(simd, steps), zero);
-    let most = (cloud.voxels.edge() - 1) as u32 as f32;
-    let half = cloud.voxels.edge() as u32 as f32 * 0.5;
-    // Voxels that one step crosses at most, along an axis.
+    let most = to_f32(cloud.voxels.edge() - 1);
+    let half = to_f32(cloud.voxels.edge()) * 0.5;
+    // Voxels that one step crosses at most, along any axis, and so the steps per voxel.
     let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
     let reach = one / missed.select(one, stride);
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
@@ -103,11 +91,11 @@ pub fn march<S: Simd>(
         let leap = cloud.voxels.leap(simd, u);
         if leap.simd_eq(zero).any_true() {
             let [density, sunlit] = cloud.voxels.look_up(simd, u);
-            // From the depth so far, since 1 - exp(-x) of a thin step would be all rounding.
+            // From the depth so far: `1 - exp(-x)` of a thin step would be mostly rounding.
             depth += step.simd_lt(steps).select(density * thickness, zero);
-            let passes = math::exp2(simd, depth);
+            let passes = exp2(simd, depth);
             let hides = transmittance - passes;
-            light += hides;
+            hidden += hides;
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;
@@ -115,14 +103,23 @@ pub fn march<S: Simd>(
         step += (leap * reach).floor().max(one);
         step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
     }
-    let upper = (height + light * q.y) * 0.5 + light * 0.5;
-    Passage { light, upper, lit, transmittance }
+    let upper = (height + hidden * q.y) * 0.5 + hidden * 0.5;
+    Passage { hidden, upper, lit, transmittance }
+}
+
+/// Where rays from `q` along `d` enter and leave the cube from -1 to 1; not before `q`.
+#[inline(always)]
+fn cube<S: Simd>(simd: S, q: Vec3, d: V3<S>) -> [F<S>; 2] {
+    let [x0, x1] = slab(simd, q.x, d.x);
+    let [y0, y1] = slab(simd, q.y, d.y);
+    let [z0, z1] = slab(simd, q.z, d.z);
+    [x0.max(y0).max(z0).max(F::<S>::splat(simd, 0.0)), x1.min(y1).min(z1)]
 }
 
 /// Where rays enter and leave the space between -1 and 1 along an axis.
 #[inline(always)]
 fn slab<S: Simd>(simd: S, q: f32, d: F<S>) -> [F<S>; 2] {
-    // What runs along the slab is in it or is not; a ray on the very face would be 0 / 0, or 0 times infinity.
+    // A ray along the slab is in it or is not; on the very face it would be 0 / 0, or 0 times infinity.
     let least = F::<S>::splat(simd, 1e-20);
     let inverse = F::<S>::splat(simd, 1.0) / d.abs().simd_lt(least).select(least, d);
     let (a, b) = (inverse * (-1.0 - q), inverse * (1.0 - q));

@@ -1,6 +1,10 @@
-//! What clouds leave of the sun's light for each other and for the ground.
+//! The shadows of clouds: what they leave of the sun's light for each other and for the ground.
+//!
+//! For its shadow a cloud is approximated by a ball whose optical depth falls from the centre to the edge with the
+//! square of the distance. Shadows of clouds are soft and far away, so neither the shape nor the voxels matter; there
+//! is no reference for them.
 
-use super::march::Cloud;
+use super::world::Cloud;
 use crate::simd::lanes::{F, V3};
 use crate::simd::level;
 use crate::simd::math::exp2;
@@ -8,14 +12,14 @@ use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::Vec3;
 
-/// A ball that hides what the cloud in a cube hides, halves of the cube's edge.
+/// Radius of the ball that casts a cloud's shadow, halves of the cube's edge.
 const RADIUS: f32 = 0.62;
 
-/// The shares of the light from the direction `towards` that come to points.
+/// The shares of the light from the direction of the unit vector `towards` that reach points.
 ///
-/// Each cloud is a ball whose optical depth falls from its middle to its edge with the square of the distance. It counts
-/// as far as it is before a point by half its cube's edge, so no cloud shades itself, and none begins to with a jump.
-#[inline(never)]
+/// A cloud counts fully where it is nearer to the sun than a point by half of its cube's edge or more, and less and
+/// less down to 0. So no cloud shades itself, and none begins to with a jump.
+#[inline(never)] // Called from several places and never in a loop; inlined, its dispatch would be there as often.
 pub fn shares(clouds: &[Cloud], towards: Vec3, points: &[Vec3]) -> Vec<f32> {
     dispatch!(level::best(), simd => shares_in(simd, clouds, towards, points))
 }

@@ -1,55 +1,96 @@
-//! Clouds from a formula: puffs on a flat base, warped and eroded by noise.
+//! The densities of clouds, from a formula: balls on a flat base, warped and eroded by noise.
+//!
+//! A cloud is the inside of a distance field. At its core are puffs, balls in rings around the axis of the cube. The
+//! distance to the nearest is taken at a point that noise has moved (domain warping), and octaves of the absolute value
+//! of noise are taken from it, which puts billows on the surface. Density rises over a short distance inside of the
+//! surface and ends at a flat base, as rising air condenses at one height.
+//!
+//! The bench scenes specify [`CloudKind::CUMULUS`] down to the numbers; the reference is `cumulus` in
+//! `tests/cloud/oracle.rs`.
 
 use super::voxels::Voxels;
 use crate::noise::octaves_block;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::hash::rnd;
 use crate::simd::lanes::F;
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec3, vec3};
 use std::f32::consts::TAU;
 
-/// What grows in a cube from -1 to 1.
+/// A kind of cloud, in a cube from -1 to 1.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
-    /// Rings of puffs: how many, then in hundredths the ring's radius, the puffs' height and radius, each the least and
-    /// what chance adds to it.
+pub struct CloudKind {
+    /// Rings of puffs. Each is the number of puffs, then in hundredths the radius of the ring, the height of a puff and
+    /// its radius, each as the least and what chance adds at most.
     rings: &'static [[i8; 7]],
-    /// Height below which nothing is, hundredths.
+    /// Height of the base, below which nothing is, hundredths.
     base: i8,
-    /// Height over width of all puffs, hundredths.
-    flat: i8,
 }
 
-impl Kind {
-    /// Fair weather: a dome on a flat base.
-    pub const CUMULUS: Kind =
-        Kind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46, flat: 100 };
+/// How far noise moves points.
+const WARP: f32 = 0.22;
+
+/// How much octaves of billows take from a distance, and what is added to it, so that the surface stays where it is in
+/// the mean.
+const EROSION: f32 = 0.42;
+const SHIFT: f32 = EROSION * 0.16;
+
+/// Distance inside of the surface over which density rises from 0 to 255.
+const EDGE: f32 = 0.12;
+
+impl CloudKind {
+    /// A fair-weather cloud: a dome on a flat base.
+    pub const CUMULUS: CloudKind =
+        CloudKind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46 };
     /// A tower of domes.
-    pub const CONGESTUS: Kind = Kind {
+    pub const CONGESTUS: CloudKind = CloudKind {
         rings: &[[8, 26, 16, -62, 16, 20, 10], [5, 12, 14, -30, 30, 24, 12], [3, 6, 14, 20, 30, 20, 14]],
         base: -80,
-        flat: 100,
     };
-    /// A layer of small flakes.
-    pub const ALTOCUMULUS: Kind = Kind {
-        rings: &[[15, 66, 16, 0, 10, 10, 12], [12, 40, 16, 0, 10, 12, 12], [7, 15, 16, 0, 10, 14, 12]],
-        base: -40,
-        flat: 60,
-    };
-    /// A sheet.
-    pub const STRATUS: Kind =
-        Kind { rings: &[[12, 52, 10, -12, 24, 26, 12], [6, 20, 20, -8, 24, 34, 12]], base: -30, flat: 35 };
 
-    /// The cloud of that kind and seed, `edge` points along an edge: a multiple of 4.
+    /// The cloud of a kind and a seed, `edge` points along an edge: a multiple of 4.
     ///
-    /// The scenes to compare renderers by specify it, down to the numbers: `cumulus` in `tests/cloud/oracle.rs`.
+    /// Points are taken in blocks, in the order in which voxels are stored:
+    ///
+    /// ```text
+    /// for each block:
+    ///     warped = point + WARP * noise(point)
+    ///     distance = to the nearest puff from the warped point, + SHIFT
+    ///     skip the block where erosion could not bring any point inside
+    ///     distance -= EROSION * four octaves of |noise(warped)|
+    ///     base = height over the base, which noise makes uneven
+    ///     density = clamp(-distance / EDGE) * clamp(base), and 0 at the faces of the cube
+    /// ```
     #[simd]
-    pub fn grow<S: Simd>(simd: S, kind: &Kind, seed: u32, edge: usize) -> Voxels {
+    pub fn grow<S: Simd>(simd: S, kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
         let o = 17.3 * (seed + 1) as f32;
+        let puffs = kind.puffs(seed);
+        let mut density = vec![0; edge * edge * edge];
+        let (mut ground, mut base) = ([[9.0; BLOCK]; 2], [0.0; BLOCK]);
+        for (block, density) in density.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
+            let ([x, y, z], inside) = points(block, edge);
+            let warped = warp(simd, [&x, &y, &z], o);
+            let Some(distance) = eroded(simd, &warped, &puffs, o) else { continue };
+            // Blocks above one another have the same base.
+            if ground != [x, z] {
+                ground = [x, z];
+                base = fbm(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
+            }
+            for (i, density) in density.iter_mut().enumerate() {
+                let base = (y[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
+                *density = ((distance[i] * (-1.0 / EDGE)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
+            }
+        }
+        Voxels::new(edge, density)
+    }
+
+    /// Centres and radii of the puffs of a seed.
+    #[inline(always)]
+    fn puffs(&self, seed: u32) -> Vec<(Vec3, f32)> {
         let mut puffs: Vec<(Vec3, f32)> = Vec::new();
-        for ring in kind.rings {
+        for ring in self.rings {
             for i in 0..ring[0] {
                 let number = 800 + 16 * seed + puffs.len() as u32;
                 let draw = |k: usize, j: u32| (ring[k] as f32 + ring[k + 1] as f32 * rnd(1, number, j)) * 0.01;
@@ -58,70 +99,73 @@ impl Kind {
                 puffs.push((vec3(way * cos, draw(3, 2), way * sin), draw(5, 3)));
             }
         }
-        let scale = 2.0 / edge as u32 as f32;
-        let squash = 100.0 / kind.flat as f32;
-        let mut density = vec![0; edge * edge * edge];
-        let (mut ground, mut base) = ([[9.0; BLOCK]; 2], [0.0; BLOCK]);
-        for (block, density) in density.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
-            let [mut x, mut y, mut z] = [[0.0; BLOCK]; 3];
-            let mut inside = [0.0; BLOCK];
-            for i in 0..BLOCK {
-                let at = block * BLOCK + i;
-                let place = [at % edge, at / edge % edge, at / (edge * edge)];
-                [x[i], y[i], z[i]] = place.map(|i| (i as u32 as f32 + 0.5) * scale - 1.0);
-                inside[i] = if place.iter().any(|i| *i == 0 || *i == edge - 1) { 0.0 } else { 255.0 };
-            }
-            let mut warped = [x, y, z];
-            for (warped, a) in warped.iter_mut().zip([0.0, 31.7, 63.1]) {
-                let warp = sample(simd, [&x, &y, &z], Vec3::splat(1.6), vec3(o + a, a, -a), 2);
-                for i in 0..BLOCK {
-                    warped[i] += warp[i] * 0.22;
-                }
-            }
-            let mut distance = [0.0; BLOCK];
-            let mut some = false;
-            for i in 0..BLOCK / F::<S>::LEN {
-                let [x, y, z]: [F<S>; 3] =
-                    [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
-                let mut near = F::<S>::splat(simd, 9.0);
-                for (centre, radius) in &puffs {
-                    let (x, y, z) = (x - centre.x, (y - centre.y) * squash, z - centre.z);
-                    near = near.min((x * x + y * y + z * z).sqrt() - *radius);
-                }
-                // Erosion adds no more than this.
-                some |= near.simd_lt(0.42 * 0.815).any_true();
-                store(near + 0.42 * 0.16, &mut distance, i);
-            }
-            if !some {
-                continue;
-            }
-            let (mut frequency, mut amplitude) = (3.0, -0.42);
-            let [u, v, w] = &warped;
-            for _ in 0..4 {
-                // One octave is half of a noise.
-                let billow = sample(simd, [u, v, w], Vec3::splat(frequency), vec3(o, 0.0, 0.0), 1);
-                for i in 0..BLOCK {
-                    distance[i] += billow[i].abs() * amplitude;
-                }
-                (frequency, amplitude) = (frequency * 2.03, amplitude * 0.5);
-            }
-            // Blocks above one another have the same.
-            if ground != [x, z] {
-                ground = [x, z];
-                base = sample(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
-            }
-            for (i, density) in density.iter_mut().enumerate() {
-                let base = (y[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
-                *density = ((distance[i] * (-1.0 / 0.12)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
-            }
-        }
-        Voxels::new(edge, density)
+        puffs
     }
 }
 
-/// [`fbm`](crate::noise::fbm) of 64 points times `scale` and moved by `offset`.
+/// The points of a block, and the greatest density of each: 255, or 0 at the faces of the cube.
+#[inline(always)]
+fn points(block: usize, edge: usize) -> (Block3, [f32; BLOCK]) {
+    let scale = 2.0 / to_f32(edge);
+    let [mut x, mut y, mut z] = [[0.0; BLOCK]; 3];
+    let mut inside = [0.0; BLOCK];
+    for i in 0..BLOCK {
+        let at = block * BLOCK + i;
+        let place = [at % edge, at / edge % edge, at / (edge * edge)];
+        [x[i], y[i], z[i]] = place.map(|i| (to_f32(i) + 0.5) * scale - 1.0);
+        inside[i] = if place.iter().any(|i| *i == 0 || *i == edge - 1) { 0.0 } else { 255.0 };
+    }
+    ([x, y, z], inside)
+}
+
+/// Points that noise has moved, by noise of its own along each axis.
+#[inline(always)]
+fn warp<S: Simd>(simd: S, [x, y, z]: [&[f32; BLOCK]; 3], o: f32) -> Block3 {
+    let mut warped = [*x, *y, *z];
+    for (warped, a) in warped.iter_mut().zip([0.0, 31.7, 63.1]) {
+        let warp = fbm(simd, [x, y, z], Vec3::splat(1.6), vec3(o + a, a, -a), 2);
+        for i in 0..BLOCK {
+            warped[i] += warp[i] * WARP;
+        }
+    }
+    warped
+}
+
+/// Distances of points to the eroded puffs, below 0 inside; none where all points are outside.
+#[inline(always)]
+fn eroded<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32) -> Option<[f32; BLOCK]> {
+    let mut distance = [0.0; BLOCK];
+    let mut some = false;
+    for i in 0..BLOCK / F::<S>::LEN {
+        let [x, y, z]: [F<S>; 3] = [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
+        let mut near = F::<S>::splat(simd, 9.0);
+        for (centre, radius) in puffs {
+            let (x, y, z) = (x - centre.x, y - centre.y, z - centre.z);
+            near = near.min((x * x + y * y + z * z).sqrt() - *radius);
+        }
+        // Four octaves of billows, less the shift, come to at most 0.815 of the erosion.
+        some |= near.simd_lt(EROSION * 0.815).any_true();
+        store(near + SHIFT, &mut distance, i);
+    }
+    if !some {
+        return None;
+    }
+    let (mut frequency, mut amplitude) = (3.0, -EROSION);
+    let [u, v, w] = warped;
+    for _ in 0..4 {
+        // One octave is half of a noise.
+        let billow = fbm(simd, [u, v, w], Vec3::splat(frequency), vec3(o, 0.0, 0.0), 1);
+        for i in 0..BLOCK {
+            distance[i] += billow[i].abs() * amplitude;
+        }
+        (frequency, amplitude) = (frequency * 2.03, amplitude * 0.5);
+    }
+    Some(distance)
+}
+
+/// [`fbm`](crate::noise::fbm) at the points of a block times `scale` and moved by `offset`.
 #[simd]
-fn sample<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, octaves: u32) -> [f32; BLOCK] {
+fn fbm<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, octaves: u32) -> [f32; BLOCK] {
     let mut q = [[0.0; BLOCK]; 3];
     for (axis, q) in q.iter_mut().enumerate() {
         for i in 0..BLOCK / F::<S>::LEN {

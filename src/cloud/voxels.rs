@@ -1,31 +1,43 @@
-//! Density and light of a cloud in a cube of voxels.
+//! Density and light of a cloud in a cube of voxels, and lookups of both for a vector of points.
+//!
+//! A lookup is trilinear, and takes two reads of memory per point and value: the bytes of four neighbours are packed
+//! into one word. Space is divided into blocks of 4 x 4 x 4 cells, each of which knows how far around it nothing is, so
+//! that rays can leap over emptiness.
 
 use crate::simd::lanes::{F, U, V3};
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3;
 
-/// Cells along an edge of a block, for which one leap is known.
+/// Cells along an edge of a block, for which one leap is stored.
 const LEAP: usize = 4;
 
-/// Density and sunlight at the points of a cubic lattice, trilinear between them and as at the edge beyond it.
+/// Rings of blocks that are searched for emptiness: a leap is at most `7 * LEAP` cells.
+const RINGS: usize = 7;
+
+/// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
+/// ones.
+///
+/// What lookups read is derived from the two, and made again whenever either is replaced.
 #[derive(Clone)]
 pub struct Voxels {
     /// Points along an edge: a multiple of 4.
     edge: usize,
-    /// Density, x fastest, then y: 255 is the extinction that the cloud is drawn with.
-    pub density: Vec<u8>,
-    /// What is lit by the sun, of 255.
-    pub light: Vec<u8>,
-    /// The bytes of four points, from one on along x, then y: density and light. A lookup takes two of these.
+    /// See [`Voxels::density`].
+    density: Vec<u8>,
+    /// See [`Voxels::light`].
+    light: Vec<u8>,
+    /// For each point and the next layer: density and light of the point, of the next one along x, and of both one row
+    /// further along y, a byte each.
     cells: Vec<[u32; 2]>,
-    /// How far around a block of cells nothing is, cells.
+    /// For each block, the number of cells along any axis within which nothing is.
     leaps: Vec<u8>,
-    /// From the cube's middle to the farthest point where something is, halves of the edge.
+    /// See [`Voxels::reach`].
     reach: f32,
 }
 
 impl Voxels {
-    /// Voxels without light from `edge^3` densities; `light` may then be written, and [`Self::pack`] called.
+    /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
         let mut voxels = Voxels { edge, density, light, cells: Vec::new(), leaps: Vec::new(), reach: 0.0 };
@@ -34,18 +46,49 @@ impl Voxels {
         voxels
     }
 
+    /// Replaces the `edge^3` densities. The light stays as it is.
+    pub fn set_density(&mut self, density: Vec<u8>) {
+        self.density = density;
+        self.measure();
+        self.pack();
+    }
+
+    /// Replaces the light of all `edge^3` points.
+    pub fn set_light(&mut self, light: Vec<u8>) {
+        self.light = light;
+        self.pack();
+    }
+
     /// Points along an edge.
     pub fn edge(&self) -> usize {
         self.edge
     }
 
-    /// From the cube's middle to the farthest point where something is, halves of the edge.
+    /// Density of each point, x fastest, then y; 255 has the extinction coefficient of the [`Cloud`](super::Cloud).
+    pub fn density(&self) -> &[u8] {
+        &self.density
+    }
+
+    /// The share of the sun's light that reaches each point and is scattered there, of 255.
+    pub fn light(&self) -> &[u8] {
+        &self.light
+    }
+
+    /// Densities, and light to be written. [`Voxels::pack`] is called afterwards; empty space stays where it is, so it
+    /// need not be measured again.
+    #[inline(always)]
+    pub(super) fn density_and_light(&mut self) -> (&[u8], &mut [u8]) {
+        (&self.density, &mut self.light)
+    }
+
+    /// Distance from the centre of the cube to the farthest point where the density is not 0, halves of the cube's
+    /// edge.
     pub fn reach(&self) -> f32 {
         self.reach
     }
 
-    /// Makes what lookups read, after density or light have changed.
-    pub fn pack(&mut self) {
+    /// Makes the words that lookups read, after density or light have changed.
+    pub(super) fn pack(&mut self) {
         let n = self.edge;
         self.cells.clear();
         // One layer more than there are, since every lookup reads two.
@@ -54,7 +97,7 @@ impl Voxels {
             let (this, next) = ((j + n * l) * n, ((j + 1).min(n - 1) + n * l) * n);
             for i in 0..n {
                 let k = (i + 1).min(n - 1);
-                // Not by `map`: the optimizer, asked for size, calls a function for each.
+                // Not by `map`, which the size build turns into a call for each.
                 let cell = |bytes: &[u8]| {
                     u32::from_le_bytes([bytes[this + i], bytes[this + k], bytes[next + i], bytes[next + k]])
                 };
@@ -63,27 +106,14 @@ impl Voxels {
         }
     }
 
-    /// Finds how far around each block of cells nothing is.
+    /// Measures empty space: how far around each block nothing is, and how far the cloud reaches.
     fn measure(&mut self) {
+        let mut full = self.occupied();
         let n = self.edge / LEAP;
-        let mut full = vec![false; n * n * n];
-        for (index, density) in self.density.iter().enumerate() {
-            if *density > 0 {
-                let place = [index % self.edge, index / self.edge % self.edge, index / (self.edge * self.edge)];
-                let half = self.edge as u32 as f32 * 0.5;
-                // Between points it ends at the next one, where nothing is.
-                let at = Vec3::from(place.map(|i| i as u32 as f32 + 0.5 - half));
-                self.reach = self.reach.max((at.length() + 1.0) / half);
-                // A point belongs to the cells before it, too.
-                for corner in 0..8 {
-                    let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
-                    full[x + n * (y + n * z)] = true;
-                }
-            }
-        }
         self.leaps = vec![0; full.len()];
-        for _ in 0..7 {
-            // One ring wider, an axis at a time. What runs over an edge comes in at the other one, and makes leaps shorter.
+        for _ in 0..RINGS {
+            // One ring wider, an axis at a time. What runs over an edge comes in at the opposite one, which can only
+            // make leaps shorter.
             for stride in [1, n, n * n] {
                 let before = full.clone();
                 for (at, full) in full.iter_mut().enumerate() {
@@ -96,10 +126,34 @@ impl Voxels {
         }
     }
 
-    /// How many cells away from `u` nothing is, at least, along any axis.
+    /// Measures the reach. Returns for each block whether anything is in its cells.
+    #[inline(always)]
+    fn occupied(&mut self) -> Vec<bool> {
+        let n = self.edge / LEAP;
+        let half = to_f32(self.edge) * 0.5;
+        let mut full = vec![false; n * n * n];
+        self.reach = 0.0;
+        for (index, density) in self.density.iter().enumerate() {
+            if *density > 0 {
+                let place = [index % self.edge, index / self.edge % self.edge, index / (self.edge * self.edge)];
+                // Density falls to 0 only at the next point: hence one more.
+                let at = Vec3::from(place.map(|i| to_f32(i) + 0.5 - half));
+                self.reach = self.reach.max((at.length() + 1.0) / half);
+                // A point belongs to the cells on both of its sides along each axis.
+                for corner in 0..8 {
+                    let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
+                    full[x + n * (y + n * z)] = true;
+                }
+            }
+        }
+        full
+    }
+
+    /// The number of cells along any axis, at least, within which nothing is around points `u`. Coordinates are those
+    /// of [`Voxels::look_up`].
     #[inline(always)]
     pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
-        let n = (self.edge / LEAP) as u32 as f32;
+        let n = to_f32(self.edge / LEAP);
         let block = |u: F<S>| (u * (1.0 / LEAP as f32)).floor();
         let index = block(u.x) + (block(u.y) + block(u.z) * n) * n;
         let mut at = [0; 16];
@@ -110,11 +164,11 @@ impl Voxels {
         U::<S>::from_slice(simd, &at[..F::<S>::LEN]).to_float()
     }
 
-    /// Density and light at points `u`, both of 255; coordinates count points and lie from 0 to `edge - 1`.
+    /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
     #[inline(always)]
     pub fn look_up<S: Simd>(&self, simd: S, u: V3<S>) -> [F<S>; 2] {
         let lanes = F::<S>::LEN;
-        let n = self.edge as u32 as f32;
+        let n = to_f32(self.edge);
         let base = V3::<S> { x: u.x.floor(), y: u.y.floor(), z: u.z.floor() };
         let f = u - base;
         let mut at = [0; 16];
@@ -133,16 +187,16 @@ impl Voxels {
         [0, 1].map(
             #[inline(always)]
             |k| {
-                let (a, b) = (square::<S>(near[k], f.x, f.y), square::<S>(far[k], f.x, f.y));
+                let (a, b) = (bilinear::<S>(near[k], f.x, f.y), bilinear::<S>(far[k], f.x, f.y));
                 a + (b - a) * f.z
             },
         )
     }
 }
 
-/// Four bytes, interpolated.
+/// Bilinear interpolation of a square's four corners, which are the bytes of a word: x fastest.
 #[inline(always)]
-pub fn square<S: Simd>(word: U<S>, x: F<S>, y: F<S>) -> F<S> {
+pub(super) fn bilinear<S: Simd>(word: U<S>, x: F<S>, y: F<S>) -> F<S> {
     let a = (word & 255).to_float::<F<S>>();
     let b = (word >> 8 & 255).to_float::<F<S>>();
     let c = (word >> 16 & 255).to_float::<F<S>>();

@@ -1,48 +1,52 @@
-//! From linear light to the 8-bit pixels of a screen.
+//! From linear light to the 8-bit codes of a screen's pixels.
 //!
-//! The scalar functions are the truth, in f64; [`encode`] is what a frame uses.
+//! A transfer function turns light into a code, which is rounded, or for sRGB truncated after a dither has been added: a
+//! dither turns the bands of a smooth gradient into a pattern too fine to be seen.
+//!
+//! [`encode`] is what a frame uses, 64 pixels at a time. The reference beside it is [`quantize`], one channel of one pixel in
+//! f64.
 
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::math::{exp2_within, log2};
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
 
-/// How linear light becomes an 8-bit code.
+/// How linear light becomes an 8-bit code. Light is clamped to 0..1 first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transfer {
-    /// `round(255 c^(1/2.2))`, no dither: what the bench scenes specify.
+    /// `round(255 c^(1/2.2))`, no dither: what most bench scenes specify.
     Gamma22,
-    /// `round(255 c)`, no dither: likewise, where it is display light that is mixed.
+    /// `round(255 c)`, no dither: for the bench scenes that specify sums of display light instead of linear light.
     Linear,
     /// The piecewise sRGB curve with an unbiased dither.
     Srgb,
 }
 
-/// The code for linear light, 0 to 1, of display light 0 to 1: IEC 61966-2-1. Values outside are clamped, NaN is 0.
+/// The sRGB code, 0 to 1, of linear light (IEC 61966-2-1). Light is clamped to 0..1; NaN is 0.
 pub fn srgb_encode(linear: f32) -> f32 {
     let c = clamp(linear);
     (if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }) as f32
 }
 
-/// The linear light of an sRGB code of 0 to 1. Values outside are clamped, NaN is 0.
+/// The linear light, 0 to 1, of an sRGB code (IEC 61966-2-1). Codes are clamped to 0..1; NaN is 0.
 pub fn srgb_decode(code: f32) -> f32 {
     let v = clamp(code);
     (if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }) as f32
 }
 
-/// `linear^(1/2.2)`. Values outside 0 to 1 are clamped, NaN is 0.
+/// The code, 0 to 1, of linear light on a screen of gamma 2.2: `linear^(1/2.2)`. Light is clamped to 0..1; NaN is 0.
 pub fn gamma22_encode(linear: f32) -> f32 {
     clamp(linear).powf(1.0 / 2.2) as f32
 }
 
-/// 0 to 1; NaN is 0.
+/// `x` clamped to 0..1; NaN is 0.
 fn clamp(x: f32) -> f64 {
     if x > 0.0 { x.min(1.0) as f64 } else { 0.0 }
 }
 
-/// The code of one channel (0 red, 1 green, 2 blue) of the pixel at column `x` and row `y`: 0 to 255.
+/// The code, 0 to 255, of one channel (0 red, 1 green, 2 blue) of the pixel at column `x` and row `y`.
 ///
-/// Black is always 0 and full light 255; NaN is 0.
+/// No light is always 0 and full light always 255. Light is clamped to 0..1; NaN is 0.
 pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -> u32 {
     let (value, threshold) = match transfer {
         Transfer::Gamma22 => (gamma22_encode(linear), 0.5),
@@ -52,42 +56,41 @@ pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -
     (255.0 * value as f64 + threshold as f64) as u32
 }
 
-/// Steps of the dither along x and y, 2^-32: the inverse plastic number and its square, rounded to odd numbers so that
-/// every value comes before one comes again.
+/// Steps of the dither along x and y, in units of 2^-32: the inverse of the plastic number and its square, rounded to odd
+/// numbers, so that every value comes before one comes again.
 const STEP_X: u32 = 0xC13F_A9A9;
 const STEP_Y: u32 = 0x91E1_0DA5;
-/// Steps of the dither from red to green to blue, 2^-32: a third, so that the three seldom round up together.
+/// Step of the dither from red to green to blue, in units of 2^-32: a third, so that the three seldom round up together.
 const STEP_CHANNEL: u32 = 0x5555_5555;
 
-/// The dither added before a code is truncated, 0 to 1 - 2^-16.
+/// The dither, 0 to 1 - 2^-16, that is added to a code before it is truncated.
 ///
-/// Roberts' R2 sequence laid out over the picture: neighbours differ, and every area has all values equally often, so
-/// the mean over it is the value itself. 16 bits, so that 255 and a dither stay below 256 in f32.
-///
-/// M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
+/// It is the R2 sequence `[Roberts18]` laid out over the picture: neighbours differ, and every area has all values equally
+/// often, so the mean of its codes is the light itself. It has 16 bits, so that 255 and a dither stay below 256 in f32.
 fn dither(x: u32, y: u32, channel: u32) -> f32 {
     let turns = x.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
     let turns = turns.wrapping_add(channel.wrapping_mul(STEP_CHANNEL));
     (turns >> 16) as f32 * (1.0 / 65536.0)
 }
 
-/// A transfer function times 255, `scale c^exponent - offset` but `toe c` up to `toe_end`, and what is added to it.
+/// A transfer function times 255: `scale c^exponent - offset`, but `toe c` up to `toe_end`; and what is added to it.
 ///
-/// Numbers for both rather than a branch: the code is there once, and the loop has none.
+/// Every transfer function is one of these, so that the code is there once and the loop has no branch.
 struct Curve {
     exponent: f32,
     scale: f32,
     offset: f32,
     toe: f32,
     toe_end: f32,
-    /// Added before truncation: `round + dither d` for a dither of `d`, 0 to 2^16 - 1.
+    /// Added before truncation.
     round: f32,
+    /// Factor of the dither, 0 to 2^16 - 1, that is added before truncation.
     dither: f32,
 }
 
 const GAMMA22: Curve =
     Curve { exponent: 1.0 / 2.2, scale: 255.0, offset: 0.0, toe: 0.0, toe_end: 0.0, round: 0.5, dither: 0.0 };
-/// All toe.
+/// Toe alone.
 const LINEAR: Curve = Curve { toe: 255.0, toe_end: 1.0, ..GAMMA22 };
 const SRGB: Curve = Curve {
     exponent: 1.0 / 2.4,
@@ -99,10 +102,10 @@ const SRGB: Curve = Curve {
     dither: 1.0 / 65536.0,
 };
 
-/// Encodes a row of linear light, from pixel (`x0`, `y`) on, to `0x00RRGGBB`: [`quantize`] for every channel, but for
-/// values within 1e-4 codes of a step. The same bits at every SIMD level.
+/// Encodes a row of linear light, from the pixel at column `x0` and row `y` on, to `0x00RRGGBB`.
 ///
-/// Panics where a channel is shorter than `out`.
+/// Every channel is what [`quantize`] gives, except that light within 1e-4 codes of the step between two codes may get
+/// either. The bits are the same at every SIMD level. Panics where a channel is shorter than `out`.
 #[simd]
 #[allow(clippy::too_many_arguments)] // Three channels and where they lie.
 pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
@@ -133,10 +136,10 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
     }
 }
 
-/// Encodes a block of red, green and blue, the dither of whose first pixel is `turns`.
+/// Encodes a block of red, green and blue; `turns` is the dither of its first pixel, in units of 2^-32.
 #[simd]
 fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOCK]; 3], pixels: &mut [u32; BLOCK]) {
-    // The dither of the first pixels; further ones are a step of so many pixels on.
+    // The dither of the first vector's pixels; that of the next vector is a step of as many pixels on.
     let mut lanes = [turns; 16];
     for (x, lane) in (0u32..).zip(&mut lanes) {
         *lane = turns.wrapping_add(STEP_X.wrapping_mul(x));
@@ -146,7 +149,7 @@ fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOC
     while i < BLOCK / S::f32s::LEN {
         let mut turns = along;
         let mut pixel = S::u32s::splat(simd, 0);
-        // Unrolled, the three are chains of operations that need not wait for each other.
+        // Unrolled, the channels are three chains of operations that need not wait for each other.
         for plane in light {
             let c = limit(simd, load(simd, plane, i));
             let power = exp2_within(simd, log2(simd, c) * curve.exponent);
@@ -159,16 +162,16 @@ fn encode_block<S: Simd>(simd: S, curve: &Curve, turns: u32, light: [&[f32; BLOC
     }
 }
 
-/// Linear light from the least normal number, which stands for black and for NaN, to 1.
+/// Linear light clamped to 1 from above, and from below to the least normal number, which stands for black and for NaN.
 #[inline(always)]
 fn limit<S: Simd>(simd: S, linear: S::f32s) -> S::f32s {
-    // Comparisons, as the minimum of a NaN is not the same everywhere.
+    // Comparisons, since the minimum of a NaN and a number is not the same on every machine.
     let (black, white) = (S::f32s::splat(simd, f32::MIN_POSITIVE), S::f32s::splat(simd, 1.0));
     let c = linear.simd_gt(black).select(linear, black);
     c.simd_lt(white).select(c, white)
 }
 
-/// The codes of one channel of linear light `c` whose power has been taken.
+/// The codes of one channel of linear light `c`, with `power` the curve's power of it.
 #[inline(always)]
 fn code<S: Simd>(curve: &Curve, c: S::f32s, power: S::f32s, turns: S::u32s) -> S::u32s {
     let value = c.simd_le(curve.toe_end).select(c * curve.toe, power * curve.scale - curve.offset);

@@ -1,16 +1,22 @@
-//! Frames to the size of a window, for a window that does not do it by itself.
+//! Frames at the size of a window, for windows that do not scale by themselves.
+//!
+//! Bilinear, in whole numbers: a pixel of the window is a mix of the four pixels of the frame that are nearest to its middle.
+//! The channels of a pixel are mixed at once, in the fields of a `u64`.
 
 use crate::frame::Frame;
 use std::ops::Range;
 
-/// Columns and rows of a frame as large as it fits into a window, in its own aspect.
+/// Columns and rows of the largest picture with the aspect of `frame` that fits into a window of `width` x `height` pixels.
+///
+/// Each is at least 1. Panics where the frame has no pixels.
 pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
     let columns = (height * frame.width / frame.height).min(width).max(1);
     (columns, (width * frame.height / frame.width).min(height).max(1))
 }
 
-/// Rows of the frame at `columns` x `count` pixels, interpolated between the nearest four of its own: four bytes a pixel,
-/// as it lies in memory.
+/// Some `rows` of the frame scaled to `columns` x `count` pixels: four bytes per pixel, blue, green, red and 0.
+///
+/// Panics where the frame, `columns` or `count` is 0, or where `rows` go beyond `count`.
 pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
     let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
     let mut bytes = vec![0; 4 * columns * rows.len()];
@@ -27,23 +33,23 @@ pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> 
     bytes
 }
 
-/// Between which two of `from` pixels the middle of pixel `number` lies where each is as wide as `width` 65536ths of
-/// those, and how far beyond the first, in 256ths.
+/// The two of `from` pixels between whose middles the middle of pixel `number` lies, and its way from the first to the second
+/// in 256ths. A pixel is `width` 65536ths as wide as those.
 fn tap(number: usize, width: usize, from: usize) -> (usize, usize, u64) {
     let place = (number * width + width / 2).saturating_sub(1 << 15);
     let first = place >> 16;
     (first, (first + 1).min(from - 1), (place >> 8) as u64 & 255)
 }
 
-/// The channels, each with room for its product with a share: blue, red, green.
+/// The fields of the channels, each with room for a product with a share: from low to high blue, red, green.
 const CHANNELS: u64 = 0xff_00ff_00ff;
 
-/// A pixel with its green above the others.
+/// A pixel as these fields: its green is moved above the others.
 fn spread(pixel: u32) -> u64 {
     (u64::from(pixel) | u64::from(pixel) << 24) & CHANNELS
 }
 
-/// All channels between two.
+/// A mix of two pixels' fields, at `share` 256ths of the way from `a` to `b`.
 fn mix(a: u64, b: u64, share: u64) -> u64 {
     (a * (256 - share) + b * share) >> 8 & CHANNELS
 }

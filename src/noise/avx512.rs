@@ -1,27 +1,36 @@
-//! 64 noises at once with AVX-512: hashing is on bytes, whose arithmetic wraps just as Perlin's `& 255` does.
+//! Noise for 64 points with AVX-512.
 //!
-//! A table of 256 bytes is four registers and a lookup for all 64 points two permutations (`vpermi2b`) and a blend.
-//! Point 16 g + i lives in byte g of dword i, so neither packing nor unpacking needs a shuffle.
+//! Hashing is on bytes, whose arithmetic wraps just as Perlin's `& 255` does. A table of 256 bytes fills four registers, and
+//! to look up 64 points in it takes two permutations (`vpermi2b`) and a blend.
+//!
+//! ```text
+//! cells of all points -> a register of bytes for each axis
+//! six lookups of 64 bytes each -> hashes of the cells' columns; four more -> gradients of their corners
+//! for each 16 points: offsets and weights, the blend of the lower four corners, of the upper four, and of both
+//! ```
+//!
+//! Point 16 g + i lives in byte g of the 32-bit lane i. So the bytes of 16 points are those lanes shifted, and neither packing
+//! nor unpacking needs a shuffle.
 
-use super::wide::{fade, lerp};
+use super::curve::{fade, lerp};
+use super::permutation::PERMUTATION;
 use crate::simd::block::{BLOCK, load, store};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 
-/// Low four bits: the low four of the permutation at the index; high four: those of the entry after it.
-///
-/// One lookup gives the gradients of a corner and of the one above it.
+/// The low four bits of each entry of the permutation, and in the high four bits those of the next entry: one lookup gives
+/// the gradients of a corner and of the one above it.
 static GRADIENT_PAIRS: [u8; 256] = {
     let mut pairs = [0; 256];
     let mut i = 0;
     while i < 256 {
-        pairs[i] = super::PERMUTATION[i] & 15 | super::PERMUTATION[i + 1] << 4;
+        pairs[i] = PERMUTATION[i] & 15 | PERMUTATION[i + 1] << 4;
         i += 1;
     }
     pairs
 };
 
-/// Components of the 16 gradients; their products with an offset are exact, so a fused add rounds just once, as
+/// Components of the 16 gradients. Their products with an offset are exact, so a fused multiply-add rounds just once, as
 /// Perlin's sum of two does.
 static GRADIENTS: [[f32; 16]; 3] = [
     [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0],
@@ -52,7 +61,7 @@ fearless_simd::kernel!(
 /// The first 256 bytes of a table in registers.
 #[inline(always)]
 fn load_table(simd: Avx512, table: &[u8]) -> [u8x64<Avx512>; 4] {
-    // No `map`: what it calls lacks the target features where the optimizer, asked for size, does not inline it.
+    // No `map`: the closure that it calls lacks the target features where it is not inlined (see [`crate::simd`]).
     [
         u8x64::from_slice(simd, &table[..64]),
         u8x64::from_slice(simd, &table[64..128]),
@@ -61,31 +70,31 @@ fn load_table(simd: Avx512, table: &[u8]) -> [u8x64<Avx512>; 4] {
     ]
 }
 
-/// The cells of group `g` of coordinates times `zoom`, modulo 256 in the low byte.
+/// The cells of the 16 coordinates of group `g` times `zoom`; the low byte is the cell modulo 256.
 #[inline(always)]
 fn cell(simd: Avx512, x: &[f32; BLOCK], zoom: f32, g: usize) -> u32x16<Avx512> {
-    // Out of range the conversion gives 0x80000000, whose low byte is right: such floats are multiples of 256.
+    // Where the conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are multiples of 256.
     (load::<_, Floats>(simd, x, g) * zoom).floor().to_int::<i32x16<_>>().bitcast()
 }
 
-/// The cells of 64 coordinates times `zoom`, modulo 256, in the order of bytes above.
+/// The cells of 64 coordinates times `zoom`, modulo 256, in the order of bytes that the module describes.
 #[inline(always)]
 fn cells(simd: Avx512, x: &[f32; BLOCK], zoom: f32) -> u8x64<Avx512> {
     let low = (cell(simd, x, zoom, 0) & 0xff) | ((cell(simd, x, zoom, 1) & 0xff) << 8);
     (low | ((cell(simd, x, zoom, 2) & 0xff) << 16) | (cell(simd, x, zoom, 3) << 24)).bitcast()
 }
 
-/// The product of a gradient and the offset (x, y, z).
+/// The dot product of a gradient and the offset (x, y, z).
 #[inline(always)]
 fn gradient(simd: Avx512, tables: &[Floats; 3], hash: u32x16<Avx512>, x: Floats, y: Floats, z: Floats) -> Floats {
     let z = component(simd, tables[2], hash) * z;
     component(simd, tables[0], hash).mul_add(x, component(simd, tables[1], hash).mul_add(y, z))
 }
 
-/// Perlin's noise at 64 points times `zoom`.
+/// Noise at 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK], zoom: f32, out: &mut [f32; BLOCK]) {
-    let table = load_table(simd, &super::PERMUTATION);
+pub fn noise64(simd: Avx512, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
+    let table = load_table(simd, &PERMUTATION);
     let (ix, iy, iz) = (cells(simd, x, zoom), cells(simd, y, zoom), cells(simd, z, zoom));
     let a = lookup(simd, table, ix) + iy;
     let b = lookup(simd, table, ix + 1) + iy;
@@ -109,7 +118,7 @@ pub fn noise64(simd: Avx512, x: &[f32; BLOCK], y: &[f32; BLOCK], z: &[f32; BLOCK
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (x1, y1) = (x - 1.0, y - 1.0);
-        // A floor on the lattice, y = 0 throughout: the far half has no weight. A third faster there.
+        // y = 0 in all lanes, as on a floor that lies on the lattice: the far half has no weight. A third faster there.
         let flat = y.simd_eq(0.0).all_true();
         let mut bottom = lerp(u, gradient(simd, &tables, aa, x, y, z), gradient(simd, &tables, ba, x1, y, z));
         if !flat {

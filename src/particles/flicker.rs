@@ -1,18 +1,19 @@
-//! How the light of a fire wavers.
+//! How the light wavers that a fire throws on other things.
+//!
+//! As in `[Fire08]` it is noise over time. The mean of four waves is taken, each of which eases from one random number
+//! to the next at a rate of its own: so it has neither jumps nor kinks. `tests/flicker.rs` has the formula in `f64`.
 
 use crate::simd::hash::rnd;
 use crate::timeline::ease;
 
-/// Random numbers a second of each of four waves. No ratio of two is simple, so that they never beat in step.
+/// Random numbers per second of each of four waves. No ratio of two is simple, so they never beat in step.
 const RATES: [f64; 4] = [2.3, 3.7, 6.1, 9.7];
 
-/// Knots after which a wave comes round: in 320 days and more.
+/// Knots after which a wave starts again: 320 days at the fastest rate.
 const ROUND: u32 = 1 << 28;
 
-/// A fire's light at `time` seconds over the most that it may be: from `least` to 1, `(1 + least) / 2` in the mean.
-///
-/// The mean of four waves, each of which eases from one random number to the next at a rate of its own; so it has neither
-/// jumps nor kinks. Fires of different `seed`, below 256, know nothing of each other.
+/// The share that a fire's light has at `time` seconds of the most that it may have: from `least` to 1, and
+/// `(1 + least) / 2` in the mean. Fires of different `seed`, below 256, are independent.
 pub fn flicker(seed: u32, time: f64, least: f32) -> f32 {
     let mut sum = 0.0;
     for (wave, rate) in RATES.into_iter().enumerate() {

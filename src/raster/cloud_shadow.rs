@@ -1,27 +1,30 @@
-//! What the sun shines through on its way to the surfaces, and has no edges: a coarse map of the light that is left.
+//! Shadows of clouds on surfaces: a coarse map of the sunlight that is left, which has no edges.
+//!
+//! The map lies in the plane y = 0; a point looks up the place where its ray from the sun meets that plane. Whoever fills
+//! the map knows what casts the shadows. The rasterizer does not.
 
 use crate::simd::lanes::{F, V3};
 use fearless_simd::prelude::*;
 use glam::Vec2;
 
-/// The light that is left, by where its rays meet the height 0.
+/// Sunlight that is left, by where its rays meet the plane y = 0.
 #[derive(Clone, Debug)]
 pub struct CloudShadow {
-    /// Shares, [`Self::SIDE`] in a row along x, rows along z.
+    /// Shares of the light, 0 to 1: [`CloudShadow::SIDE`] rows along z, of as many texels along x.
     pub passes: Vec<f32>,
-    /// x and z of the first, metres.
+    /// x and z of the first texel, metres.
     pub corner: Vec2,
-    /// Metres from one to the next.
+    /// Distance of neighbouring texels, metres.
     pub texel: f32,
-    /// How far a ray goes along x and z while it falls by a metre, against the sign.
+    /// Metres along x and z that a ray to the sun goes per metre that it rises.
     pub slope: Vec2,
 }
 
 impl CloudShadow {
-    /// Texels along an edge.
+    /// Number of texels along an edge of the map.
     pub const SIDE: usize = 128;
 
-    /// The share that comes to points: between texels it is bilinear, and beyond the edge as there.
+    /// The share of the sunlight that reaches points: interpolated between texels; beyond the map, that of its edge.
     #[inline(always)]
     pub fn at<S: Simd>(&self, simd: S, p: V3<S>) -> F<S> {
         let (zero, most) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, CloudShadow::SIDE as u32 as f32 - 1.01));
@@ -32,13 +35,19 @@ impl CloudShadow {
         x.store_slice(&mut columns[..lanes]);
         z.store_slice(&mut rows[..lanes]);
         for (x, z) in columns[..lanes].iter_mut().zip(&rows) {
-            let (column, row) = (*x as u32, *z as u32);
-            let texels = &self.passes[column as usize + row as usize * CloudShadow::SIDE..][..CloudShadow::SIDE + 2];
-            let (u, v) = (*x - column as f32, *z - row as f32);
-            let near = texels[0] + (texels[1] - texels[0]) * u;
-            let far = texels[CloudShadow::SIDE] + (texels[CloudShadow::SIDE + 1] - texels[CloudShadow::SIDE]) * u;
-            *x = near + (far - near) * v;
+            *x = self.bilinear(*x, *z);
         }
         F::<S>::from_slice(simd, &columns[..lanes])
+    }
+
+    /// The map at texel coordinates from 0 up to, but not including, the last texel.
+    #[inline(always)]
+    fn bilinear(&self, x: f32, z: f32) -> f32 {
+        let (column, row) = (x as u32, z as u32);
+        let texels = &self.passes[column as usize + row as usize * CloudShadow::SIDE..][..CloudShadow::SIDE + 2];
+        let (u, v) = (x - column as f32, z - row as f32);
+        let near = texels[0] + (texels[1] - texels[0]) * u;
+        let far = texels[CloudShadow::SIDE] + (texels[CloudShadow::SIDE + 1] - texels[CloudShadow::SIDE]) * u;
+        near + (far - near) * v
     }
 }

@@ -1,66 +1,78 @@
-//! Coverage and depth of triangles in a tile, a vector of pixels at a time.
+//! Visibility: coverage and depth of triangles in a tile, a vector of pixels at a time.
 //!
-//! Edge functions in whole numbers, as in J. Pineda, "A parallel algorithm for polygon rasterization", 1988: each sample
-//! on a shared edge belongs to exactly one of the two triangles.
+//! A pixel's sample is inside of a triangle where three edge functions are not negative `[Pineda88]`. They are whole
+//! numbers, and the top-left rule is part of their constants, so each sample on a shared edge belongs to exactly one of
+//! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
-use super::bins::{Id, parts};
+use super::id::{Id, NOTHING, parts};
 use super::triangle::{SUB, SetupMesh, Triangle};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, STEPS};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
-/// The nearest triangle of each pixel of a tile.
+/// The nearest triangle at one sample of each pixel of a tile.
 #[derive(Clone)]
 pub struct Visible {
-    /// Its nearness, or that of nothing.
+    /// Its `inv_depth`, or that of the background.
     pub inv_depth: Box<[f32; Tile::AREA]>,
-    /// Which it is.
+    /// The triangle.
     pub id: Box<[Id; Tile::AREA]>,
 }
 
-/// Where in a pixel the sample is, steps of [`SUB`] from the pixel's top left.
-pub type Sample = [i32; 2];
-/// In the pixel's middle.
-pub const CENTER: Sample = [SUB / 2; 2];
+/// To be cleared before use: a buffer of zeros that nobody writes to takes no memory.
+impl Default for Visible {
+    fn default() -> Visible {
+        Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
+    }
+}
 
-/// Beyond this an edge function has one sign in the whole tile.
+impl Visible {
+    /// Shows nothing anywhere, at the depth of the background.
+    pub fn clear(&mut self, inv_depth: f32) {
+        self.inv_depth.fill(inv_depth);
+        self.id.fill(NOTHING);
+    }
+}
+
+/// The place of a sample in its pixel, in steps of 1 / [`SUB`] pixel from the top left corner.
+pub type SubPixel = [i32; 2];
+/// The middle of the pixel.
+pub const CENTER: SubPixel = [SUB / 2; 2];
+
+/// Where the value of an edge function at a tile's corner exceeds this, it has one sign in the whole tile.
 const FAR: i64 = 1 << 30;
 
-/// Draws triangles over what is visible of the tile whose top left pixel is (`x`, `y`).
+/// Draws triangles into the tile whose top left pixel is (`x`, `y`) of the raster, over what is visible there.
 #[simd]
-pub fn fill<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[Id], x: i32, y: i32, sample: Sample, out: &mut Visible) {
+pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id], x: i32, y: i32, sample: SubPixel, out: &mut Visible) {
     for &id in ids {
-        let (piece, number) = parts(id);
-        fill_one(simd, &pieces[piece].triangles[number], id, x, y, sample, out);
+        let (mesh, number) = parts(id);
+        fill_one(simd, &meshes[mesh].triangles[number], id, x, y, sample, out);
     }
 }
 
 /// Draws one triangle.
+///
+/// ```text
+/// for each row of the triangle's bounding box within the tile
+///     for each vector of pixels of the row
+///         inside  = no edge function is negative          (the sign of their disjunction)
+///         nearer  = inside and inv_depth > what is there
+///         keep inv_depth and id where nearer
+///         step the edge functions to the right
+///     step the edge functions down
+/// ```
 #[inline(always)]
-fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Sample, out: &mut Visible) {
+fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: SubPixel, out: &mut Visible) {
     let lanes = F::<S>::LEN;
     let size = Tile::SIZE as i32;
-    // The part of the tile that the triangle may touch, from a multiple of the lanes on.
+    // The part of the tile that the triangle may touch, its columns from a multiple of the lanes on.
     let (x0, x1) = ((t.bound[0] - x).max(0) & !(lanes as i32 - 1), (t.bound[1] - x).min(size - 1));
     let (y0, y1) = ((t.bound[2] - y).max(0), (t.bound[3] - y).min(size - 1));
     let steps = S::u32s::from_slice(simd, &STEPS[..lanes]).bitcast::<S::i32s>();
-    let mut row = [S::i32s::splat(simd, 0); 3];
-    let mut along = [0; 3];
-    let mut down = [0; 3];
-    let mut k = 0;
-    while k < 3 {
-        let (a, b, c) = t.edges[k];
-        // At the tile's first sample. A pixel is `SUB` steps, so the rest of the division never matters.
-        let far = |pixel: i32, sample: i32| pixel as i64 * SUB as i64 + sample as i64;
-        let first = (a as i64 * far(x, sample[0]) + b as i64 * far(y, sample[1]) + c) >> SUB.trailing_zeros();
-        let first = first.clamp(-FAR, FAR) as i32;
-        row[k] = steps * a + (first + a * x0 + b * y0);
-        along[k] = a * lanes as i32;
-        down[k] = b;
-        k += 1;
-    }
-    // Not summed up along the way: each pixel's nearness is the same at any number of lanes.
+    let Edges { mut row, along, down } = Edges::new(simd, t, [x, y], [x0, y0], sample, steps);
+    // `inv_depth` is computed anew at each pixel, not summed up along the row: so it is the same for any number of lanes.
     let (zx, zy) = (t.by[0].w, t.by[1].w);
     let offset = |pixel: i32, sample: i32| pixel as f32 + sample as f32 * (1.0 / SUB as f32);
     let (dx, dy) = (offset(x, sample[0]) - t.anchor[0], offset(y, sample[1]) - t.anchor[1]);
@@ -95,5 +107,41 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: Samp
             k += 1;
         }
         at += 1;
+    }
+}
+
+/// The three edge functions of a triangle over a tile.
+struct Edges<S: Simd> {
+    /// Values at the first vector of pixels that is filled.
+    row: [S::i32s; 3],
+    /// Change from one vector of pixels to the next.
+    along: [i32; 3],
+    /// Change from one row to the next.
+    down: [i32; 3],
+}
+
+impl<S: Simd> Edges<S> {
+    /// The edge functions in the tile whose top left pixel is `corner`, from the pixel `first` of the tile on. `steps`
+    /// numbers the lanes.
+    ///
+    /// A pixel is [`SUB`] steps wide, so in 1 / [`SUB`] of their unit the functions change by whole numbers from pixel to
+    /// pixel, and the remainder of the division never changes a sign.
+    #[inline(always)]
+    fn new(simd: S, t: &Triangle, corner: [i32; 2], first: [i32; 2], sample: SubPixel, steps: S::i32s) -> Edges<S> {
+        let mut row = [S::i32s::splat(simd, 0); 3];
+        let mut along = [0; 3];
+        let mut down = [0; 3];
+        let mut k = 0;
+        while k < 3 {
+            let (a, b, c) = t.edges[k];
+            let far = |pixel: i32, sample: i32| pixel as i64 * SUB as i64 + sample as i64;
+            let start = a as i64 * far(corner[0], sample[0]) + b as i64 * far(corner[1], sample[1]) + c;
+            let start = (start >> SUB.trailing_zeros()).clamp(-FAR, FAR) as i32;
+            row[k] = steps * a + (start + a * first[0] + b * first[1]);
+            along[k] = a * F::<S>::LEN as i32;
+            down[k] = b;
+            k += 1;
+        }
+        Edges { row, along, down }
     }
 }

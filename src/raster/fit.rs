@@ -1,18 +1,17 @@
-//! What a light has to see: depth maps fitted to what the camera sees.
+//! Views of lights: shadow maps fitted to what the camera sees.
 
 use super::project::Projection;
 use crate::view::Camera;
 use glam::Vec3;
 
-/// Parallel projections along -`towards` (unit), one for each of `ends`: the first covers what the camera sees up to that
-/// many metres along its axis, the others from a little before there to theirs. `aspect` is the picture's width over its
-/// height, `size` the texels along an edge.
+/// Cascaded shadow maps of a sun in the direction `towards` (unit): parallel projections of `size` x `size` texels, the
+/// finest first. The first covers what the camera sees up to `ends[0]` metres along its axis, each other one from a
+/// little before the end of its predecessor to its own. `aspect` is the picture's width over its height.
 ///
-/// Each is the ball around its part of the view, which stays the same size as the camera turns, and moves by whole texels:
-/// as long as the light rests so do the shadows' edges. M. Valient, "Stable rendering of cascaded shadow maps", ShaderX6,
-/// 2008.
+/// Each map holds the ball around its slice of the view frustum, whose size stays the same when the camera turns, and
+/// moves by whole texels: while the light rests, so do the edges of shadows `[Valient08]`.
 pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size: u32) -> Vec<Projection> {
-    // The tangent of the angle between the view's axis and its corners, whichever is the farther.
+    // Squared tangent of the angle between the view's axis and the farther of its corners.
     let wide = aspect + camera.shift.abs();
     let corner2 = camera.up.length_squared() * (1.0 + wide * wide);
     let mut near = 0.0;
@@ -20,13 +19,13 @@ pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size:
     for &end in ends {
         let begin = 0.9 * near;
         near = end;
-        // The ball through the corners of both ends, unless the far end's own is enough.
+        // The ball through the corners of both ends, unless the ball over the far end alone holds the slice.
         let along = (0.5 * (begin + end) * (1.0 + corner2)).min(end);
         let radius = ((end - along) * (end - along) + end * end * corner2).sqrt();
-        // Lookups keep off the border.
+        // Lookups keep off the border: four texels wider on each side.
         let width = 2.0 * radius * size as f32 / (size as f32 - 8.0);
         let mut view = Projection::parallel(towards, camera.eye + camera.forward * along, width, size);
-        // Moved until the world's origin lies on a corner of texels.
+        // Shifted until the world's origin lies on a corner of texels.
         for row in &mut view.rows[..2] {
             row.w = row.w.round();
         }
@@ -35,7 +34,8 @@ pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size:
     views
 }
 
-/// The six faces of the cube around a lamp.
+/// The six faces of the cube around a lamp at `position`, `size` x `size` texels each, in the order +x, -x, +y, -y, +z,
+/// -z.
 pub fn cube(position: Vec3, size: u32) -> Vec<Projection> {
     let mut views = Vec::new();
     for face in 0..6 {

@@ -1,35 +1,38 @@
-//! Surfaces from small tables: grids, and bodies of rings. A box is one of these.
+//! Meshes from small tables: grids of points, and closed forms of rings stacked along an axis. A box is one of these.
+//!
+//! Everything is built by lofting: consecutive rows of points are joined by strips of triangles. Rings are
+//! tables of bytes, which take little room in the 64 kB build.
 
 use super::mesh::{Face, Mesh, Paint};
 use crate::noise;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::{PI, TAU};
 
-/// A body of rings, one a row, and the outline that they share.
+/// A stack of rings of one outline, one ring per row.
 ///
 /// In local coordinates the rings lie across y. At angle `t`, x is
-/// `thickness sin t (1 + swell cos^2 t) (1 - taper cos t)`, and z is `middle + reach cos t (1 + swell sin^2 t)`.
-/// A row without size is a pole; two equal rows are a crease, since they share no point.
+/// `thickness sin t (1 + swell cos^2 t) (1 - taper cos t)` and z is `middle + reach cos t (1 + swell sin^2 t)`.
+/// A row of size 0 is a pole. Two equal rows are a crease, since they share no points.
 #[derive(Clone, Copy, Debug)]
-pub struct Body {
-    /// Along, middle, reach, thickness, and what the strip to the next row is painted with: in the upper digit
-    /// (hexadecimal) the first two columns, next to the greatest z, in the lower one the rest.
+pub struct Rings {
+    /// For each ring its y, middle, reach and thickness, and the paints of the strip to the next ring: the upper
+    /// hexadecimal digit for the first two columns, next to the greatest z, the lower digit for the others.
     pub rows: &'static [[i8; 5]],
-    /// Strips around.
+    /// Number of strips around the axis.
     pub sides: u8,
-    /// Only where x is positive; open where it is 0.
+    /// Whether only the half where x is positive is built; it is open at x = 0.
     pub half: bool,
-    /// From an ellipse, 0, to [`SQUARE`].
+    /// Shape of the outline, from 0 for an ellipse to [`SQUARE`].
     pub swell: f32,
-    /// 0 for a symmetric outline; near 1 it is sharp at the greatest z, as wings are.
+    /// Asymmetry of the outline: 0 for none; near 1 it is sharp at the greatest z, as wings are.
     pub taper: f32,
 }
 
-/// The swell at which four sides are a rectangle with its full reach and thickness.
+/// The swell at which four sides form a rectangle of full reach and thickness.
 pub const SQUARE: f32 = 0.828_427_1;
 
-/// From -1 to 1 along each axis. Its ends are rows that have shrunk to one side of the ring.
-const CUBE: Body = Body {
+/// The cube from -1 to 1 along each axis. Its ends are rows that have shrunk to one side of the ring.
+const CUBE: Rings = Rings {
     rows: &[[-1, 1, 0, 1, 0], [-1, 0, 1, 1, 0], [1, 0, 1, 1, 0], [1, 1, 0, 1, 0]],
     sides: 4,
     half: false,
@@ -37,17 +40,19 @@ const CUBE: Body = Body {
     taper: 0.0,
 };
 
+// Building a mesh is never hot: out of line, each of these functions is in the 64 kB build once.
 impl Mesh {
-    /// No surface yet.
+    /// A mesh with paints and no surface yet.
     #[inline(never)]
     pub fn painted(paints: &[Paint]) -> Mesh {
         Mesh { paints: paints.to_vec(), ..Mesh::default() }
     }
 
-    /// Joins the points from `first` on, rows of `columns`: outside is where rows follow counter-clockwise columns
-    /// upwards. Triangles with two corners in one place are left out, so a row may shrink to fewer points, or to one.
+    /// Joins the points from `first` on, which are rows of `columns` points, by two triangles per cell. The outside is
+    /// where rows follow each other upwards and columns counter-clockwise. Triangles with two corners in one place are
+    /// left out, so a row may shrink to fewer points, or to one.
     ///
-    /// To `paint` is added what a body's rows say, if there are any.
+    /// Faces get paint number `paint` plus the digit of their row in `rows` (see [`Rings::rows`]), which may be empty.
     #[inline(never)]
     pub fn loft(&mut self, first: usize, columns: usize, paint: u16, rows: &[[i8; 5]]) {
         for i in first..self.points.len() - columns {
@@ -61,7 +66,7 @@ impl Mesh {
         }
     }
 
-    /// A triangle, if it is one.
+    /// Adds a triangle, unless two of its corners coincide.
     #[inline(never)]
     fn face(&mut self, a: usize, b: usize, c: usize, paint: u16) {
         let at = |i: usize| self.points[i];
@@ -70,35 +75,36 @@ impl Mesh {
         }
     }
 
-    /// A body, its local coordinates multiplied by `turn`, which may scale and shear, and moved to `at`.
+    /// Adds a stack of rings, its local coordinates multiplied by `turn`, which may scale and shear, and moved to `at`.
+    /// `paint` is the number that its rows' digits are added to.
     #[inline(never)]
-    pub fn body(&mut self, body: &Body, turn: &Mat3, at: Vec3, paint: u16) {
+    pub fn rings(&mut self, rings: &Rings, turn: &Mat3, at: Vec3, paint: u16) {
         let first = self.points.len();
-        let sides = body.sides as u32;
-        // A rectangle has corners, not the middles of its sides, on the diagonals.
-        let offset = if body.swell == SQUARE { 0.5 } else { 0.0 };
-        for row in body.rows {
+        let sides = rings.sides as u32;
+        // A rectangle has its corners on the diagonals, not the middles of its sides.
+        let offset = if rings.swell == SQUARE { 0.5 } else { 0.0 };
+        for row in rings.rows {
             for k in 0..=sides {
-                let part = if body.half { k } else { k % sides };
-                let angle = (part as f32 + offset) / sides as f32 * if body.half { PI } else { TAU };
+                let part = if rings.half { k } else { k % sides };
+                let angle = (part as f32 + offset) / sides as f32 * if rings.half { PI } else { TAU };
                 let (sin, cos) = angle.sin_cos();
-                // Rounded to a millionth, so that half a turn ends at 0, and a rectangle at 1.
+                // Rounded to a millionth, so that half a turn ends at exactly 0, and a rectangle at exactly 1.
                 let round = |x: f32| (x + 8.0) - 8.0;
-                let x = round(sin * (1.0 + body.swell * cos * cos) * (1.0 - body.taper * cos));
-                let z = round(cos * (1.0 + body.swell * sin * sin));
+                let x = round(sin * (1.0 + rings.swell * cos * cos) * (1.0 - rings.taper * cos));
+                let z = round(cos * (1.0 + rings.swell * sin * sin));
                 let p = vec3(row[3] as f32 * x, row[0] as f32, row[1] as f32 + row[2] as f32 * z);
                 self.points.push(at + *turn * p);
             }
         }
-        self.loft(first, sides as usize + 1, paint, body.rows);
+        self.loft(first, sides as usize + 1, paint, rings.rows);
     }
 
-    /// A box of 12 triangles: `half` has its half axes, a right-handed system, as columns.
+    /// Adds a box of 12 triangles around `at`. The columns of `half` are its half axes, a right-handed system.
     pub fn block(&mut self, half: &Mat3, at: Vec3, paint: u16) {
-        self.body(&CUBE, half, at, paint);
+        self.rings(&CUBE, half, at, paint);
     }
 
-    /// Adds the mirror image at the plane x = 0, before there are normals.
+    /// Adds the mirror image in the plane x = 0. To be called before the mesh has normals.
     #[inline(never)]
     pub fn mirror(&mut self) {
         let (points, faces) = (self.points.len(), self.faces.len());
@@ -113,8 +119,8 @@ impl Mesh {
         }
     }
 
-    /// Moves the points from `first` on by up to `amount` metres each way, by noise of `scale` cells a metre: equal points alike, so
-    /// nothing tears.
+    /// Displaces the points from `first` on by up to `amount` metres along each axis, by noise of `scale` cells per
+    /// metre. Equal points move alike, so nothing tears.
     #[inline(never)]
     pub fn weather(&mut self, first: usize, amount: f32, scale: f32) {
         for p in &mut self.points[first..] {
@@ -124,10 +130,11 @@ impl Mesh {
         }
     }
 
-    /// Normals of a smooth surface: of the faces around each point, by the sines of their angles there.
+    /// Makes the surface smooth: the normal at a point is the sum of the unit normals of its faces, each weighted by the
+    /// sine of the face's angle there.
     ///
-    /// Weighed by area, the faces of long strips would lean to the side that their diagonals take. A point on the
-    /// plane x = 0 is taken to have a mirror image on the other side.
+    /// Weighted by area, the faces of long strips would lean to the side that their diagonals take. A point on the plane
+    /// x = 0 is taken to have a mirror image on the other side.
     #[inline(never)]
     pub fn smooth(&mut self) {
         self.normals = vec![Vec3::ZERO; self.points.len()];
@@ -142,7 +149,7 @@ impl Mesh {
             if p.x == 0.0 {
                 n.x = 0.0;
             }
-            // Points that no face has get one too.
+            // A point without a face gets a normal too.
             *n = (*n + Vec3::Y * 1e-9).normalize();
         }
     }

@@ -1,28 +1,25 @@
-//! Lights, and what they give to a point: all of them in one pass over the pixels that are seen, each as far as it reaches.
+//! Lights: suns and lamps, and how far they reach.
 
-use super::Raster;
-use super::exact_shadow::hides;
 use super::project::Projection;
-use super::shadow::{DepthMap, ShadowViews};
-use crate::cuts::BENCH;
-use crate::simd::lanes::{Bits, F, Lane, M, V3};
+use super::shadow_views::ShadowViews;
+use crate::simd::lanes::{F, V3};
 use fearless_simd::prelude::*;
-use glam::{Vec2, Vec3, Vec4};
-use std::sync::Arc;
+use glam::{Vec2, Vec3};
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
-    /// From that direction (unit), everywhere alike.
+    /// From a direction (unit), the same everywhere.
     Sun(Vec3),
-    /// From a point. At a distance of D metres `1 / (1 + x D + y D^2)` is left, where `falloff` is (x, y).
+    /// From a point.
     Lamp {
-        /// Where it is, metres.
+        /// Place of the lamp, metres.
         position: Vec3,
-        /// How fast its light fades.
+        /// How its light fades: `1 / (1 + x d + y d^2)` of it is left after d metres, where `falloff` is (x, y).
         falloff: Vec2,
-        /// Metres beyond which there is nothing left of it; infinite for no end. It fades out evenly towards there, if it
-        /// fades at all.
+        /// Distance beyond which nothing is left, metres; infinite for no end. Light that fades at all reaches 0 there
+        /// continuously: what the formula leaves at the reach is subtracted everywhere, and the rest is scaled so that
+        /// nothing is lost at the lamp.
         reach: f32,
     },
 }
@@ -32,75 +29,38 @@ pub enum Source {
 pub struct Light {
     /// Where it comes from.
     pub source: Source,
-    /// Light on a surface that faces it, linear.
+    /// Light that a white surface facing it sends back before any fading, linear.
     pub color: Vec3,
-    /// What it sees, if it casts shadows.
+    /// The views for its shadows, if it casts any.
     pub shadow: Option<ShadowViews>,
 }
 
-/// The haze before what is far.
-#[derive(Clone, Copy, Debug)]
-pub struct Haze {
-    /// Its light, linear.
-    pub color: Vec3,
-    /// Share that it takes a metre.
-    pub density: f32,
-    /// A direction (unit) in which it shines by that much more, with the eighth power of the cosine.
-    pub glow: (Vec3, Vec3),
-    /// The direction of sun or moon, level, and the light of their image there, where a mirror shows it.
-    pub image: (Vec3, Vec3),
-}
-
-impl Haze {
-    /// The same in all directions.
-    pub const fn even(color: Vec3, density: f32) -> Haze {
-        Haze { color, density, glow: (Vec3::Y, Vec3::ZERO), image: (Vec3::Y, Vec3::ZERO) }
-    }
-
-    /// Its light in a direction (unit).
-    #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        V3::splat(simd, self.color) + lobe(simd, d, self.glow, 3)
-    }
-
-    /// Light of the image of sun or moon in a direction (unit).
-    #[inline(always)]
-    pub fn image_at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        lobe(simd, d, self.image, 9)
-    }
-}
-
-/// Light around a direction, with the power of two of the cosine that so many squarings give.
-#[inline(always)]
-fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3, Vec3), squarings: u32) -> V3<S> {
-    let mut power = d.dot1(towards).max(F::<S>::splat(simd, 0.0));
-    for _ in 0..squarings {
-        power *= power;
-    }
-    V3::splat(simd, light) * Lane(power)
-}
-
-/// Texels along a map's border in which it is not looked up.
-const MARGIN: f32 = 2.0;
-
-/// What is left of a bias where shadows are traced: enough for the snapping of corners and for rounding.
-const TRACED_BIAS: f32 = 1.0 / 32.0;
-
-/// What a light sees.
-pub struct ShadowLookup {
-    /// Where that is mapped.
-    pub map: Option<Arc<DepthMap>>,
-    /// The first of its rasters, where it has any.
-    pub first: usize,
-}
-
 impl Light {
-    /// What it is to see, if it casts shadows.
-    pub fn plan(&self) -> Option<&ShadowViews> {
-        self.shadow.as_ref().filter(|plan| !plan.views.is_empty())
+    /// A sun in the direction `towards` (unit), without shadows.
+    #[inline(always)]
+    pub fn sun(towards: Vec3, color: Vec3) -> Light {
+        Light { source: Source::Sun(towards), color, shadow: None }
     }
 
-    /// May it reach into a ball?
+    /// A lamp at `position` that fades as [`Source::Lamp`] says, without shadows. `falloff` of (0, 1) and an infinite
+    /// `reach` are near to the inverse square law.
+    #[inline(always)]
+    pub fn lamp(position: Vec3, color: Vec3, falloff: Vec2, reach: f32) -> Light {
+        Light { source: Source::Lamp { position, falloff, reach }, color, shadow: None }
+    }
+
+    /// The same light with shadows.
+    #[inline(always)]
+    pub fn with_shadow(self, shadow: ShadowViews) -> Light {
+        Light { shadow: Some(shadow), ..self }
+    }
+
+    /// The views for its shadows; `None` also where there are none in the list.
+    pub fn shadow_views(&self) -> Option<&ShadowViews> {
+        self.shadow.as_ref().filter(|shadow| !shadow.views.is_empty())
+    }
+
+    /// Whether it may reach into a sphere.
     pub fn reaches(&self, center: Vec3, radius: f32) -> bool {
         match self.source {
             Source::Sun(_) => true,
@@ -108,7 +68,8 @@ impl Light {
         }
     }
 
-    /// May it reach what a raster shows? With a little to spare, lest a rounded point asks for a map that was left out.
+    /// Whether it may reach what a raster shows. A hundredth of the reach is allowed for, lest a rounded point needs a
+    /// map that was left out.
     pub fn counts(&self, raster: &Projection) -> bool {
         match self.source {
             Source::Sun(_) => true,
@@ -116,7 +77,7 @@ impl Light {
         }
     }
 
-    /// May it reach into one of the boxes between `low` and `high`?
+    /// Whether it may reach into one of the boxes between corresponding lanes of `low` and `high`.
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, low: V3<S>, high: V3<S>) -> bool {
         match self.source {
@@ -130,114 +91,4 @@ impl Light {
             }
         }
     }
-
-    /// Its light at points with unit normals, without albedo.
-    #[inline(always)]
-    pub fn at<S: Simd>(&self, simd: S, sight: &ShadowLookup, rasters: &[Raster], point: V3<S>, normal: V3<S>) -> V3<S> {
-        let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        let (towards, left) = match self.source {
-            Source::Sun(direction) => (V3::splat(simd, direction), one),
-            Source::Lamp { position, falloff, reach } => {
-                // 1 over the loss at the end of the reach; 0 if it has none, or does not fade towards there.
-                let end = 1.0 / (falloff.x * reach + falloff.y * reach * reach);
-                let end = if end.is_finite() { end } else { 0.0 };
-                let way = V3::splat(simd, position) - point;
-                let distance = way.dot(way).sqrt();
-                let loss = distance * falloff.x + distance * distance * falloff.y;
-                // What is left at the end of the reach is taken off everywhere, and the rest made 1 at the lamp again.
-                let left = one / (loss + 1.0) * (one - loss * end).max(zero);
-                (way * Lane(one / distance), distance.simd_le(reach).select(left, zero))
-            }
-        };
-        let cosine = normal.dot(towards).max(zero);
-        let mut light = cosine * left;
-        let wanted = light.simd_gt(zero);
-        if let Some(plan) = self.plan()
-            && wanted.any_true()
-        {
-            light *= self.seen(simd, plan, sight, rasters, point, normal, cosine, wanted);
-        }
-        V3::splat(simd, self.color) * Lane(light)
-    }
-
-    /// The share of the light that is not in shadow.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn seen<S: Simd>(
-        &self,
-        simd: S,
-        plan: &ShadowViews,
-        sight: &ShadowLookup,
-        rasters: &[Raster],
-        point: V3<S>,
-        normal: V3<S>,
-        cosine: F<S>,
-        wanted: M<S>,
-    ) -> F<S> {
-        let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-        let size = plan.views[0].size[0] as f32;
-        let bias = plan.bias.times(if BENCH && plan.traced { TRACED_BIAS } else { 1.0 });
-        let sine = (one - cosine * cosine).max(zero).sqrt();
-        let tangent = (sine / cosine.max(F::<S>::splat(simd, 1e-3))).min(F::<S>::splat(simd, 4.0));
-        let (mut view, mut x, mut y, mut near) = (zero, zero, zero, zero);
-        let mut inside = M::<S>::splat(simd, false);
-        // The depth by which texels grow, the face of a cube that a point is seen through, and the border of a map that
-        // no point lies in.
-        let (mut depth, mut face, mut margin) = (one, zero, MARGIN);
-        if let Source::Lamp { position, .. } = self.source {
-            let q = point.sub1(position);
-            let (ax, ay, az) = (q.x.abs(), q.y.abs(), q.z.abs());
-            depth = ax.max(ay).max(az);
-            let (on_x, on_y) = (ax.simd_ge(depth), ay.simd_ge(depth));
-            let axis = on_x.select(q.x, on_y.select(q.y, q.z));
-            let pair = on_x.select(zero, on_y.select(F::<S>::splat(simd, 2.0), F::<S>::splat(simd, 4.0)));
-            face = pair + axis.simd_gt(zero).select(zero, one);
-            margin = f32::NEG_INFINITY;
-        }
-        let mut k = 0;
-        while k < plan.views.len() {
-            let number = F::<S>::splat(simd, k as u32 as f32);
-            // The finest of several maps that the texels around are in.
-            let here = wanted & !inside & (if margin > 0.0 { zero } else { face - number }).simd_eq(zero);
-            if here.any_true() {
-                let Projection { rows, texel, .. } = &plan.views[k];
-                let p = point + normal * Lane(sine * (depth * (bias.normal * texel)));
-                let w = apply(rows[3], p);
-                let inverse = one / w;
-                let (px, py) = (apply(rows[0], p) * inverse, apply(rows[1], p) * inverse);
-                let here = here & px.min(py).simd_ge(margin) & px.max(py).simd_le(size - margin);
-                let bias = tangent * (depth * (bias.slope * texel)) + bias.constant;
-                let z = match self.source {
-                    Source::Sun(_) => apply(rows[2], p) + bias,
-                    Source::Lamp { .. } => one / (w - bias).max(F::<S>::splat(simd, 1e-6)),
-                };
-                (x, y) = (here.select(px, x), here.select(py, y));
-                (near, view) = (here.select(z, near), here.select(number, view));
-                inside |= here;
-            }
-            k += 1;
-        }
-        let seen = match &sight.map {
-            Some(map) => map.light(simd, view, x, y, near, plan.smooth, inside),
-            None if !BENCH => one,
-            None => {
-                let end = F::<S>::splat(simd, size - 0.01);
-                let (x, y) = (x.max(zero).min(end), y.max(zero).min(end));
-                let mut seen = [0.0; 16];
-                for lane in Bits(inside.to_bitmask()) {
-                    let of = |numbers: &F<S>| numbers.as_slice()[lane];
-                    let raster = &rasters[sight.first + of(&view) as usize];
-                    seen[lane] = if hides(raster, of(&x), of(&y), of(&near)) { 0.0 } else { 1.0 };
-                }
-                F::<S>::from_slice(simd, &seen[..F::<S>::LEN])
-            }
-        };
-        inside.select(seen, one)
-    }
-}
-
-/// A row of a matrix times a point.
-#[inline(always)]
-fn apply<S: Simd>(row: Vec4, p: V3<S>) -> F<S> {
-    p.dot1(row.truncate()) + row.w
 }

@@ -1,19 +1,19 @@
-//! Surfaces of triangles.
+//! Surfaces of triangles: points with normals, faces that join them, and what faces are painted with.
 
 use glam::Vec3;
 
 /// What a face is painted with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
-    /// Share of the light that is scattered back, linear.
+    /// Diffuse reflectance, linear, 0 to 1.
     pub albedo: Vec3,
-    /// The world's texture that the albedo is multiplied by, if any.
+    /// Index of the texture of the world that multiplies the albedo, 0 to 14; `None` for a plain colour.
     pub texture: Option<u8>,
-    /// Share of the sky that is mirrored where the surface is grazed; a twentieth of it where it is met straight.
+    /// Share of the sky that is mirrored at grazing incidence, 0 to 1. A twentieth of it is mirrored at normal incidence.
     pub gloss: f32,
 }
 
-/// A triangle, counter-clockwise from outside.
+/// A triangle, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Face {
     /// Indices of its points.
@@ -22,25 +22,27 @@ pub struct Face {
     pub paint: u16,
 }
 
-/// A surface of triangles, all smooth or all flat. Large surfaces are cut into several, which are culled one by one.
+/// A surface of triangles, either smooth or flat throughout.
+///
+/// Bodies are culled whole, so a large surface is best cut into several meshes.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
-    /// Where the corners are, metres: at most 65,536.
+    /// Positions of the corners, metres: at most 65,536.
     pub points: Vec<Vec3>,
-    /// Normals at the points, of any length; none where every face is flat.
+    /// Normals at the points, of any length. Empty where every face is flat.
     pub normals: Vec<Vec3>,
-    /// The triangles.
+    /// The triangles: at most 8,192.
     pub faces: Vec<Face>,
-    /// The paints that faces name.
+    /// The paints that faces refer to.
     pub paints: Vec<Paint>,
 }
 
 impl Mesh {
-    /// Middle and radius of a ball around all points: that of their bounding box.
+    /// Centre and radius of a bounding sphere: the one around the bounding box. Coordinates that are NaN are left out.
     pub fn bound(&self) -> (Vec3, f32) {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for &p in &self.points {
-            // In this order what is not a number is left out.
+            // In this order `min` and `max` drop a NaN.
             (low, high) = (p.min(low), p.max(high));
         }
         (0.5 * (low + high), 0.5 * low.distance(high))

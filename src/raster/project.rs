@@ -1,56 +1,63 @@
-//! From points in space to the pixels of a picture or of a depth map.
+//! From points in space to the pixels of a picture or of a shadow map.
 
 use crate::view::View;
 use glam::{Affine3A, Mat4, Vec3, Vec4};
 
 /// A projection onto a raster, in homogeneous pixels from its top left corner.
 ///
-/// Nearness is affine on planes as they appear in the raster, and more of it hides less: 1 / distance along the axis in
-/// perspective, height towards the light in a parallel projection. So nothing has a far plane, and in floating point the
-/// far is as precise as the near (reversed depth).
+/// The depth of a raster is called `inv_depth` throughout, and larger is nearer: 1 / distance along the axis in
+/// perspective, and metres towards the light in a parallel projection. Either is affine over the raster on a plane in
+/// space, so it is interpolated without a division. Nothing needs a far plane, and in floating point far surfaces are
+/// told apart as well as near ones (reversed depth).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// Of a point p, their inner products with (p, 1) are x w, y w, nearness w, w.
+    /// Inner products of a point (p, 1) with the four rows are `x w`, `y w`, `inv_depth w` and `w`, with x and y in
+    /// pixels to the right and down.
     pub rows: [Vec4; 4],
-    /// Pixels in a row, and rows: at most 16,384 each.
+    /// Width and height of the raster, pixels: at most 16,384 each.
     pub size: [u32; 2],
-    /// Metres a pixel in the middle, where w is 1.
+    /// Size of a pixel in space where w is 1, in the middle of the raster: metres.
     pub texel: f32,
 }
 
-/// Least w that is drawn: the distance from the eye at which solids begin, metres.
+/// The near plane, metres from the eye along its axis: solids before it are clipped.
 pub const NEAR: f32 = 0.05;
 
 impl Projection {
-    /// What a camera sees.
-    pub fn of_view(view: &View, size: [u32; 2]) -> Projection {
+    /// What a view's camera sees, on the pixels of the view.
+    pub fn of_view(view: &View) -> Projection {
         let camera = view.camera();
         let (middle, pixels) = view.screen();
         let depth = row(camera.forward, camera.eye);
+        let size = [view.width() as u32, view.height() as u32];
         Projection::new([camera.right, camera.up], camera.eye, [Vec4::W, depth], pixels, middle, size)
     }
 
-    /// A parallel projection of `size` x `size` pixels, `width` metres wide, around `middle`, along -`towards` (unit).
+    /// A parallel projection of `size` x `size` pixels and `width` metres around the point `middle`, as seen from the
+    /// direction `towards` (unit).
     ///
-    /// Nearness is metres towards the light. The rows' direction is level, as far as there is one.
+    /// Its `inv_depth` is metres from `middle` towards the light. Rows of pixels are level, whatever the direction; seen
+    /// straight from above or below they run along x.
     pub fn parallel(towards: Vec3, middle: Vec3, width: f32, size: u32) -> Projection {
         Projection::square(towards, middle, [row(towards, middle), Vec4::W], size as f32 / width, size)
     }
 
-    /// Face `index` of the cube around `eye`, in the order +x -x +y -y +z -z; 90 degrees wide.
+    /// Face `index` of the cube around `eye`, 90 degrees wide, on `size` x `size` pixels. The order of faces is +x, -x,
+    /// +y, -y, +z, -z.
     pub fn face(index: usize, eye: Vec3, size: u32) -> Projection {
         let look = Vec3::AXES[index / 2] * if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         Projection::square(-look, eye, [Vec4::W, row(look, eye)], 0.5 * size as f32, size)
     }
 
-    /// The rows of nearness and w are `depth`; of `pixels` a metre, where w is 1.
+    /// A square raster seen from the direction `towards`, with `origin` in its middle and `pixels` per metre where w is
+    /// 1. `depth` holds the rows of `inv_depth` and w.
     fn square(towards: Vec3, origin: Vec3, depth: [Vec4; 2], pixels: f32, size: u32) -> Projection {
         let right = Vec3::Y.cross(towards).try_normalize().unwrap_or(Vec3::X);
         let half = 0.5 * size as f32;
         Projection::new([right, towards.cross(right)], origin, depth, pixels, (half, half), [size; 2])
     }
 
-    /// The same with those directions to the right and up, `origin` in the `middle`.
+    /// The general case: any directions to the right and up, and `origin` at the pixel `middle`.
     fn new(
         [right, up]: [Vec3; 2],
         origin: Vec3,
@@ -64,18 +71,18 @@ impl Projection {
         Projection { rows: [x, y, inv_depth, w], size, texel: 1.0 / pixels }
     }
 
-    /// The matrix that takes points to homogeneous pixels.
+    /// The matrix from points in space to homogeneous pixels.
     pub fn matrix(&self) -> Mat4 {
         let [x, y, inv_depth, w] = self.rows;
         Mat4::from_cols(x, y, inv_depth, w).transpose()
     }
 
-    /// The same for points of a body that is placed in the world.
+    /// The matrix from points of a body placed in the world by `place` to homogeneous pixels.
     pub fn of_body(&self, place: &Affine3A) -> Mat4 {
         self.matrix() * *place
     }
 
-    /// Is a ball certainly not in the picture?
+    /// Whether a sphere certainly lies outside of the raster or before the near plane. False for a NaN.
     pub fn misses(&self, center: Vec3, radius: f32) -> bool {
         let [x, y, _, w] = self.rows;
         let [width, height] = self.size.map(|n| n as f32);
@@ -85,7 +92,7 @@ impl Projection {
     }
 }
 
-/// The affine function that is 0 at `origin` and grows along `direction`.
+/// The affine function that is 0 at `origin` and grows by 1 per metre along a unit `direction`.
 fn row(direction: Vec3, origin: Vec3) -> Vec4 {
     direction.extend(-direction.dot(origin))
 }

@@ -1,53 +1,59 @@
-//! From the faces of a body to triangles in the raster: clipped, snapped, and what is affine over them.
+//! Triangle setup: from the faces of a body to triangles of a raster, culled, clipped, snapped to a grid of subpixels, and
+//! turned into edge functions and planes.
+//!
+//! What is affine in space is affine over the raster once it is divided by w, so a triangle carries the plane of its
+//! `inv_depth` and, where it will be shaded, the planes of its normal over w. A fragment then needs no perspective
+//! division of its own: the common factor drops out when the normal gets its length.
 
-use super::bins::MOST;
+use super::id::TRIANGLES;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
 use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
-/// Steps of a pixel to which corners are snapped, in each direction.
+/// Steps per pixel of the grid that corners are snapped to, along x and along y.
 pub const SUB: i32 = 256;
-/// Corners farther than this from the picture's middle, pixels, are clipped: then edges fit 32 bits within a tile.
+/// The guard band: what lies farther than this from the middle of the raster, pixels, is clipped. Within it the values of
+/// edge functions in a tile that they cross fit 32 bits.
 const GUARD: f32 = 16384.0;
-/// How far clipped corners may lie beyond that: edges still fit.
+/// How far rounding may put clipped corners beyond the guard band; the values still fit.
 const SLACK: f32 = GUARD / 128.0;
 
-/// A triangle that faces the eye.
+/// A triangle that faces the eye, on the raster.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// Three functions `a x + b y + c`, not negative inside, of coordinates in steps of [`SUB`].
+    /// The edge functions `a x + b y + c` as (a, b, c), not negative inside, of coordinates in steps of 1 / [`SUB`] pixel.
     pub edges: [(i32, i32, i64); 3],
-    /// The pixels whose centres, or samples, may be inside: first and last column, first and last row.
+    /// The pixels that may have a sample inside: first and last column, first and last row, all inclusive.
     pub bound: [i32; 4],
-    /// Where planes have their values, pixels.
+    /// The point where the planes have the value [`Triangle::at`], pixels.
     pub anchor: [f32; 2],
-    /// There, the components of the normal in the world, of any length, and nearness. Normals are 0 where nothing is
-    /// shaded.
+    /// At the anchor, the components of the normal in the world over w, and `inv_depth`. The normal is 0 where nothing
+    /// is shaded.
     pub at: Vec4,
-    /// Their change a pixel along x and along y: they are affine over the raster.
+    /// The change of [`Triangle::at`] per pixel along x and along y.
     pub by: [Vec4; 2],
-    /// Nearness of the farthest and of the nearest corner: on slivers the plane leaves them.
+    /// `inv_depth` of the farthest and of the nearest corner. The plane is clamped to it, since on slivers it leaves it.
     pub range: [f32; 2],
-    /// What it is painted with.
+    /// What the triangle is painted with.
     pub paint: Paint,
 }
 
 impl Triangle {
-    /// Nearness at a point of the raster, pixels.
+    /// `inv_depth` at a point of the raster, pixels.
     pub fn inv_depth(&self, x: f32, y: f32) -> f32 {
-        let near = self.at.w + self.by[0].w * (x - self.anchor[0]) + self.by[1].w * (y - self.anchor[1]);
-        near.clamp(self.range[0], self.range[1])
+        let inv_depth = self.at.w + self.by[0].w * (x - self.anchor[0]) + self.by[1].w * (y - self.anchor[1]);
+        inv_depth.clamp(self.range[0], self.range[1])
     }
 }
 
-/// One body in one raster.
+/// The mesh of one body as one raster shows it.
 #[derive(Default)]
 pub struct SetupMesh {
     /// Its visible triangles.
     pub triangles: Vec<Triangle>,
 }
 
-/// The first of the planes that must be clipped at.
+/// Number of the first plane, in [`Corner::distances`], that triangles must be clipped at.
 const CLIP: usize = 4;
 
 /// A corner of a triangle.
@@ -57,30 +63,39 @@ struct Corner {
     h: Vec4,
     /// Normal in the world, of any length.
     normal: Vec3A,
-    /// From the picture's sides, and from [`CLIP`] on from the planes that must be clipped at, signed, in homogeneous
-    /// pixels: near, and the guard band's sides.
+    /// Signed distances, in homogeneous pixels and positive inside, from the four sides of the raster, then from the
+    /// planes that must be clipped at: near, and the four sides of the guard band.
     distances: [f32; 9],
-    /// A bit for each of those that it does not lie inside of.
+    /// For each of these planes a bit, set where the corner does not lie inside.
     outside: u32,
-    /// On the raster, in steps of [`SUB`].
+    /// Place on the raster, in steps of 1 / [`SUB`] pixel.
     x: i32,
     y: i32,
 }
 
-/// How bodies become pieces.
+/// How the faces of bodies become the triangles of a raster.
 #[derive(Clone, Copy)]
 pub struct TriangleSetup {
-    /// The raster.
+    /// The projection onto the raster.
     pub projection: Projection,
-    /// Are the faces that look away drawn, instead of those that look here?
+    /// Whether the faces that look away from the eye are drawn, instead of those that look towards it.
     pub back_faces: bool,
-    /// Will they be shaded?
+    /// Whether the triangles will be shaded, so that they need normals.
     pub shaded: bool,
 }
 
 impl TriangleSetup {
-    /// The triangles of a body's faces that look towards the eye, and may lie in the picture.
-    pub fn piece(&self, mesh: &Mesh, place: &Affine3A) -> SetupMesh {
+    /// Sets up a mesh that `place` puts into the world: the triangles of its faces that look towards the eye and may lie
+    /// in the raster. At most 16,383 are kept; corners that are NaN or infinite drop their faces.
+    ///
+    /// ```text
+    /// project all points, note the planes that each lies outside of
+    /// for each face
+    ///     all corners outside of one plane?        cull it
+    ///     a corner beyond near or guard band?      clip it to a polygon
+    ///     for each triangle of the fan             clockwise on the raster? snap and push it
+    /// ```
+    pub fn set_up(&self, mesh: &Mesh, place: &Affine3A) -> SetupMesh {
         let matrix = self.projection.of_body(place);
         let mut corners = Vec::with_capacity(mesh.points.len());
         for (i, p) in mesh.points.iter().enumerate() {
@@ -90,7 +105,7 @@ impl TriangleSetup {
             }
             corners.push(self.corner(matrix * p.extend(1.0), normal));
         }
-        let mut piece = SetupMesh::default();
+        let mut out = SetupMesh::default();
         let mut polygon = Vec::new();
         for face in &mesh.faces {
             let index = face.corners.map(usize::from);
@@ -104,7 +119,8 @@ impl TriangleSetup {
                 self.clip(&mut polygon, &mut corners);
             }
             for i in 2..polygon.len() {
-                // Clockwise on the screen, where y points down, is positive: then edges are so inside.
+                // On the raster, where y points down, the area is positive if the corners turn clockwise; then so are the
+                // edge functions inside.
                 let [second, third] = if self.back_faces { [i - 1, i] } else { [i, i - 1] };
                 let fan = [0, second, third].map(|i| &corners[polygon[i]]);
                 let twice = twice_area(fan);
@@ -114,21 +130,21 @@ impl TriangleSetup {
                         let [a, b, c] = index.map(|i| mesh.points[i]);
                         normals = [turned(place, (b - a).cross(c - a)); 3];
                     }
-                    self.push(&mut piece, fan, normals, twice, &mesh.paints[face.paint as usize]);
+                    self.push(&mut out, fan, normals, twice, &mesh.paints[face.paint as usize]);
                 }
             }
         }
-        piece
+        out
     }
 
-    /// To the raster.
+    /// A corner at homogeneous pixels `h`.
     fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
         let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
         let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
         let distances = [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
         let mut outside = 0;
         for (k, distance) in distances.into_iter().enumerate() {
-            // What is not a number is inside of none.
+            // Written so that NaN lies outside of every plane.
             #[allow(clippy::neg_cmp_op_on_partial_ord)]
             let beyond = !(distance >= 0.0);
             outside |= u32::from(beyond) << k;
@@ -139,8 +155,8 @@ impl TriangleSetup {
         Corner { h, normal, distances, outside, x, y }
     }
 
-    /// The part of a triangle before the near plane and within the guard band, with new corners after the others:
-    /// Sutherland and Hodgman, "Reentrant polygon clipping", 1974.
+    /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
+    /// `[SutherlandHodgman74]`. New corners are appended to `corners`.
     fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
         for plane in CLIP..9 {
             let mut rest = Vec::new();
@@ -151,8 +167,8 @@ impl TriangleSetup {
                     rest.push(this);
                 }
                 if (d0 >= 0.0) != (d1 >= 0.0) {
-                    // From the nearer to the farther, whose digits do not reach here; and so both faces of an edge get
-                    // the same point. Of two that are as near from the one inside.
+                    // Interpolated from the corner nearer to the plane, since the digits of a far one do not reach here.
+                    // Both faces of an edge then get the same point. Of two equally near corners, from the one inside.
                     let nearer = (d0 + d1 > 0.0) != (d0 >= 0.0);
                     let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
                     let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
@@ -162,7 +178,7 @@ impl TriangleSetup {
             }
             *polygon = rest;
         }
-        // What is not a number, or has lost all its digits beside another, is where nothing can be.
+        // A corner that is NaN, or has lost all its digits beside another, may be anywhere: such a polygon is dropped.
         let sound = |&i: &usize| {
             let Corner { h, distances: [.., near, a, b, c, d], .. } = corners[i];
             near >= -0.5 * NEAR && [a, b, c, d].into_iter().all(|side| side >= -SLACK * h.w)
@@ -172,13 +188,13 @@ impl TriangleSetup {
         }
     }
 
-    /// Adds a triangle of that area, twice over.
-    fn push(&self, piece: &mut SetupMesh, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
+    /// Adds a triangle, of which `twice` is twice the area (see [`twice_area`]), unless it lies beside the raster.
+    fn push(&self, out: &mut SetupMesh, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
         let first = corners[0];
         let mut edges = [(0, 0, 0); 3];
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
         let mut values = [Vec4::ZERO; 3];
-        // First and last column and row, turned around while they are sought.
+        // First and last column and row, inside out until the corners have widened it.
         let mut bound = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
         let mut range = [f32::INFINITY, f32::NEG_INFINITY];
         for (k, a) in corners.into_iter().enumerate() {
@@ -187,25 +203,28 @@ impl TriangleSetup {
             let inv_depth = a.h.z * inverse;
             values[k] = (normals[k] * inverse).extend(inv_depth);
             let (ex, ey) = (a.y - b.y, b.x - a.x);
-            // The top-left rule: a sample on an edge belongs to the triangle on its right or below it.
+            // The top-left rule: a sample on an edge belongs to the triangle to its right or below it. On other edges 0
+            // is outside, so c is less by 1.
             let own = ex > 0 || (ex == 0 && ey > 0);
             edges[k] = (ex, ey, -(ex as i64 * a.x as i64 + ey as i64 * a.y as i64) - !own as i64);
-            // A sample may lie anywhere in its pixel.
+            // Whole pixels, as a sample may lie anywhere in its pixel.
             let (x, y) = (a.x >> SUB.ilog2(), a.y >> SUB.ilog2());
             bound = [bound[0].min(x), bound[1].max(x), bound[2].min(y), bound[3].max(y)];
             range = [range[0].min(inv_depth), range[1].max(inv_depth)];
         }
         bound = [bound[0].max(0), bound[1].min(width), bound[2].max(0), bound[3].min(height)];
-        // Only the near plane's cut is allowed for: more would take the numbers of other pieces.
-        if bound[0] > bound[1] || bound[2] > bound[3] || piece.triangles.len() == MOST {
+        // A mesh of 8,192 faces, each cut in two by the near plane, fits. Cuts at the guard band may add more, whose
+        // numbers would be those of the next mesh.
+        if bound[0] > bound[1] || bound[2] > bound[3] || out.triangles.len() == TRIANGLES {
             return;
         }
-        // In f64, as slivers cancel all digits of f32. The edges are the differences of corners.
+        // The gradients of the planes, by Cramer's rule. In f64, as slivers cancel all digits of f32. Edge functions hold
+        // the differences of corners.
         let [(ay, ax, _), _, (by, bx, _)] = edges.map(|(x, y, c)| (x as f64, y as f64, c));
         let inverse = SUB as f64 / twice as f64;
         let [a, b, c] = values;
         let (b, c) = ((b - a).as_dvec4(), (c - a).as_dvec4());
-        piece.triangles.push(Triangle {
+        out.triangles.push(Triangle {
             edges,
             bound,
             anchor: [first.x as f32 / SUB as f32, first.y as f32 / SUB as f32],
@@ -217,12 +236,12 @@ impl TriangleSetup {
     }
 }
 
-/// A normal of a body in the world, of length 1 if any.
+/// A normal of a body, turned into the world: of length 1, or 0.
 fn turned(place: &Affine3A, normal: Vec3) -> Vec3A {
     (place.matrix3 * Vec3A::from(normal)).normalize_or_zero()
 }
 
-/// Twice the area, in steps of [`SUB`] squared; positive where the corners turn clockwise on the screen.
+/// Twice the area of a triangle, in squares of 1 / [`SUB`] pixel; positive where its corners turn clockwise on the raster.
 fn twice_area([a, b, c]: [&Corner; 3]) -> i64 {
     let (bx, by) = ((b.x - a.x) as i64, (b.y - a.y) as i64);
     let (cx, cy) = ((c.x - a.x) as i64, (c.y - a.y) as i64);

@@ -10,23 +10,20 @@ use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Picture, Scene};
 #[cfg(feature = "full")]
 use crate::raster::{self, RasterLayer};
-use crate::trace::TraceLayer;
-use crate::trace::world::World;
+use crate::trace::{TraceLayer, World};
 use crate::view::Camera;
-#[cfg(feature = "full")]
-use crate::view::View;
 
 /// A picture that is all ray tracing.
 fn traced(spec: &FrameSpec, world: World, camera: Camera, transfer: Transfer) -> Picture {
-    let traced = TraceLayer::new(world, spec.camera(camera), spec.width, spec.height, *spec.quality);
+    let traced = TraceLayer::new(world, &spec.view(camera), &spec.quality.trace);
     Picture { layers: vec![Box::new(traced)], transfer }
 }
 
 /// A picture that is all triangles.
 #[cfg(feature = "full")]
 fn drawn(spec: &FrameSpec, world: raster::World, camera: Camera, transfer: Transfer) -> Picture {
-    let view = View::new(spec.camera(camera), spec.width, spec.height);
-    Picture { layers: vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))], transfer }
+    let drawn = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
+    Picture { layers: vec![Box::new(drawn)], transfer }
 }
 
 /// Every scene, the intro's own first; in the 64 kB build that alone.

@@ -1,13 +1,19 @@
 //! Blocks of points: the unit in which kernels take numbers from memory.
+//!
+//! A kernel that takes many points takes a block of each of their coordinates, and goes through it a vector at a time:
+//! `BLOCK / V::LEN` vectors of 4, 8 or 16 lanes, by the SIMD level.
 
 use fearless_simd::prelude::*;
 
-/// Points of a block: the bytes of one AVX-512 register.
+/// Points of a block, which are also the pixels of a tile's row.
+///
+/// As bytes they fill one AVX-512 register, which is what noise at that level makes use of.
 pub const BLOCK: usize = 64;
 
-/// Vector `i` of a block.
-///
-/// Arrays of a constant length, because the optimizer, asked for size, calls a function for each range of a slice.
+/// x, y and z (or red, green and blue) of the points of a block.
+pub type Block3 = [[f32; BLOCK]; 3];
+
+/// Vector `i` of a block. Panics where `i` is not below `BLOCK / V::LEN`.
 #[inline(always)]
 pub fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {
     match V::LEN {
@@ -17,7 +23,7 @@ pub fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize)
     }
 }
 
-/// Writes vector `i` of a block.
+/// Writes vector `i` of a block. Panics where `i` is not below `BLOCK / V::LEN`.
 #[inline(always)]
 pub fn store<S: Simd, V: SimdBase<S>>(value: V, out: &mut [V::Element; BLOCK], i: usize) {
     match V::LEN {

@@ -1,27 +1,27 @@
-//! Vectors of three lanes, and the few lane operations that the kernels share.
+//! Vectors in space over lanes, and the few lane operations that kernels share.
 //!
-//! Nothing here fuses a multiplication with an addition: then every SIMD level gives the same bits.
+//! Nothing here fuses a multiplication with an addition, so that every SIMD level gives the same bits.
 
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{Block3, load, store};
 use fearless_simd::prelude::*;
 use glam::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// The native lanes of f32 of a SIMD level.
+/// A SIMD level's native vector of `f32`: 4, 8 or 16 lanes.
 pub type F<S> = <S as Simd>::f32s;
-/// The native lanes of u32.
+/// A SIMD level's native vector of `u32`, with as many lanes as [`F`].
 pub type U<S> = <S as Simd>::u32s;
-/// A mask over the native 32-bit lanes.
+/// A mask over the lanes of [`F`] and [`U`].
 pub type M<S> = <S as Simd>::mask32s;
 
-/// One `Vec3` a lane.
+/// A vector in space per lane.
 #[derive(Clone, Copy)]
 pub struct V3<S: Simd> {
-    /// x of every lane.
+    /// The x of every lane.
     pub x: F<S>,
-    /// y of every lane.
+    /// The y of every lane.
     pub y: F<S>,
-    /// z of every lane.
+    /// The z of every lane.
     pub z: F<S>,
 }
 
@@ -32,39 +32,39 @@ impl<S: Simd> V3<S> {
         V3 { x: F::<S>::splat(simd, v.x), y: F::<S>::splat(simd, v.y), z: F::<S>::splat(simd, v.z) }
     }
 
-    /// Vector `i` of blocks of x, y and z.
+    /// The points of vector `i` of a block.
     #[inline(always)]
-    pub fn load(simd: S, blocks: &[[f32; BLOCK]; 3], i: usize) -> V3<S> {
+    pub fn load(simd: S, blocks: &Block3, i: usize) -> V3<S> {
         V3 { x: load(simd, &blocks[0], i), y: load(simd, &blocks[1], i), z: load(simd, &blocks[2], i) }
     }
 
-    /// Writes vector `i` of blocks of x, y and z.
+    /// Writes the points of vector `i` of a block.
     #[inline(always)]
-    pub fn store(self, blocks: &mut [[f32; BLOCK]; 3], i: usize) {
+    pub fn store(self, blocks: &mut Block3, i: usize) {
         store(self.x, &mut blocks[0], i);
         store(self.y, &mut blocks[1], i);
         store(self.z, &mut blocks[2], i);
     }
 
-    /// Inner product.
+    /// The dot product.
     #[inline(always)]
     pub fn dot(self, o: V3<S>) -> F<S> {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
-    /// Inner product with one vector.
+    /// The dot product with the same vector in every lane.
     #[inline(always)]
     pub fn dot1(self, o: Vec3) -> F<S> {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
-    /// This minus one vector.
+    /// The difference to the same vector in every lane.
     #[inline(always)]
     pub fn sub1(self, o: Vec3) -> V3<S> {
         V3 { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 
-    /// Componentwise product.
+    /// The product by component.
     #[inline(always)]
     pub fn mulv(self, o: V3<S>) -> V3<S> {
         V3 { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
@@ -82,13 +82,13 @@ impl<S: Simd> V3<S> {
         Vec3::new(self.x[0], self.y[0], self.z[0])
     }
 
-    /// `a` where the mask holds, else `b`.
+    /// `a` where the mask is set, else `b`.
     #[inline(always)]
     pub fn select(mask: M<S>, a: V3<S>, b: V3<S>) -> V3<S> {
         V3 { x: mask.select(a.x, b.x), y: mask.select(a.y, b.y), z: mask.select(a.z, b.z) }
     }
 
-    /// `self` where the mask holds, else zero.
+    /// `self` where the mask is set, else zero.
     #[inline(always)]
     pub fn masked(self, simd: S, mask: M<S>) -> V3<S> {
         let zero = F::<S>::splat(simd, 0.0);
@@ -120,7 +120,7 @@ impl<S: Simd> Neg for V3<S> {
     }
 }
 
-/// Scales every component of a lane by that lane's number.
+/// Scales each lane's vector by that lane's number.
 impl<S: Simd> Mul<Lane<S>> for V3<S> {
     type Output = V3<S>;
     #[inline(always)]
@@ -129,20 +129,20 @@ impl<S: Simd> Mul<Lane<S>> for V3<S> {
     }
 }
 
-/// One number a lane, for `V3 * Lane`.
+/// A number per lane, as the factor in `V3 * Lane`.
 #[derive(Clone, Copy)]
 pub struct Lane<S: Simd>(pub F<S>);
 
-/// 0, 1, 2, as many as there are lanes.
+/// The number of each lane, for as many lanes as there are.
 pub static STEPS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
-/// Whole numbers with a sign as numbers.
+/// The lanes, read as whole numbers with a sign, as floats.
 #[inline(always)]
 pub fn float<S: Simd>(_simd: S, n: U<S>) -> F<S> {
     n.bitcast::<S::i32s>().to_float()
 }
 
-/// The lanes for which a mask holds, lowest first.
+/// Iterates over the lanes whose bit is set in a mask, lowest first.
 pub struct Bits(pub u64);
 
 impl Iterator for Bits {

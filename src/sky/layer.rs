@@ -1,68 +1,50 @@
-//! The sky as a layer of a picture.
+//! The sky as a layer of a picture: the dome, stars, and the discs of sun and moon.
 
+use super::cells::{self, Cells};
 use super::disc::{self, Disc};
 use super::dome::Dome;
-use super::grid;
 use super::stars::{self, Star};
 use crate::frame::{Layer, Stats, Tile};
-use crate::view::Camera;
+use crate::settings::SkySettings;
 use crate::view::View;
 use fearless_simd::{Level, dispatch};
 
-/// The sky seen by a camera.
+/// The sky of an instant in a view.
 pub struct SkyLayer {
     dome: Dome,
     view: View,
-    size: u32,
+    cells: Cells,
     behind: bool,
     discs: [Disc; 2],
     stars: Vec<Star>,
 }
 
-/// How a backdrop is seen.
-#[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// It only fills what solids have left of each pixel. Else it fills every pixel.
-    pub behind: bool,
-    /// The sun's size over its true one.
-    pub sun: f32,
-    /// The moon's size over its true one.
-    pub moon: f32,
-    /// The time that stars twinkle by, seconds: the show's, not the sky's, which may run faster.
-    pub shimmer: f64,
-}
-
-impl Default for Look {
-    /// The whole sky, sun and moon as large as they seem: twice their size.
-    fn default() -> Look {
-        Look { behind: false, sun: 2.0, moon: 2.0, shimmer: 0.0 }
-    }
-}
-
 impl SkyLayer {
-    /// The sky for a picture of `width` x `height` pixels.
-    pub fn new(dome: Dome, camera: Camera, width: usize, height: usize, look: Look) -> SkyLayer {
-        let view = View::new(camera, width, height);
-        let mut size = 64;
-        while size > 1 && size as f32 * view.pixel() > dome.quality.cell {
-            size /= 2;
-        }
-        let discs = [dome.sun_disc(camera.forward, look.sun), dome.moon_disc(look.moon)];
+    /// A layer that fills every pixel, whatever was drawn before it.
+    pub fn new(dome: Dome, view: &View, settings: &SkySettings) -> SkyLayer {
+        let discs = [dome.sun_disc(view.camera().forward), dome.moon_disc()];
         let mut stars = Vec::new();
         if !cfg!(without = "stars") {
-            stars = dome.stars(&view, width, height, look.shimmer, look.moon);
+            stars = dome.stars(view);
         }
-        SkyLayer { dome, view, size, behind: look.behind, discs, stars }
+        SkyLayer { dome, view: *view, cells: Cells::new(view, settings), behind: false, discs, stars }
+    }
+
+    /// The same sky behind what was drawn before it: it fills what solids have left of each pixel.
+    #[inline(always)] // A call would copy the layer once more.
+    pub fn behind(self) -> SkyLayer {
+        SkyLayer { behind: true, ..self }
     }
 }
 
 impl Layer for SkyLayer {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         if !self.behind {
+            // What the sky is added to is read, so it must be there.
             tile.solids_matter = true;
             tile.clear();
         }
-        dispatch!(level, simd => grid::fill(simd, &self.dome, &self.view, self.size, tile));
+        dispatch!(level, simd => cells::fill(simd, &self.dome, &self.view, self.cells, tile));
         if !cfg!(without = "stars") {
             stars::draw(&self.stars, tile);
         }

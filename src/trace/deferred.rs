@@ -1,45 +1,50 @@
-//! Textures, looked up late: hits wait in a queue for each object until a block is full.
+//! Deferred textures: hits wait in a queue per object until a block of them is full.
 //!
-//! Whether a pixel was traced or interpolated, its textures are evaluated at its own hit points, so none is smeared;
-//! and noise always runs on full blocks, however broken the picture is.
+//! Whether a pixel was traced or interpolated, its textures are evaluated at its own hit points, so that none is smeared.
+//! Noise always runs on full blocks, however many edges the picture has.
 
-use super::sample::{REMEMBERED, Sample};
+use super::sample::{GAIN, REMEMBERED, Sample, hit_point};
 use super::world::World;
 use crate::frame::Tile;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::F;
-use crate::texture::{self, Block3};
+use crate::texture;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
-/// Hits that wait for one object's texture.
-struct Queue {
+/// Hits that wait for the texture of one object.
+struct TextureQueue {
     count: usize,
+    /// Pixel of the tile, row by row.
     pixel: [u16; BLOCK],
+    /// Light that the pixel gets off a white surface.
     gain: Block3,
+    /// Hit point, metres.
     point: Block3,
+    /// Length of the pixel on the surface, metres.
     footprint: [f32; BLOCK],
 }
 
 /// All waiting hits of a tile.
 #[derive(Default)]
 pub struct Deferred {
-    queues: Vec<Queue>,
-    /// Are textures averaged over their footprint?
+    queues: Vec<TextureQueue>,
+    /// Whether textures are averaged over their footprint.
     filter: bool,
 }
 
 impl Deferred {
-    /// Ready for a world of up to that many objects.
+    /// Makes queues for a number of objects.
     pub fn begin(&mut self, objects: usize, filter: bool) {
         let black = [[0.0; BLOCK]; 3];
         while self.queues.len() < objects {
-            self.queues.push(Queue { count: 0, pixel: [0; BLOCK], gain: black, point: black, footprint: [0.0; BLOCK] });
+            let (pixel, footprint) = ([0; BLOCK], [0.0; BLOCK]);
+            self.queues.push(TextureQueue { count: 0, pixel, gain: black, point: black, footprint });
         }
         self.filter = filter;
     }
 
-    /// Adds `share` of the textured hits of one sample of a pixel.
+    /// Adds the textured hits of one sample of a pixel, for a `share` of the pixel. Footprints are metres.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn push<S: Simd>(
@@ -55,12 +60,12 @@ impl Deferred {
         for ((object, hit), &footprint) in sample.hits().zip(footprint) {
             let queue = &mut self.queues[object as usize];
             let at = queue.count & (BLOCK - 1);
-            let k = 1.0 / hit[6];
+            let point = hit_point(hit);
             queue.pixel[at] = pixel;
             queue.footprint[at] = footprint;
             for axis in 0..3 {
-                queue.gain[axis][at] = hit[axis] * share;
-                queue.point[axis][at] = hit[3 + axis] * k;
+                queue.gain[axis][at] = hit[GAIN + axis] * share;
+                queue.point[axis][at] = point[axis];
             }
             queue.count += 1;
             if queue.count == BLOCK {
@@ -69,7 +74,7 @@ impl Deferred {
         }
     }
 
-    /// Adds a hit of one object for each of `pixels`.
+    /// Adds a hit of one object for each of `pixels`: gains, points and footprints in the same order.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn push_run<S: Simd>(
@@ -101,7 +106,7 @@ impl Deferred {
         }
     }
 
-    /// Looks up all that still waits.
+    /// Looks up the hits that still wait.
     pub fn finish<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile) {
         for (object, queue) in self.queues.iter_mut().enumerate() {
             if queue.count > 0 {
@@ -111,11 +116,11 @@ impl Deferred {
     }
 }
 
-/// Evaluates a queue's texture and adds the light to its pixels.
+/// Evaluates the texture of a queue, adds the light to its pixels and empties it.
 #[simd]
-fn flush<S: Simd>(simd: S, world: &World, queue: &mut Queue, object: u32, filter: bool, tile: &mut Tile) {
+fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32, filter: bool, tile: &mut Tile) {
     let mut color = [[0.0; BLOCK]; 3];
-    // What stands behind the last hit is left over from others and must not decide anything.
+    // What stands behind the last hit is left over from earlier ones, and must not decide how many octaves are computed.
     let last = queue.footprint[0];
     queue.footprint[queue.count..].fill(last);
     let footprint = filter.then_some(&queue.footprint);

@@ -1,33 +1,39 @@
-//! Pixels that an edge runs through: the surfaces in them, each with its share.
+//! Pixels that an edge runs through: the surfaces seen in them, each with its share of the area.
+//!
+//! Samples with the same path signature are of one surface. They are averaged before textures are looked up, so that each
+//! surface in a pixel has its textures evaluated once.
 
 use super::grid::{Grid, Square, same_path};
-use super::sample::{NUMBERS, Sample};
+use super::sample::{self, NUMBERS, Sample};
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 
-/// The surfaces seen through one pixel, each with its share of the area; memory for as many as can be.
+/// Most lattice points along the edge of a pixel: at quarter pixels, with both ends.
+const POINTS: usize = 5;
+
+/// One surface in a pixel.
+#[derive(Clone, Copy)]
+pub struct Group {
+    /// Share of the pixel's area, 0 to 1.
+    pub share: f32,
+    /// The mean of its samples, which have one path signature.
+    pub mean: Sample,
+}
+
+/// The surfaces in one pixel, with memory for as many as there can be.
 pub struct Groups {
     count: usize,
-    list: [Group; 25],
+    list: [Group; POINTS * POINTS],
 }
 
 impl Default for Groups {
     fn default() -> Groups {
-        Groups { count: 0, list: [Group { share: 0.0, mean: Sample::default() }; 25] }
+        Groups { count: 0, list: [Group { share: 0.0, mean: Sample::default() }; POINTS * POINTS] }
     }
 }
 
-/// One surface: its share of the pixel and the mean of its samples.
-#[derive(Clone, Copy)]
-pub struct Group {
-    /// 0 to 1.
-    pub share: f32,
-    /// All of one chain.
-    pub mean: Sample,
-}
-
 impl Groups {
-    /// The surfaces in a pixel, a square of the lattice.
+    /// The surfaces in a pixel, given as a square of the lattice that has been cut.
     #[inline(always)]
     pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square) -> &[Group] {
         let mut weights = Weights::default();
@@ -46,15 +52,14 @@ impl Groups {
         for group in &mut *groups {
             let k = 1.0 / group.share;
             for i in (0..group.mean.used()).step_by(F::<S>::LEN) {
-                let range = i..i + F::<S>::LEN;
-                let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
-                (sum * k).store_slice(&mut group.mean.numbers[range]);
+                let sum = sample::load(simd, &group.mean.numbers, i);
+                sample::store::<S>(sum * k, &mut group.mean.numbers, i);
             }
         }
         groups
     }
 
-    /// Adds a sample to those of its chain.
+    /// Adds a sample to those with its path signature.
     #[inline(always)]
     fn add<S: Simd>(&mut self, simd: S, sample: &Sample, weight: f32) {
         let mut at = 0;
@@ -64,7 +69,7 @@ impl Groups {
         let group = &mut self.list[at];
         if at == self.count {
             self.count += 1;
-            // Field by field: a whole sample would be copied twice.
+            // Field by field, because a whole sample would be copied twice.
             group.share = 0.0;
             (group.mean.path_signature, group.mean.count, group.mean.object) =
                 (sample.path_signature, sample.count, sample.object);
@@ -72,18 +77,18 @@ impl Groups {
         }
         group.share += weight;
         for i in (0..sample.used()).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let sum = F::<S>::from_slice(simd, &group.mean.numbers[range.clone()]);
-            let number = F::<S>::from_slice(simd, &sample.numbers[range.clone()]);
-            (sum + number * weight).store_slice(&mut group.mean.numbers[range]);
+            let sum = sample::load(simd, &group.mean.numbers, i);
+            let number = sample::load(simd, &sample.numbers, i);
+            sample::store::<S>(sum + number * weight, &mut group.mean.numbers, i);
         }
     }
 }
 
-/// Weights of the lattice points of a pixel, up to quarters.
-type Weights = [[f32; 5]; 5];
+/// Weights of the lattice points of a pixel, by row and column.
+type Weights = [[f32; POINTS]; POINTS];
 
-/// Gives the samples in a part of a pixel their weights: a quarter to each corner of what is not cut further.
+/// Adds the weights of the samples in a part of a pixel: each square that is not cut further gives a quarter of its own
+/// `weight` to each corner.
 fn weigh(grid: &Grid, square: Square, weight: f32, pixel: Square, weights: &mut Weights) {
     let Square { x, y, size } = square;
     if size > 1 && !same_path(grid.corners(square)) {

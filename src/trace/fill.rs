@@ -1,17 +1,21 @@
-//! From samples to pixels: squares between agreeing corners, and single pixels.
+//! From samples to pixels: squares that are interpolated between their corners, and single pixels.
 
-use super::adaptive::Job;
 use super::deferred::Deferred;
 use super::grid::{Grid, Square};
-use super::sample::{HIT, NUMBERS, PLAIN, REMEMBERED, Sample};
+use super::job::Job;
+use super::sample::{
+    self, GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits,
+};
 use crate::frame::Tile;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
-use crate::texture::{self, Block3};
+use crate::simd::math::to_f32;
+use crate::texture::{self, Texture};
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
-/// Adds `share` of a sample to the pixel that a square is, its textures averaged over their `footprint`s.
+/// Adds a `share` of a sample to the pixel that a square of the lattice is. Textures are averaged over their footprints,
+/// metres.
 #[simd]
 #[allow(clippy::too_many_arguments)]
 pub fn add<S: Simd>(
@@ -25,7 +29,7 @@ pub fn add<S: Simd>(
     footprint: &[f32; REMEMBERED],
 ) {
     let [red, green, blue, inv_depth, ..] = sample.numbers;
-    // Inside, and now the compiler knows.
+    // The mask changes nothing; it tells the compiler that the index is inside the tile.
     let pixel = (job.pixels(square.y) * Tile::SIZE + job.pixels(square.x)) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
@@ -37,15 +41,14 @@ pub fn add<S: Simd>(
     deferred.push(simd, job.context.world, tile, pixel as u16, sample, share, footprint);
 }
 
-/// The footprint of each textured hit of a pixel, metres: the longer of its two middle lines.
+/// The footprint of each textured hit of a pixel, metres: the longer of the two lines through the middle of the pixel's
+/// picture on the surface.
 pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
     let mut footprints = [0.0; REMEMBERED];
     for (n, footprint) in footprints.iter_mut().enumerate().take(corners[0].count as usize) {
         let mut across = [[0.0; 3]; 4];
         for (corner, point) in corners.iter().zip(&mut across) {
-            let hit = &corner.numbers[PLAIN + HIT * n..][..HIT];
-            let k = 1.0 / hit[6];
-            *point = [hit[3] * k, hit[4] * k, hit[5] * k];
+            *point = hit_point(&hits(&corner.numbers)[n]);
         }
         let [a, b, c, d] = across;
         let (mut x, mut y) = (0.0, 0.0);
@@ -59,16 +62,19 @@ pub fn footprints(corners: [&Sample; 4]) -> [f32; REMEMBERED] {
     footprints
 }
 
-/// Pixels that lie side by side in squares of that size and larger ones, and are added together.
+/// Pixels that are added as one vector: they lie side by side in squares of this size and larger.
 const ROW: usize = 8;
 
-/// Where the pixels of a square lie between its corners.
+/// Where up to a block of the pixels of a square lie between its corners.
 #[derive(Clone)]
 struct Ramp {
+    /// 0 at the left corners to 1 at the right ones.
     u: [f32; BLOCK],
+    /// 0 at the top corners to 1 at the bottom ones.
     v: [f32; BLOCK],
-    /// From the square's first pixel.
+    /// The pixel's index in the tile, less that of the square's first pixel.
     pixel: [u16; BLOCK],
+    /// The number of pixels.
     count: usize,
     /// Share of the square's edge that a pixel takes.
     step: f32,
@@ -82,7 +88,8 @@ pub struct Ramps {
 }
 
 impl Ramps {
-    /// Ready for corners on pixel centres, or (`centred`) for pixel centres between corners.
+    /// Computes the ramps, unless they are there: with corners on the centres of pixels, or, if `centred`, with the centres
+    /// of pixels between the corners.
     pub fn prepare(&mut self, centred: bool) {
         if self.centred == Some(centred) {
             return;
@@ -94,12 +101,12 @@ impl Ramps {
             let count = BLOCK.min(size * size);
             ramps.clear();
             for first in (0..size * size).step_by(count) {
-                let step = 1.0 / size as u32 as f32;
+                let step = 1.0 / to_f32(size);
                 let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, step };
                 for i in 0..count {
                     let (x, y) = ((first + i) % size, (first + i) / size);
-                    ramp.u[i] = (x as u32 as f32 + offset) / size as u32 as f32;
-                    ramp.v[i] = (y as u32 as f32 + offset) / size as u32 as f32;
+                    ramp.u[i] = (to_f32(x) + offset) / to_f32(size);
+                    ramp.v[i] = (to_f32(y) + offset) / to_f32(size);
                     ramp.pixel[i] = (y * Tile::SIZE + x) as u16;
                 }
                 ramps.push(ramp);
@@ -122,19 +129,18 @@ impl Patch {
         let zero = [0.0; NUMBERS];
         let mut patch = Patch { start: corners[0].numbers, along: zero, down: zero, twist: zero };
         for i in (0..corners[0].used()).step_by(F::<S>::LEN) {
-            let range = i..i + F::<S>::LEN;
-            let a = F::<S>::from_slice(simd, &corners[0].numbers[range.clone()]);
-            let b = F::<S>::from_slice(simd, &corners[1].numbers[range.clone()]);
-            let c = F::<S>::from_slice(simd, &corners[2].numbers[range.clone()]);
-            let d = F::<S>::from_slice(simd, &corners[3].numbers[range.clone()]);
-            (b - a).store_slice(&mut patch.along[range.clone()]);
-            (c - a).store_slice(&mut patch.down[range.clone()]);
-            (d - c - b + a).store_slice(&mut patch.twist[range]);
+            let a = sample::load(simd, &corners[0].numbers, i);
+            let b = sample::load(simd, &corners[1].numbers, i);
+            let c = sample::load(simd, &corners[2].numbers, i);
+            let d = sample::load(simd, &corners[3].numbers, i);
+            sample::store::<S>(b - a, &mut patch.along, i);
+            sample::store::<S>(c - a, &mut patch.down, i);
+            sample::store::<S>(d - c - b + a, &mut patch.twist, i);
         }
         patch
     }
 
-    /// Numbers from `first` on at the points of a ramp, a row each.
+    /// The numbers from `first` on at the points of a ramp, one row of `out` per number.
     #[simd]
     fn values<S: Simd>(&self, simd: S, first: usize, ramp: &Ramp, out: &mut [[f32; BLOCK]]) {
         for (k, row) in (first..).zip(out) {
@@ -154,8 +160,8 @@ impl Patch {
         (v * self.twist[k] + self.along[k], u * self.twist[k] + self.down[k])
     }
 
-    /// Homogeneous points to true ones, of the textured hit whose numbers begin at `at`; and how long a pixel is there if
-    /// that is asked for.
+    /// Divides the homogeneous points of the textured hit whose numbers begin at `at` by their inverse depth; if `filter`,
+    /// also computes how long a pixel is on the surface there, metres.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     fn project<S: Simd>(
@@ -175,11 +181,11 @@ impl Patch {
             point.store(points, i);
             if filter {
                 let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-                let (wu, wv) = self.slopes::<S>(at + 6, u, v);
-                let (xu, xv) = self.slopes::<S>(at + 3, u, v);
-                let (yu, yv) = self.slopes::<S>(at + 4, u, v);
-                let (zu, zv) = self.slopes::<S>(at + 5, u, v);
-                // The derivative of a quotient, point = homogeneous / closeness.
+                let (wu, wv) = self.slopes::<S>(at + HIT_INV_DEPTH, u, v);
+                let (xu, xv) = self.slopes::<S>(at + POINT, u, v);
+                let (yu, yv) = self.slopes::<S>(at + POINT + 1, u, v);
+                let (zu, zv) = self.slopes::<S>(at + POINT + 2, u, v);
+                // The derivative of a quotient, point = homogeneous point / inverse depth.
                 let across = V3::<S> { x: xu, y: yu, z: zu } - point * Lane(wu);
                 let down = V3::<S> { x: xv, y: yv, z: zv } - point * Lane(wv);
                 let longest = across.dot(across).max(down.dot(down)).sqrt();
@@ -190,7 +196,16 @@ impl Patch {
     }
 }
 
-/// Fills a square from its corners.
+/// Fills a square from its corners, a ramp of at most a block of pixels at a time.
+///
+/// ```text
+/// plain = the untextured light, interpolated
+/// for each textured hit that the corners remember:
+///     interpolate gain and homogeneous point, divide the point by its inverse depth
+///     a full block: look the texture up, add gain times colour to plain
+///     a smaller square: leave the hits to the object's queue
+/// add plain to the tile; write inverse depth and coverage
+/// ```
 #[simd]
 pub fn interpolate<S: Simd>(
     simd: S,
@@ -205,7 +220,7 @@ pub fn interpolate<S: Simd>(
     let patch = Patch::new(simd, corners);
     let size = job.pixels(square.size);
     let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
-    let filter = job.quality.subpixel > 0;
+    let filter = job.settings.subpixel > 0;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];
@@ -214,23 +229,15 @@ pub fn interpolate<S: Simd>(
             let at = PLAIN + HIT * n;
             let [mut gain, mut points] = [[[0.0; BLOCK]; 3]; 2];
             let [mut inv_depth, mut footprint] = [[0.0; BLOCK]; 2];
-            patch.values(simd, at, ramp, &mut gain);
-            patch.values(simd, at + 3, ramp, &mut points);
-            patch.values(simd, at + 6, ramp, std::slice::from_mut(&mut inv_depth));
+            patch.values(simd, at + GAIN, ramp, &mut gain);
+            patch.values(simd, at + POINT, ramp, &mut points);
+            patch.values(simd, at + HIT_INV_DEPTH, ramp, std::slice::from_mut(&mut inv_depth));
             patch.project(simd, at, ramp, &inv_depth, &mut points, filter, &mut footprint);
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
-                let mut color = [[0.0; BLOCK]; 3];
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
-                texture::shade(simd, albedo, &points, if filter { Some(&footprint) } else { None }, &mut color);
-                for k in 0..3 {
-                    let mut i = 0;
-                    while i * F::<S>::LEN < BLOCK {
-                        let light = load::<S, F<S>>(simd, &gain[k], i) * load::<S, F<S>>(simd, &color[k], i);
-                        store(load::<S, F<S>>(simd, &plain[k], i) + light, &mut plain[k], i);
-                        i += 1;
-                    }
-                }
+                let footprint = if filter { Some(&footprint) } else { None };
+                add_texture(simd, albedo, &gain, &points, footprint, &mut plain);
             } else {
                 let mut pixels = [0; BLOCK];
                 for (pixel, offset) in pixels.iter_mut().zip(&ramp.pixel) {
@@ -240,24 +247,54 @@ pub fn interpolate<S: Simd>(
                 deferred.push_run(simd, job.context.world, tile, object, pixels, &gain, &points, &footprint);
             }
         }
-        let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
-        for (plane, values) in planes.into_iter().zip(&plain) {
-            // Added, not set: a queue of textures may have been emptied into these pixels already.
-            if size >= ROW {
-                for (offsets, values) in ramp.pixel.as_chunks::<ROW>().0.iter().zip(values.as_chunks::<ROW>().0) {
-                    let row = &mut plane[first + offsets[0] as usize..][..ROW];
-                    (f32x8::from_slice(simd, row) + f32x8::from_slice(simd, values)).store_slice(row);
-                }
-            } else {
-                for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
-                    plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
-                }
-            }
-        }
+        deposit(simd, tile, ramp, first, size >= ROW, &plain);
         if tile.solids_matter {
-            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(&plain[3]) {
+            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(&plain[INV_DEPTH]) {
                 tile.inv_depth[first + *offset as usize] = *value;
                 tile.coverage[first + *offset as usize] = solid;
+            }
+        }
+    }
+}
+
+/// Looks a texture up for a full block of points, and adds gain times colour to the block's light.
+#[inline(always)]
+fn add_texture<S: Simd>(
+    simd: S,
+    albedo: &Texture,
+    gain: &Block3,
+    points: &Block3,
+    footprint: Option<&[f32; BLOCK]>,
+    light: &mut [[f32; BLOCK]; PLAIN],
+) {
+    let mut color = [[0.0; BLOCK]; 3];
+    texture::shade(simd, albedo, points, footprint, &mut color);
+    for k in 0..3 {
+        let mut i = 0;
+        while i * F::<S>::LEN < BLOCK {
+            let textured = load::<S, F<S>>(simd, &gain[k], i) * load::<S, F<S>>(simd, &color[k], i);
+            store(load::<S, F<S>>(simd, &light[k], i) + textured, &mut light[k], i);
+            i += 1;
+        }
+    }
+}
+
+/// Adds the light of a ramp to the pixels of the tile from `first` on; the ramp consists of whole rows of [`ROW`] pixels if
+/// it is `wide`.
+///
+/// Light is added, not set: a queue of textures may have been emptied into these pixels already.
+#[inline(always)]
+fn deposit<S: Simd>(simd: S, tile: &mut Tile, ramp: &Ramp, first: usize, wide: bool, light: &[[f32; BLOCK]; PLAIN]) {
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, values) in planes.into_iter().zip(light) {
+        if wide {
+            for (offsets, values) in ramp.pixel.as_chunks::<ROW>().0.iter().zip(values.as_chunks::<ROW>().0) {
+                let row = &mut plane[first + offsets[0] as usize..][..ROW];
+                (f32x8::from_slice(simd, row) + f32x8::from_slice(simd, values)).store_slice(row);
+            }
+        } else {
+            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
+                plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
             }
         }
     }

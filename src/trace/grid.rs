@@ -1,55 +1,58 @@
-//! The samples of a tile, on a lattice of pixels or parts of pixels.
+//! The samples of a tile, on a lattice whose steps are pixels, halves or quarters of pixels.
 
-use super::adaptive::Job;
+use super::job::Job;
 use super::packet;
 use super::sample::Sample;
 use crate::frame::Tile;
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 
-/// Most lattice points along a tile's edge: quarter pixels, both ends.
+/// Most lattice points along a tile's edge: at quarter pixels, with both ends.
 const LATTICE: usize = Tile::SIZE * 4 + 1;
 
-/// A square of the lattice: its top left corner and its edge, lattice steps.
+/// A square of the lattice. All numbers are lattice steps from the tile's top left.
 #[derive(Clone, Copy)]
 pub struct Square {
-    /// Left.
+    /// Left edge.
     pub x: usize,
-    /// Top.
+    /// Top edge.
     pub y: usize,
-    /// Edge.
+    /// Length of an edge.
     pub size: usize,
 }
 
 impl Square {
-    /// Its four parts.
+    /// Its four parts. The edge has to be even.
     pub fn quarters(self) -> [Square; 4] {
         let (Square { x, y, .. }, size) = (self, self.size / 2);
         [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| Square { x, y, size })
     }
 }
 
-/// The samples of a tile, on a lattice of pixels or parts of pixels.
+/// The samples of a tile, and the points of the lattice that are to be traced next.
 #[derive(Default)]
 pub struct Grid {
-    /// For each lattice point the generation that traced it and its sample.
+    /// For each lattice point the generation that traced it, and the index of its sample. A generation is one use of the
+    /// grid, so that the lattice need not be cleared for the next one.
     lattice: Vec<(u32, u32)>,
     generation: u32,
-    /// Where the lattice begins, pixels of the picture, and its steps.
+    /// Where the lattice begins, pixels from the picture's top left.
     first: (f32, f32),
+    /// Length of a lattice step, pixels.
     step: f32,
-    /// The first `count` are of this tile.
+    /// Samples, of which the first `count` are of this tile.
     samples: Vec<Sample>,
     count: usize,
-    /// Where the samples are, pixels of the picture; behind the last sample, where those lie that are asked for.
+    /// Where the samples lie, pixels from the picture's top left; behind the last sample, the points that are wanted.
     xs: Vec<f32>,
     ys: Vec<f32>,
 }
 
 impl Grid {
-    /// Forgets all samples, for a tile of a job; the lattice begins so many pixels from the tile's corner.
+    /// Forgets all samples, for another tile. The lattice begins `dx` and `dy` pixels from the tile's top left.
     pub fn begin(&mut self, job: &Job, tile: &Tile, dx: f32, dy: f32) {
-        self.first = (tile.x as u32 as f32 + dx, tile.y as u32 as f32 + dy);
-        self.step = 1.0 / job.unit() as u32 as f32;
+        self.first = (to_f32(tile.x) + dx, to_f32(tile.y) + dy);
+        self.step = 1.0 / to_f32(job.unit());
         if self.lattice.is_empty() {
             self.lattice = vec![(0, 0); LATTICE * LATTICE];
         }
@@ -62,7 +65,7 @@ impl Grid {
     /// Asks for the sample at a lattice point, if it is not there yet.
     #[inline(always)]
     pub fn want(&mut self, x: usize, y: usize) {
-        // Most corners are there, from a neighbour: that much is asked on the spot.
+        // Most corners are there, from a neighbour, so that this test alone is inlined.
         if self.lattice[y * LATTICE + x].0 != self.generation {
             self.add(x, y);
         }
@@ -70,22 +73,22 @@ impl Grid {
 
     fn add(&mut self, x: usize, y: usize) {
         self.lattice[y * LATTICE + x] = (self.generation, self.xs.len() as u32);
-        self.xs.push(self.first.0 + x as u32 as f32 * self.step);
-        self.ys.push(self.first.1 + y as u32 as f32 * self.step);
+        self.xs.push(self.first.0 + to_f32(x) * self.step);
+        self.ys.push(self.first.1 + to_f32(y) * self.step);
     }
 
-    /// How many samples have been traced.
+    /// The number of samples that have been traced.
     pub fn samples(&self) -> usize {
         self.count
     }
 
-    /// Where the samples are, pixels of the picture.
+    /// Where the samples lie, pixels from the picture's top left.
     #[cfg(feature = "full")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
 
-    /// The sample at a lattice point that has been traced.
+    /// The sample at a lattice point, which must have been traced.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
         &self.samples[self.lattice[y * LATTICE + x].1 as usize]
     }
@@ -100,7 +103,7 @@ impl Grid {
         self.at(x + size / 2, y + size / 2)
     }
 
-    /// Traces all that was asked for.
+    /// Traces the points that are wanted.
     #[inline(always)]
     pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
         let (first, end) = (self.count, self.xs.len());
@@ -111,9 +114,9 @@ impl Grid {
         self.count = end;
     }
 
-    /// Does a sample between the ends of a line of lattice points have another chain?
+    /// Whether a sample between the ends of a line of lattice points has another path signature.
     ///
-    /// Lines are cut in the middle: where the middle has not been traced, nothing between it and the ends has.
+    /// Lines are halved: where the middle has not been traced, no point between it and the ends has been.
     fn crossed(&self, (x, y): (usize, usize), (dx, dy): (usize, usize), length: usize, path_signature: u32) -> bool {
         let half = length / 2;
         if half == 0 {
@@ -128,7 +131,8 @@ impl Grid {
             || self.crossed(middle, (dx, dy), half, path_signature)
     }
 
-    /// Does an edge enter a square from a neighbour?
+    /// Whether an edge enters a square between two corners: whether a neighbour's sample on its border has another path
+    /// signature than its corners.
     pub fn entered(&self, Square { x, y, size }: Square) -> bool {
         let path_signature = self.at(x, y).path_signature;
         self.crossed((x, y), (1, 0), size, path_signature)
@@ -138,7 +142,7 @@ impl Grid {
     }
 }
 
-/// Do the corners have one chain?
+/// Whether the corners of a square have the same path signature.
 pub fn same_path(c: [&Sample; 4]) -> bool {
     c[0].path_signature == c[1].path_signature
         && c[0].path_signature == c[2].path_signature

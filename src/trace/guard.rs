@@ -1,17 +1,18 @@
-//! Small things: squares of the corner grid that must be cut, whatever their corners say.
+//! The guard: squares of the corner grid that must be cut whatever their corners say, because something small is there.
 //!
-//! A body whose picture is smaller than a square can hide between its corners, and the rim of a larger one can bulge
-//! into a square between two of them by up to its sagitta `size^2 / (8 radius)`. Both are excluded by cutting the
-//! squares under the body's picture to `sqrt(radius)` pixels, where the sagitta is an eighth of a pixel. The same holds
-//! for its shadow, found by following the light's ray through it, and its image in a flat mirror. Its images in round
-//! mirrors, and the highlights on round and flat bodies, which are the lights' own images, are only made sure to be met by
-//! a sample, with squares of half their radius; from there their edges are followed.
+//! A body whose picture is smaller than a square can hide between the corners. The rim of a larger one can bulge into a
+//! square between two corners by up to its sagitta, `size^2 / (8 radius)`. Both are excluded by cutting the squares under
+//! the body's picture to `sqrt(radius)` pixels, where the sagitta is an eighth of a pixel. The same is done for the body's
+//! shadow, which is found by following the light's ray through it, and for its image in a flat mirror.
 //!
-//! Not guarded: images in the sides of blocks and cylinders, and images of images.
+//! Images in round mirrors, and the highlights on round and flat bodies, which are images of the lights, are only made
+//! sure to be met by a sample, with squares of half their radius; from there their edges are followed.
+//!
+//! Not guarded are images in the sides of blocks and cylinders, and images of images.
 
-use super::packet::{Ray, nearest};
+use super::ray::{RayPacket, Search, nearest};
 use super::shape::{FAR, Shape};
-use super::world::{Light, Object, Source, World};
+use super::world::{Emitter, Light, Object, World};
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::level;
 use crate::view::View;
@@ -19,32 +20,34 @@ use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
 use glam::Vec3;
 
-/// Edge of the blocks that the guard distinguishes, pixels.
+/// Edge of the blocks of the picture that the guard keeps apart, pixels.
 const BLOCK: usize = 8;
 /// Most balls that stand for one long body.
 const MOST_BALLS: f32 = 64.0;
-/// Highlights are guarded up to where they have fallen to this.
+/// Share of its peak to which a highlight has fallen where it ceases to be guarded.
 const SKIRT: f32 = 0.125;
 
 /// What is asked of the rim of a small thing.
 #[derive(Clone, Copy)]
 enum Rim {
-    /// No bulge of it is lost.
+    /// No bulge is lost.
     Exact,
-    /// It is met.
+    /// A sample meets it.
     Found,
 }
 
-/// For each block of the picture the largest square that may be interpolated there.
+/// For each block of the picture, the largest square that may be interpolated there.
 pub struct Guard {
+    /// Blocks in a row.
     columns: usize,
+    /// The largest square's edge, pixels: a power of two, or `u8::MAX` for any size.
     finest: Vec<u8>,
 }
 
 impl Guard {
-    /// The guard of a view of `world`, of `all` its objects, for a picture of that many pixels.
-    pub fn new(world: &World, all: &[u32], view: &View, width: usize, height: usize) -> Guard {
-        let (columns, rows) = (width.div_ceil(BLOCK), height.div_ceil(BLOCK));
+    /// The guard of a `world` as a view shows it. `all` lists every object.
+    pub fn new(world: &World, all: &[u32], view: &View) -> Guard {
+        let (columns, rows) = (view.width().div_ceil(BLOCK), view.height().div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
         let eye = view.camera().eye;
         for (index, body) in world.objects.iter().filter(|_| !cfg!(without = "guard")).enumerate() {
@@ -71,13 +74,13 @@ impl Guard {
         guard
     }
 
-    /// The largest square, in pixels, that may be interpolated at a pixel.
+    /// Edge of the largest square that may be interpolated at a pixel of the picture, pixels.
     #[inline(always)]
     pub fn finest(&self, x: usize, y: usize) -> usize {
         self.finest[(y / BLOCK) * self.columns + x / BLOCK] as usize
     }
 
-    /// Cuts the squares under the shadow of a ball that is part of the body `caster`.
+    /// Cuts the squares under the shadow of a ball that stands for a part of the body `caster`.
     #[allow(clippy::too_many_arguments)]
     fn shadow(
         &mut self,
@@ -90,12 +93,12 @@ impl Guard {
         radius: f32,
     ) {
         let source = position(light, view.camera().eye);
-        let toward = |point: Vec3| match light.source {
-            Source::Point(_) => (point - source).normalize_or(Vec3::NEG_Y),
-            Source::Directional(direction) => -direction,
+        let toward = |point: Vec3| match light.emitter {
+            Emitter::Point(_) => (point - source).normalize_or(Vec3::NEG_Y),
+            Emitter::Directional(direction) => -direction,
         };
         let aim = toward(center);
-        // The middle of the shadow; and, where that is small, its rim, which may fall on something else.
+        // The middle of the shadow; and where that is small its rim, which may fall on another body.
         let (u, v) = aim.any_orthonormal_pair();
         let mut small = true;
         for offset in [Vec3::ZERO, u, -u, v, -v] {
@@ -107,20 +110,20 @@ impl Guard {
             let landing = dispatch!(level::best(), simd => landing(simd, world, all, caster, through, direction));
             let Some((point, normal)) = landing else { continue };
             let grown = point.distance(source) / through.distance(source).max(1e-6);
-            // How much longer than wide it is there, at most 8.
+            // The shadow is longer than wide by 1 / slope; at most 8 of it counts.
             let slope = normal.dot(direction).abs();
             small = self.protect(view, point, radius * grown / slope.max(0.125), Rim::Exact);
         }
     }
 
-    /// Cuts the squares under the highlight on a body of a light at `source`.
+    /// Cuts the squares under the highlight that a light at `source` makes on a body.
     fn highlight(&mut self, view: &View, body: &Object, source: Vec3) {
         let material = &body.material;
         if material.specular == 0.0 {
             return;
         }
         let Some(point) = mirror_point(view.camera().eye, &body.shape, source) else { return };
-        // Half of the angle of the lobe: a normal turns the mirrored ray twice.
+        // Half the angle of the lobe, since turning a normal turns the mirrored ray by twice as much.
         let angle = 0.5 * SKIRT.powf(1.0 / material.exponent.max(1.0)).acos();
         let radius = match body.shape {
             Shape::Sphere { radius, .. } => radius * angle,
@@ -129,7 +132,7 @@ impl Guard {
         self.protect(view, point, radius, Rim::Found);
     }
 
-    /// Cuts the squares under the picture of a ball; is it small enough for that to be needed?
+    /// Cuts the squares under the picture of a ball. Returns whether it is small enough for that to be needed.
     fn protect(&mut self, view: &View, center: Vec3, radius: f32, rim: Rim) -> bool {
         let Some((x, y, metre)) = view.project(center) else { return false };
         let pixels = radius * metre;
@@ -138,10 +141,10 @@ impl Guard {
             Rim::Found => pixels * 0.5,
         }
         .max(1.0);
-        // Written so that a picture that is not a number is left alone.
+        // Written so that a position that is not a number is left alone.
         let small = finest < BLOCK as f32 && x.is_finite() && y.is_finite();
         if small {
-            // A power of two.
+            // Rounded down to a power of two.
             let finest = 1 << ((finest.to_bits() >> 23) - 127);
             let rows = self.finest.len() / self.columns.max(1);
             let ((x0, x1), (y0, y1)) = (blocks(x, pixels, self.columns), blocks(y, pixels, rows));
@@ -155,7 +158,7 @@ impl Guard {
     }
 }
 
-/// Where a ray from the body `from` first meets another one, and the normal there.
+/// Where a ray from inside or on the body `from` first meets another body, and the normal there.
 #[simd]
 fn landing<S: Simd>(
     simd: S,
@@ -166,14 +169,14 @@ fn landing<S: Simd>(
     direction: Vec3,
 ) -> Option<(Vec3, Vec3)> {
     let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
-    let ray = Ray { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
-    let (object, t) = nearest(simd, world, all, &ray, !inward, F::<S>::splat(simd, FAR), false);
+    let ray = RayPacket { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
+    let (object, t) = nearest(simd, world, all, &ray, !inward, F::<S>::splat(simd, FAR), Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;
     let point = ray.origin + ray.direction * Lane(t);
     Some((point.first(), body.shape.normal(simd, point).first()))
 }
 
-/// The blocks, up to `end`, that a ball's picture may touch along one axis.
+/// The range of blocks below `end` that a ball's picture may touch along one axis; its centre and radius are pixels.
 fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
     let end = end as i32;
     let block = |pixel: f32| (pixel / BLOCK as f32).floor().clamp(-1.0, end as f32) as i32;
@@ -182,18 +185,18 @@ fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
     (low as usize, high as usize)
 }
 
-/// Where a light is; one without distance is put far away.
+/// Position of a light. A directional one is put far away.
 fn position(light: &Light, eye: Vec3) -> Vec3 {
-    match light.source {
-        Source::Point(position) => position,
-        Source::Directional(direction) => eye + direction * 1e6,
+    match light.emitter {
+        Emitter::Point(position) => position,
+        Emitter::Directional(direction) => eye + direction * 1e6,
     }
 }
 
-/// Ball `n` of those that stand for a body, none after the last one, or for planes and globes.
+/// Centre and radius of ball `n` of those that stand for a body; none after the last one. Planes and globes have none.
 ///
-/// First those that cover it and are no wider than it, except for plates; then the corners of a block, as balls of no size:
-/// they reach into squares whose corners all lie outside.
+/// The first ones cover the body and are no wider than it, except for plates. Then follow the corners of a block as balls
+/// of radius 0, because they reach into squares whose corners all lie outside.
 fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
     let (center, axis, half, radius) = match *shape {
         Shape::Sphere { center, radius } => (center, Vec3::ZERO, 0.0, radius),
@@ -222,7 +225,7 @@ fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
     }
 }
 
-/// Where on a body the eye sees a point mirrored; none where it cannot or the body has no simple answer.
+/// The point of a body in which the eye sees `target` mirrored; none where it cannot, or where no simple formula gives it.
 fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
     match *shape {
         Shape::Plane { normal, offset } => {
@@ -231,7 +234,7 @@ fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
                 .then(|| eye + (target - normal * (2.0 * height) - eye) * (above / (above + height)))
         }
         Shape::Sphere { center, radius } => {
-            // Alhazen's problem: there the normal halves the angle. Each round quarters the error, or better.
+            // Alhazen's problem: the normal there halves the angle. Each round reduces the error to a quarter or less.
             let mut normal = (eye - center).try_normalize()?;
             for _ in 0..12 {
                 let point = center + normal * radius;
@@ -244,7 +247,8 @@ fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
     }
 }
 
-/// The image of a ball in a mirror: a point that appears where it does, and a radius as large as it looks there.
+/// The image of a ball in a mirror: a point that is seen in the same direction, and the radius that it appears to have
+/// there; none where the body does not mirror.
 fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(Vec3, f32)> {
     let material = &mirror.material;
     if material.reflectance.max_element() == 0.0 && material.fresnel == 0.0 && !material.is_glass() {
@@ -258,7 +262,7 @@ fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(V
             let point = mirror_point(eye, &mirror.shape, center)?;
             // A convex mirror of focal length R/2 makes images smaller by (R/2) / (distance + R/2).
             let focal = 0.5 * curvature;
-            // Towards the rim images are drawn out: half as large again is enough for what can be seen of them.
+            // Towards the rim images are stretched. Half as large again is enough for what can be seen of them.
             Some((point, 1.5 * radius * focal / (point.distance(center) + focal)))
         }
         _ => None,

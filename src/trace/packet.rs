@@ -1,12 +1,26 @@
-//! Whitted's recursion in packets: one eye ray a lane, all levels, and everything that a corner has to remember.
+//! Whitted's recursion `[Whitted80]` in packets: one eye ray per lane, followed through its whole tree of rays.
 //!
-//! Textures are not evaluated here. A sample says which textured surfaces its chain of hits met, where, and how much of
-//! their colour it carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time.
+//! All lanes of a packet take the same path of reflections and refractions; lanes that have nothing to follow there are
+//! switched off. The tree is walked depth first, mirrored rays at once and refracted ones from a stack:
+//!
+//! ```text
+//! for each node of the tree, the eye rays first:
+//!     hit     find the nearest body per lane; lanes that miss, or are too faint to be traced, add the background
+//!     shade   add highlights and untextured light; remember textured hits with their gain
+//!     spawn   push the refracted rays, go on with the mirrored ones
+//!     mix object, path and the state of every light into the path signature, where the hit counts
+//! ```
+//!
+//! Textures are not evaluated here. A sample says which textured surfaces were hit, where, and how much of their colour it
+//! carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time. Approximations are the two
+//! thresholds of [`Limits`] and the points on soft lights; [`super::reference`] is the recursion without any.
 
-use super::light::{sky, toward, visibility};
-use super::sample::{HIT, PLAIN, REMEMBERED, Sample};
-use super::shape::{Ball, FAR, Shape};
-use super::world::{ALBEDO, EXPONENT, FILTER, FRESNEL, IOR, REFLECTANCE, SPECULAR, SURFACE, TEXTURED, World};
+use super::light::{Aim, aim, background, visibility};
+use super::ray::{NOWHERE, RayPacket, Search, nearest};
+use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
+use super::shape::FAR;
+use super::surface::{ALBEDO, EXPONENT, FILTER, IOR, SPECULAR, Surface, SurfaceNumbers, TEXTURED, fresnel, resolve};
+use super::world::World;
 use crate::simd::block::BLOCK;
 use crate::simd::lanes::{Bits, F, Lane, M, U, V3};
 use crate::simd::math;
@@ -16,92 +30,107 @@ use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;
 
-/// What a packet reads of the frame.
+/// What a packet reads of the frame and the tile.
 #[derive(Clone, Copy)]
-pub struct Context<'a> {
-    /// The scene.
+pub struct TraceContext<'a> {
+    /// The world.
     pub world: &'a World,
-    /// What the shading of a hit needs of every object.
-    pub surfaces: &'a [[f32; SURFACE]],
-    /// The camera.
+    /// What shading needs of the material of every object.
+    pub surfaces: &'a [SurfaceNumbers],
+    /// The view.
     pub view: &'a View,
-    /// The objects that eye rays may meet, and all that others may.
+    /// The objects that eye rays of the tile may meet.
     pub visible: &'a [u32],
-    /// Every object.
+    /// Every object, for all other rays.
     pub all: &'a [u32],
-    /// The knobs of the recursion.
+    /// Limits of the recursion.
     pub limits: Limits,
 }
 
-/// The knobs of the recursion.
+/// Limits of the recursion.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Secondary rays of less weight are not traced.
+    /// Secondary rays of at most this weight are not traced.
     pub min_weight: f32,
-    /// Hits of less weight beside a white surface in full light are no part of the chain, and their textures are their
-    /// means.
+    /// Hits whose weight is at most this share of the light gathered before them are no part of the path signature, and
+    /// have the mean of their texture.
     pub min_detail: f32,
-    /// Points on a light that has a size, for eye rays and for the others.
+    /// Points on a light with a radius: as eye rays see it, and as all others do.
     pub light_samples: [u32; 2],
 }
 
-/// A bundle of rays that take the same path (sequence of reflections and refractions) from the eye.
+/// A packet of rays that reached the same place in the tree.
 #[derive(Clone, Copy)]
 struct Node<S: Simd> {
+    /// Lanes that are traced.
     active: M<S>,
-    /// Lanes too faint to be traced. They are guessed to see the sky: half of the error of leaving them black.
+    /// Lanes too faint to be traced. They are guessed to see the background: half the error of leaving them black.
     faint: M<S>,
-    ray: Ray<S>,
+    ray: RayPacket<S>,
+    /// Share of the ray's light that reaches the eye.
     weight: V3<S>,
-    /// Length of the path up to the ray's origin.
+    /// Length of the path up to the ray's origin, metres.
     length: F<S>,
+    /// 1 for the eye rays, one more with each reflection or refraction.
     level: u32,
-    /// 1 for the eye ray, then a bit for each level: 0 reflected, 1 refracted.
+    /// 1 for the eye rays, then one more bit per level: 0 reflected, 1 refracted.
     path: u32,
 }
 
-/// A ray a lane, and where it comes from.
-#[derive(Clone, Copy)]
-pub struct Ray<S: Simd> {
-    /// Start.
-    pub origin: V3<S>,
-    /// Unit direction.
-    pub direction: V3<S>,
-    /// The body that the ray leaves, or [`NOWHERE`].
-    pub from: U<S>,
-    /// Does it go inside?
-    pub inward: M<S>,
+/// Where a packet has met bodies.
+struct Hit<S: Simd> {
+    /// Lanes that have met one.
+    lanes: M<S>,
+    /// Those of them on glass.
+    glass: M<S>,
+    object: U<S>,
+    /// Length of the path up to here, metres.
+    length: F<S>,
+    point: V3<S>,
+    surface: Surface<S>,
+    /// Unit normal, towards the ray.
+    normal: V3<S>,
+    /// Of the angle between the ray and the normal.
+    cosine: F<S>,
+    /// Lanes whose ray comes from inside the body.
+    inside: M<S>,
+    /// Share of each colour that a mirror on an opaque surface reflects.
+    mirror: V3<S>,
 }
 
-/// No body.
-pub const NOWHERE: u32 = u32::MAX;
-/// Highlights of more light than this are part of a corner's state: the skirt of a highlight finds the highlight.
+/// Light of the scene's lights at a hit.
+struct Lit<S: Simd> {
+    /// Off a white surface.
+    diffuse: V3<S>,
+    specular: V3<S>,
+    /// Two bits per light, for the path signature.
+    states: U<S>,
+}
+
+/// Highlights with more light than this are part of the path signature. It is low, so that the wide skirt of a highlight
+/// leads to the highlight.
 const HIGHLIGHT: f32 = 1.0 / 16.0;
 
-/// Light beside which a difference is judged even where there is none.
+/// The light beside which a difference is judged where no light has been gathered yet.
 const DARK: f32 = 0.25;
 
-/// Normal and material of what each lane has hit.
-struct Surface<S: Simd> {
-    normal: V3<S>,
-    numbers: [F<S>; SURFACE],
-}
+// States of a light at a hit, two bits each.
+const UNLIT: u32 = 0;
+const LIT: u32 = 1;
+const HIGHLIT: u32 = 2;
+const PARTLY_LIT: u32 = 3;
 
-impl<S: Simd> Surface<S> {
-    /// The colour that begins at that number.
-    #[inline(always)]
-    fn color(&self, at: usize) -> V3<S> {
-        V3 { x: self.numbers[at], y: self.numbers[at + 1], z: self.numbers[at + 2] }
-    }
-}
+/// Most lanes of any SIMD level.
+const MOST_LANES: usize = 16;
 
-/// Traces the eye rays through `xs`, `ys` (pixels) into the samples `out`, in order. All are of the same length.
+/// Traces the eye rays through the points `xs`, `ys` (pixels from the picture's top left) into the samples `out`, in order.
+/// All three have the same length.
 #[simd]
-pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &mut [Sample]) {
+pub fn trace<S: Simd>(simd: S, context: &TraceContext, xs: &[f32], ys: &[f32], out: &mut [Sample]) {
     let lanes = F::<S>::LEN;
     let mut stack = Vec::new();
-    let mut px = [0.0; 64];
-    let mut py = [0.0; 64];
+    let mut px = [0.0; MOST_LANES];
+    let mut py = [0.0; MOST_LANES];
     let mut at = 0;
     while at < xs.len() {
         let count = lanes.min(xs.len() - at);
@@ -116,39 +145,26 @@ pub fn trace<S: Simd>(simd: S, context: &Context, xs: &[f32], ys: &[f32], out: &
     }
 }
 
-/// One packet of eye rays, to its last reflection.
+/// Follows one packet of unnormalised eye rays through its tree; the module's text has the outline. The stack is memory
+/// that packets share, empty before and after.
 #[simd]
-fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], stack: &mut Vec<Node<S>>) {
-    let Context { world, limits, .. } = *context;
-    let eye = context.view.camera().eye;
+fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sample], stack: &mut Vec<Node<S>>) {
+    let TraceContext { world, limits, .. } = *context;
     let zero = F::<S>::splat(simd, 0.0);
-    let one = F::<S>::splat(simd, 1.0);
     for sample in out.iter_mut() {
         // Numbers beyond `used` may stay what they were.
         (sample.count, sample.numbers[0], sample.numbers[1], sample.numbers[2]) = (0, 0.0, 0.0, 0.0);
     }
-    let lanes_in_use = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
+    let lanes = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
     let step = ray.dot(ray).sqrt();
     let mut path_signature = U::<S>::splat(simd, 0);
     let mut light = V3::splat(simd, Vec3::ZERO);
-    // Light of white surfaces so far.
-    let mut seen = zero;
-    let mut first_closeness = zero;
+    // The light so far if all textures were white: what `min_detail` is a share of.
+    let mut gathered = zero;
+    let mut first_inv_depth = zero;
     stack.clear();
-    let mut next = Some(Node {
-        active: lanes_in_use,
-        faint: M::<S>::splat(simd, false),
-        ray: Ray {
-            origin: V3::splat(simd, eye),
-            direction: ray * Lane(one / step),
-            from: U::<S>::splat(simd, NOWHERE),
-            inward: M::<S>::splat(simd, false),
-        },
-        weight: V3 { x: one, y: one, z: one },
-        length: zero,
-        level: 1,
-        path: 1,
-    });
+    let mut next =
+        Some(Node::root(simd, context.view.camera().eye, ray * Lane(F::<S>::splat(simd, 1.0) / step), lanes));
     loop {
         let node = match next.take() {
             Some(node) => node,
@@ -157,132 +173,189 @@ fn packet<S: Simd>(simd: S, context: &Context, ray: V3<S>, out: &mut [Sample], s
                 None => break,
             },
         };
-        let Node { active, weight, length, level, path, .. } = node;
-        let direction = node.ray.direction;
-        let far = F::<S>::splat(simd, FAR);
-        let (mut object, mut t) = (U::<S>::splat(simd, NOWHERE), far);
-        if active.any_true() {
-            let list = if level == 1 { context.visible } else { context.all };
-            (object, t) = nearest(simd, world, list, &node.ray, active, far, false);
-        }
-        // Beside much light little is seen (Weber), in the dark it is.
-        let detailed = weight.max_element().simd_gt((seen + DARK) * limits.min_detail);
-        let hit = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
-        let missed = (active & !hit) | node.faint;
-        if missed.any_true() {
-            light = light + sky(simd, world, direction).mulv(weight).masked(simd, missed);
-        }
-        let mut state = U::<S>::splat(simd, 0);
-        if hit.any_true() {
-            let (t, point, surface) = resolve(simd, context, &node.ray, object, t, hit);
-            let length = length + t;
-            let inv_depth = step / length;
-            if level == 1 {
-                first_closeness = hit.select(inv_depth, zero);
-            }
-            let facing = -direction.dot(surface.normal);
-            let inside = facing.simd_lt(zero);
-            let cosine = facing.abs();
-            let normal = V3::select(inside, -surface.normal, surface.normal);
-            let (shininess, ior) = (surface.numbers[SPECULAR], surface.numbers[IOR]);
-            let glass = hit & ior.simd_gt(zero);
-            let matt = hit & !glass;
-            let shaded = matt | (glass & shininess.simd_gt(zero));
+        let Node { active, weight, level, path, .. } = node;
 
-            // Local light: what is left beside the mirror.
-            let grazing = one - cosine.min(one);
-            let grazing = grazing * grazing * (grazing * grazing) * grazing;
-            let boost = surface.numbers[FRESNEL] * grazing;
-            let reflectance = surface.color(REFLECTANCE);
-            let mirror = reflectance + (V3 { x: one, y: one, z: one } - reflectance) * Lane(boost);
-            let local = (weight - weight.mulv(mirror)).masked(simd, matt);
-            let mut diffuse = V3::splat(simd, world.ambient);
-            let mut specular = V3::splat(simd, Vec3::ZERO);
-            if shaded.any_true() {
-                let samples = limits.light_samples[(level > 1) as usize];
-                for (index, source) in world.lights.iter().enumerate() {
-                    let (to_light, reach) = toward(simd, source, point);
-                    let cos_light = normal.dot(to_light);
-                    let front = shaded & cos_light.simd_gt(zero);
-                    if !front.any_true() {
-                        continue;
-                    }
-                    let seen = visibility(simd, context, samples, source, point, to_light, reach, object, front);
-                    let lit = front & seen.simd_gt(zero);
-                    let glint = cos_light * cosine * 2.0 + to_light.dot(direction);
-                    let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
-                    let mut shine = zero;
-                    if shiny.any_true() {
-                        let power = math::exp2(simd, math::log2(simd, glint) * surface.numbers[EXPONENT]);
-                        shine = shiny.select(power * shininess * seen, zero);
-                    }
-                    let amount = lit.select(cos_light * seen, zero);
-                    diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
-                    specular = specular + V3::splat(simd, source.color) * Lane(shine);
-                    // 0 unlit, 1 lit, 2 lit with a highlight, 3 half lit.
-                    let bright = lit & (shine * weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
-                    let half = lit & seen.simd_lt(one);
-                    let code = half.select(
-                        U::<S>::splat(simd, 3),
-                        bright
-                            .select(U::<S>::splat(simd, 2), lit.select(U::<S>::splat(simd, 1), U::<S>::splat(simd, 0))),
-                    );
-                    state |= code << (2 * index as u32);
-                }
+        // Hit.
+        let (object, t) = meet(simd, context, &node);
+        // Beside much light little is seen (Weber), in the dark it is.
+        let detailed = weight.max_element().simd_gt((gathered + DARK) * limits.min_detail);
+        let lanes = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
+        let missed = (active & !lanes) | node.faint;
+        if missed.any_true() {
+            let behind = background(simd, &world.background, node.ray.direction);
+            light = light + behind.mulv(weight).masked(simd, missed);
+        }
+        let mut states = U::<S>::splat(simd, UNLIT);
+        if lanes.any_true() {
+            let hit = Hit::new(simd, context, &node, object, t, lanes);
+            let inv_depth = step / hit.length;
+            if level == 1 {
+                first_inv_depth = lanes.select(inv_depth, zero);
             }
+
+            // Shade: the surface's own light is what is left beside the mirror.
+            let matte = lanes & !hit.glass;
+            let shaded = matte | (hit.glass & hit.surface.numbers[SPECULAR].simd_gt(zero));
+            let local = (weight - weight.mulv(hit.mirror)).masked(simd, matte);
+            let lit = illuminate(simd, context, &node, &hit, shaded);
+            states = lit.states;
             // Glass shows the lights themselves and nothing else of its own.
-            let shine = specular.mulv(V3::select(glass, weight, local));
+            let shine = lit.specular.mulv(V3::select(hit.glass, weight, local));
             light = light + shine.masked(simd, shaded);
-            let gain = local.mulv(diffuse);
-            seen += gain.max_element();
-            let textured = matt & surface.numbers[TEXTURED].simd_gt(zero) & detailed;
-            light = light + gain.mulv(surface.color(ALBEDO)).masked(simd, matt & !textured);
+            let gain = local.mulv(lit.diffuse);
+            gathered += gain.max_element();
+            let textured = matte & hit.surface.numbers[TEXTURED].simd_gt(zero) & detailed;
+            light = light + gain.mulv(hit.surface.color(ALBEDO)).masked(simd, matte & !textured);
             if textured.any_true() {
-                remember(simd, world, textured.to_bitmask(), &object, &[gain, point], &inv_depth, out);
+                remember(simd, world, textured.to_bitmask(), &object, &[gain, hit.point], &inv_depth, out);
             }
 
             if level < world.max_level {
-                let least = F::<S>::splat(simd, limits.min_weight);
-                let child = Node { length, level: level + 1, ..node };
-                let leaving = Ray { origin: point, from: object, ..node.ray };
-                let mirrored = direction + normal * Lane(cosine * 2.0);
-                let mut reflected = weight.mulv(mirror);
-                let mut stays_inside = M::<S>::splat(simd, false);
-                if glass.any_true() {
-                    let eta = inside.select(ior, one / ior);
-                    let (share, cos_through, passes) = fresnel(simd, eta, cosine);
-                    let bend = eta * cosine - cos_through;
-                    let refracted = direction * Lane(eta) + normal * Lane(bend);
-                    let through = weight.mulv(surface.color(FILTER)) * Lane(one - share);
-                    let (active, faint) = strength(simd, glass & passes, through, least);
-                    if (active | faint).any_true() {
-                        let ray = Ray { direction: refracted, inward: !inside, ..leaving };
-                        stack.push(Node { active, faint, ray, weight: through, path: path * 2 + 1, ..child });
-                    }
-                    reflected = V3::select(glass, weight * Lane(share), reflected);
-                    stays_inside = glass & inside;
-                }
-                let (active, faint) = strength(simd, hit, reflected, least);
-                if (active | faint).any_true() {
-                    let ray = Ray { direction: mirrored, inward: stays_inside, ..leaving };
-                    next = Some(Node { active, faint, ray, weight: reflected, path: path * 2, ..child });
-                }
+                next = spawn(simd, limits.min_weight, &node, &hit, stack);
             }
         }
-        let code = hash(simd, (object + 1) ^ (state << 12), path);
+        let code = hash(simd, (object + 1) ^ (states << 12), path);
         path_signature += (active & detailed).select(code, U::<S>::splat(simd, 0));
     }
     for (lane, sample) in out.iter_mut().enumerate() {
         sample.path_signature = path_signature[lane];
-        // Textures that did not fit are in the light already.
-        sample.numbers[0] += light.x[lane];
-        sample.numbers[1] += light.y[lane];
-        sample.numbers[2] += light.z[lane];
-        sample.numbers[3] = first_closeness[lane];
+        let [red, green, blue, inv_depth, ..] = &mut sample.numbers;
+        // Added, because textures that found no place are there already.
+        *red += light.x[lane];
+        *green += light.y[lane];
+        *blue += light.z[lane];
+        *inv_depth = first_inv_depth[lane];
     }
 }
 
-/// Which of the `wanted` lanes have weight enough to be traced, and which have less but some.
+impl<S: Simd> Node<S> {
+    /// The eye rays.
+    #[inline(always)]
+    fn root(simd: S, eye: Vec3, direction: V3<S>, active: M<S>) -> Node<S> {
+        let one = F::<S>::splat(simd, 1.0);
+        let nothing = M::<S>::splat(simd, false);
+        let from = U::<S>::splat(simd, NOWHERE);
+        Node {
+            active,
+            faint: nothing,
+            ray: RayPacket { origin: V3::splat(simd, eye), direction, from, inward: nothing },
+            weight: V3 { x: one, y: one, z: one },
+            length: F::<S>::splat(simd, 0.0),
+            level: 1,
+            path: 1,
+        }
+    }
+}
+
+/// The nearest body of every active lane, or [`NOWHERE`], and its rough distance.
+#[inline(always)]
+fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>) {
+    let far = F::<S>::splat(simd, FAR);
+    if !node.active.any_true() {
+        return (U::<S>::splat(simd, NOWHERE), far);
+    }
+    let list = if node.level == 1 { context.visible } else { context.all };
+    nearest(simd, context.world, list, &node.ray, node.active, far, Search::Nearest)
+}
+
+impl<S: Simd> Hit<S> {
+    /// What is at the rough distance `t` on the bodies `object`, for the `lanes` that have met one.
+    #[inline(always)]
+    fn new(simd: S, context: &TraceContext, node: &Node<S>, object: U<S>, t: F<S>, lanes: M<S>) -> Hit<S> {
+        let zero = F::<S>::splat(simd, 0.0);
+        let (t, point, surface) = resolve(simd, context.world, context.surfaces, &node.ray, object, t, lanes);
+        let facing = -node.ray.direction.dot(surface.normal);
+        let inside = facing.simd_lt(zero);
+        let cosine = facing.abs();
+        let normal = V3::select(inside, -surface.normal, surface.normal);
+        let glass = lanes & surface.numbers[IOR].simd_gt(zero);
+        let mirror = surface.mirror(simd, cosine);
+        Hit { lanes, glass, object, length: node.length + t, point, surface, normal, cosine, inside, mirror }
+    }
+}
+
+/// Diffuse light and highlights of all lights in the `shaded` lanes, and the state of every light there.
+#[inline(always)]
+fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hit<S>, shaded: M<S>) -> Lit<S> {
+    let TraceContext { world, limits, .. } = *context;
+    let Hit { object, point, normal, cosine, .. } = *hit;
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let shininess = hit.surface.numbers[SPECULAR];
+    let mut diffuse = V3::splat(simd, world.ambient);
+    let mut specular = V3::splat(simd, Vec3::ZERO);
+    let mut states = U::<S>::splat(simd, UNLIT);
+    if !shaded.any_true() {
+        return Lit { diffuse, specular, states };
+    }
+    let samples = limits.light_samples[(node.level > 1) as usize];
+    for (index, source) in world.lights.iter().enumerate() {
+        let Aim { direction, reach } = aim(simd, source, point);
+        let cos_light = normal.dot(direction);
+        let front = shaded & cos_light.simd_gt(zero);
+        if !front.any_true() {
+            continue;
+        }
+        let seen =
+            visibility(simd, world, context.all, samples, source, point, Aim { direction, reach }, object, front);
+        let lit = front & seen.simd_gt(zero);
+        // The cosine between the mirrored ray and the light [Phong75].
+        let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
+        let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
+        let mut shine = zero;
+        if shiny.any_true() {
+            let power = math::exp2(simd, math::log2(simd, glint) * hit.surface.numbers[EXPONENT]);
+            shine = shiny.select(power * shininess * seen, zero);
+        }
+        let amount = lit.select(cos_light * seen, zero);
+        diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
+        specular = specular + V3::splat(simd, source.color) * Lane(shine);
+        let bright = lit & (shine * node.weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
+        let partly = lit & seen.simd_lt(one);
+        let state = |state| U::<S>::splat(simd, state);
+        let code =
+            partly.select(state(PARTLY_LIT), bright.select(state(HIGHLIT), lit.select(state(LIT), state(UNLIT))));
+        states |= code << (2 * index as u32);
+    }
+    Lit { diffuse, specular, states }
+}
+
+/// Sends the mirrored rays of a hit on, and leaves the refracted ones on the stack.
+#[inline(always)]
+fn spawn<S: Simd>(simd: S, min_weight: f32, node: &Node<S>, hit: &Hit<S>, stack: &mut Vec<Node<S>>) -> Option<Node<S>> {
+    let Hit { glass, normal, cosine, inside, .. } = *hit;
+    let Node { weight, path, .. } = *node;
+    let direction = node.ray.direction;
+    let one = F::<S>::splat(simd, 1.0);
+    let least = F::<S>::splat(simd, min_weight);
+    let child = Node { length: hit.length, level: node.level + 1, ..*node };
+    let leaving = RayPacket { origin: hit.point, from: hit.object, ..node.ray };
+    let mirrored = direction + normal * Lane(cosine * 2.0);
+    let mut reflected = weight.mulv(hit.mirror);
+    let mut stays_inside = M::<S>::splat(simd, false);
+    if glass.any_true() {
+        let ior = hit.surface.numbers[IOR];
+        let eta = inside.select(ior, one / ior);
+        let (share, cos_through, passes) = fresnel(simd, eta, cosine);
+        let bend = eta * cosine - cos_through;
+        let refracted = direction * Lane(eta) + normal * Lane(bend);
+        let through = weight.mulv(hit.surface.color(FILTER)) * Lane(one - share);
+        let (active, faint) = strength(simd, glass & passes, through, least);
+        if (active | faint).any_true() {
+            let ray = RayPacket { direction: refracted, inward: !inside, ..leaving };
+            stack.push(Node { active, faint, ray, weight: through, path: path * 2 + 1, ..child });
+        }
+        reflected = V3::select(glass, weight * Lane(share), reflected);
+        stays_inside = glass & inside;
+    }
+    let (active, faint) = strength(simd, hit.lanes, reflected, least);
+    if !(active | faint).any_true() {
+        return None;
+    }
+    let ray = RayPacket { direction: mirrored, inward: stays_inside, ..leaving };
+    Some(Node { active, faint, ray, weight: reflected, path: path * 2, ..child })
+}
+
+/// The `wanted` lanes whose weight is more than `least` and that are traced, and those that have less but some.
 #[inline(always)]
 fn strength<S: Simd>(simd: S, wanted: M<S>, weight: V3<S>, least: F<S>) -> (M<S>, M<S>) {
     let most = weight.max_element();
@@ -290,108 +363,7 @@ fn strength<S: Simd>(simd: S, wanted: M<S>, weight: V3<S>, least: F<S>) -> (M<S>
     (wanted & strong, wanted & !strong & most.simd_gt(F::<S>::splat(simd, 0.0)))
 }
 
-/// The nearest of the bodies in `list` for every lane, or [`NOWHERE`], and its distance but for a few ulps.
-///
-/// For the `shadow` of a light at the distance `reach`: any body before it that casts shadows, whose distance does not matter. The search ends
-/// when all `active` lanes are dark.
-#[simd]
-#[allow(clippy::too_many_arguments)]
-pub fn nearest<S: Simd>(
-    simd: S,
-    world: &World,
-    list: &[u32],
-    ray: &Ray<S>,
-    active: M<S>,
-    reach: F<S>,
-    shadow: bool,
-) -> (U<S>, F<S>) {
-    let zero = F::<S>::splat(simd, 0.0);
-    let nowhere = U::<S>::splat(simd, NOWHERE);
-    let (mut best, mut object) = (reach, nowhere);
-    let ball = if shadow { Ball::Middle } else { Ball::Rough };
-    for &index in list {
-        let body = &world.objects[index as usize];
-        if shadow && !body.casts_shadow {
-            continue;
-        }
-        let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
-        if !(hit & active).any_true() {
-            continue;
-        }
-        let id = U::<S>::splat(simd, index);
-        let other = !ray.from.simd_eq(id);
-        if shadow {
-            object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
-            if !(active & object.simd_eq(nowhere)).any_true() {
-                break;
-            }
-        } else {
-            // Outwards the body that the ray leaves does not count; inwards only its far side does.
-            let t = (t0.simd_gt(zero) & other).select(t0, t1);
-            let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
-            best = meets.select(t, best);
-            object = meets.select(id, object);
-        }
-    }
-    (object, best)
-}
-
-/// Distance, point and surface of every lane's hit, from what [`nearest`] found: once for each of the few bodies that a
-/// packet meets.
-#[inline(always)]
-fn resolve<S: Simd>(
-    simd: S,
-    context: &Context,
-    ray: &Ray<S>,
-    object: U<S>,
-    mut t: F<S>,
-    hit: M<S>,
-) -> (F<S>, V3<S>, Surface<S>) {
-    let zero = F::<S>::splat(simd, 0.0);
-    let black = V3::splat(simd, Vec3::ZERO);
-    let mut point = black;
-    let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
-    let mut todo = hit.to_bitmask();
-    while todo != 0 {
-        let id = object[todo.trailing_zeros() as usize];
-        let here = object.simd_eq(U::<S>::splat(simd, id));
-        todo &= !here.to_bitmask();
-        let body = &context.world.objects[id as usize];
-        if let Shape::Sphere { .. } = body.shape {
-            let (t0, t1, _) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
-            let outside = t0.simd_gt(zero) & !ray.from.simd_eq(U::<S>::splat(simd, id));
-            t = here.select(outside.select(t0, t1).max(zero), t);
-        }
-        let mut at = ray.origin + ray.direction * Lane(t);
-        if let Shape::Plane { normal, offset } = body.shape {
-            // Back onto the plane, so that its texture is a slice at one height.
-            at = at - V3::splat(simd, normal) * Lane(at.dot1(normal) - offset);
-        }
-        point = V3::select(here, at, point);
-        let normal = body.shape.normal(simd, at);
-        surface.normal = V3::select(here, normal, surface.normal);
-        for (number, &value) in surface.numbers.iter_mut().zip(&context.surfaces[id as usize]) {
-            *number = here.select(F::<S>::splat(simd, value), *number);
-        }
-    }
-    (t, point, surface)
-}
-
-/// Unpolarised Fresnel reflectance of a dielectric, the cosine behind the surface, and where light passes at all.
-///
-/// `eta` is the index on the ray's side over the index behind.
-#[inline(always)]
-fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
-    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let k = one - eta * eta * (one - cosine * cosine);
-    let passes = k.simd_gt(zero);
-    let through = k.max(zero).sqrt();
-    let s = (eta * cosine - through) / (eta * cosine + through);
-    let p = (eta * through - cosine) / (eta * through + cosine);
-    (passes.select((s * s + p * p) * 0.5, one), through, passes)
-}
-
-/// Notes the textured hits of a packet, lane by lane: `vectors` are gain and point.
+/// Adds the textured hits of a packet to its samples, lane by lane; `vectors` are gain and point.
 #[inline(always)]
 fn remember<S: Simd>(
     simd: S,
@@ -415,9 +387,9 @@ fn remember<S: Simd>(
         let point = [point.x[lane] * k, point.y[lane] * k, point.z[lane] * k];
         sample.object[n] = object[lane];
         let hit = &mut sample.numbers[PLAIN + HIT * n..][..HIT];
-        hit[..3].copy_from_slice(&[gain.x[lane], gain.y[lane], gain.z[lane]]);
-        hit[3..6].copy_from_slice(&point);
-        hit[6] = k;
+        hit[..POINT].copy_from_slice(&[gain.x[lane], gain.y[lane], gain.z[lane]]);
+        hit[POINT..HIT_INV_DEPTH].copy_from_slice(&point);
+        hit[HIT_INV_DEPTH] = k;
         sample.count += 1;
     }
     // What finds no place is looked up on the spot, once for each object.
@@ -429,10 +401,10 @@ fn remember<S: Simd>(
         point.store(&mut points, 0);
         texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
         for lane in Bits(here) {
-            let numbers = &mut out[lane].numbers;
-            numbers[0] += color[0][lane] * gain.x[lane];
-            numbers[1] += color[1][lane] * gain.y[lane];
-            numbers[2] += color[2][lane] * gain.z[lane];
+            let [red, green, blue, ..] = &mut out[lane].numbers;
+            *red += color[0][lane] * gain.x[lane];
+            *green += color[1][lane] * gain.y[lane];
+            *blue += color[2][lane] * gain.z[lane];
         }
     }
 }

@@ -1,12 +1,15 @@
-//! The plain truth beside the packets: one ray at a time, recursion as in the textbook (Whitted 1980).
+//! The reference for packets of rays: Whitted's recursion `[Whitted80]` as a textbook has it, one ray at a time.
 //!
-//! Same conventions as [`super::packet`], no lanes, no deferred textures, no thresholds.
+//! It has no lanes, no deferred textures and no thresholds, and takes lights with a radius as points. Conventions are those
+//! of [`super::ray`] and [`super::world`]. The tests hold the packets against it, and it against closed forms.
 
 use super::shape::{FAR, Shape};
-use super::world::{Light, Source, World};
+use super::world::{Background, Emitter, Light, World};
 use glam::{Mat3, Vec3};
 
-/// Where the line `o + t d`, `|d| = 1`, is inside a body: entry and exit, none where it never is.
+/// The interval in which the line `o + t d` with `|d| = 1` is inside a body; none where it never is.
+///
+/// A line that only touches a round body is not inside it. Distances may be negative, and reach to minus or plus [`FAR`].
 pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
     let (t0, t1) = match *shape {
         Shape::Sphere { center, radius } => {
@@ -62,7 +65,7 @@ pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
     (t0 <= t1).then_some((t0, t1))
 }
 
-/// Where a line is between `-half` and `half` on one axis.
+/// The interval in which a line is between `-half` and `half` on one axis.
 fn slab(o: f32, d: f32, half: f32) -> (f32, f32) {
     let d = d.abs().max(1e-20).copysign(d);
     let (a, b) = ((-half - o) / d, (half - o) / d);
@@ -70,7 +73,7 @@ fn slab(o: f32, d: f32, half: f32) -> (f32, f32) {
 }
 
 impl Shape {
-    /// Unit outward normal at a point of the surface.
+    /// Unit outward normal at a point of the surface, in scalar code.
     pub fn normal_at(&self, p: Vec3) -> Vec3 {
         match *self {
             Shape::Sphere { center, .. } => (p - center).normalize(),
@@ -92,7 +95,10 @@ impl Shape {
     }
 }
 
-/// Index and distance of the nearest body in front of a point, among those that `counts`.
+/// Index and distance of the nearest surface in front of the point `o` in the unit direction `d`, among the bodies for whose
+/// index `counts` holds.
+///
+/// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front.
 pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
     first(world, o, d, |index| if counts(index) { Exits::Both } else { Exits::None })
 }
@@ -104,6 +110,7 @@ enum Exits {
     Both,
 }
 
+/// Index and distance of the first crossing in front of a point that counts.
 fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
     let mut best = None;
     for (index, body) in world.objects.iter().enumerate() {
@@ -121,14 +128,14 @@ fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Opt
     best
 }
 
-/// A ray and where it comes from.
+/// A ray, and the body that it leaves.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Start.
+    /// Start, metres.
     pub origin: Vec3,
     /// Unit direction.
     pub direction: Vec3,
-    /// The body whose surface it leaves, and whether inwards.
+    /// Index of the body whose surface it leaves, and whether it goes into that body.
     pub from: Option<(usize, bool)>,
 }
 
@@ -139,7 +146,8 @@ impl Ray {
     }
 }
 
-/// The light that comes back along a ray: linear radiance. Lights with a size are taken as points.
+/// The linear light that comes back along a ray. `level` counts the rays of the path, 1 for an eye ray; beyond
+/// [`World::max_level`] it is black.
 pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     if level > world.max_level {
         return Vec3::ZERO;
@@ -155,7 +163,7 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
         }
         _ => Exits::Both,
     });
-    let Some((index, t)) = hit else { return sky(world, direction) };
+    let Some((index, t)) = hit else { return background(world, direction) };
     let body = &world.objects[index];
     let material = &body.material;
     let point = origin + direction * t;
@@ -197,7 +205,7 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     sum
 }
 
-/// Diffuse and specular light at a point.
+/// Light of the lights at a point of the body `index`: off a white surface, and highlights.
 fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3) -> (Vec3, Vec3) {
     let material = &world.objects[index].material;
     let (mut diffuse, mut specular) = (world.ambient, Vec3::ZERO);
@@ -219,13 +227,15 @@ fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3
     (diffuse, specular)
 }
 
+/// Unit direction and distance to a light.
 fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
-    match light.source {
-        Source::Point(position) => ((position - point).normalize(), (position - point).length()),
-        Source::Directional(direction) => (direction, FAR),
+    match light.emitter {
+        Emitter::Point(position) => ((position - point).normalize(), (position - point).length()),
+        Emitter::Directional(direction) => (direction, FAR),
     }
 }
 
+/// Whether a body other than `from` lies between a point and a light.
 fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> bool {
     world.objects.iter().enumerate().any(|(index, body)| {
         body.casts_shadow
@@ -234,10 +244,12 @@ fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> b
     })
 }
 
-/// The sky in a direction.
-pub fn sky(world: &World, d: Vec3) -> Vec3 {
-    let sky = &world.sky;
-    let base = sky.horizon + (sky.zenith - sky.horizon) * d.y.max(0.0);
-    let (towards, color, exponent) = sky.glow;
-    if exponent == 0.0 { base } else { base + color * d.dot(towards).max(0.0).powf(exponent) }
+/// The background's light in a unit direction.
+pub fn background(world: &World, d: Vec3) -> Vec3 {
+    let Background { horizon, zenith, glow } = world.background;
+    let base = horizon + (zenith - horizon) * d.y.max(0.0);
+    if glow.exponent == 0.0 {
+        return base;
+    }
+    base + glow.color * d.dot(glow.direction).max(0.0).powf(glow.exponent)
 }

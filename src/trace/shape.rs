@@ -1,22 +1,24 @@
-//! Convex bodies and where a ray enters and leaves them.
+//! Convex bodies: where a line enters and leaves them, and their normals.
 //!
-//! Every shape is convex, so a ray that leaves a body's surface outwards cannot meet it again, and one that goes
-//! inwards meets only its far side: the self-hit test is a comparison of identities and needs no epsilon
-//! (a constant one fails on 3 to 36 % of secondary rays over scene scales).
+//! Every shape is convex, so a ray that leaves a body outwards cannot meet that body again, and one that goes inwards
+//! meets only its far side. The test against hitting oneself therefore compares identities and needs no epsilon; a
+//! constant epsilon fails on 3 to 36 % of secondary rays, depending on the scale of the scene.
+//!
+//! The same arithmetic in scalar code is in [`super::reference`]; `tests/shapes.rs` holds both against exact numbers.
 
 use crate::simd::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
 
-/// A convex body.
+/// A convex body's shape and place. Lengths are metres and above 0; what is called unit or a rotation has to be one.
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {
     /// A ball.
     Sphere {
         /// Centre.
         center: Vec3,
-        /// Radius, metres.
+        /// Radius.
         radius: f32,
     },
     /// The half-space below a plane: `normal . p <= offset`.
@@ -26,23 +28,24 @@ pub enum Shape {
         /// Distance from the origin along the normal.
         offset: f32,
     },
-    /// A ball so large that its centre is useless: given by a point of its surface near to the eye.
+    /// A ball so large that f32 cannot hold its centre, a planet for example. It is given by a point of its surface near
+    /// the eye.
     #[cfg(feature = "full")]
     Globe {
         /// A point of the surface.
         touch: Vec3,
         /// Unit normal there, outwards.
         normal: Vec3,
-        /// Radius, metres.
+        /// Radius.
         radius: f32,
     },
-    /// A turned box.
+    /// A box of any orientation.
     Block {
         /// Centre.
         center: Vec3,
         /// Half of each edge.
         half: Vec3,
-        /// World to box, a rotation.
+        /// Rotation from world to box.
         turn: Mat3,
     },
     /// A capped cylinder.
@@ -53,28 +56,28 @@ pub enum Shape {
         axis: Vec3,
         /// Half of its length.
         half: f32,
-        /// Radius, metres.
+        /// Radius.
         radius: f32,
     },
 }
 
-/// How exact the entry into a ball has to be, and the exit.
+/// How exact the distances have to be at which a line enters and leaves a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ball {
     /// To a few ulps of themselves.
     Exact,
-    /// To a few ulps of the distance to the centre: enough to tell which body is nearest, at half the price.
+    /// To a few ulps of the distance to the centre: enough to tell which body is nearest, at half the cost.
     Rough,
-    /// Both are where the line is nearest to the centre, without a root: enough to tell whether the ball lies between two
-    /// points outside of it.
+    /// Both distances are where the line is nearest to the centre, which takes no root: enough to tell whether the ball
+    /// lies between two points outside it.
     Middle,
 }
 
-/// Beyond this a ray has left the scene.
+/// The distance beyond which a ray has left the scene.
 pub const FAR: f32 = 1e30;
 
 impl Shape {
-    /// Centre and radius of a ball around the body; an infinite radius for planes and globes.
+    /// Centre and radius of a ball around the body. The radius is infinite for planes and globes.
     pub fn bound(&self) -> (Vec3, f32) {
         match *self {
             Shape::Sphere { center, radius } => (center, radius),
@@ -86,10 +89,13 @@ impl Shape {
         }
     }
 
-    /// Where the line `o + t d`, `|d| = 1`, is inside the body, from `t0` to `t1 >= t0`, and whether it ever is.
+    /// The interval `t0 <= t1` in which the line `o + t d` with `|d| = 1` is inside the body, and whether there is one.
     ///
-    /// The ball uses the projected form (Haines et al., Ray Tracing Gems, ch. 7): the distance to the line's
-    /// nearest point does not cancel as `b^2 - 4ac` does far away.
+    /// Where the mask is false the interval means nothing. A line that only touches a round body has none. Planes and
+    /// globes are half-spaces and a ball, so an interval may reach to minus or plus [`FAR`].
+    ///
+    /// The ball is tested in the projected form `[Haines19]`: the distance from the centre to the line's nearest point does
+    /// not cancel as `b^2 - 4ac` does far away.
     #[inline(always)]
     pub fn span<S: Simd>(&self, simd: S, o: V3<S>, d: V3<S>, ball: Ball) -> (F<S>, F<S>, M<S>) {
         let zero = F::<S>::splat(simd, 0.0);
@@ -156,7 +162,7 @@ impl Shape {
         }
     }
 
-    /// Unit outward normal at a point of the surface.
+    /// Unit outward normal at a point of the surface. On an edge of a block or cylinder it is that of one of the faces.
     #[simd]
     pub fn normal<S: Simd>(&self, simd: S, p: V3<S>) -> V3<S> {
         match *self {
@@ -193,17 +199,17 @@ impl Shape {
     }
 }
 
-/// The roots `b - sqrt(disc)` and `b + sqrt(disc)`, whose product is known.
+/// The roots `b - sqrt(disc)` and `b + sqrt(disc)`, given their product.
 #[inline(always)]
 fn roots<S: Simd>(b: F<S>, disc: F<S>, product: F<S>) -> (F<S>, F<S>) {
-    // The root on the far side of the nearest point is exact; the other follows from their product.
+    // The root of larger magnitude does not cancel; the other follows from their product.
     let far = b + disc.sqrt().copysign(b);
     let near = product / far;
     (far.min(near), far.max(near))
 }
 
-/// How a line passes a point: from the point to the line's origin, how far along the line it is nearest, and the square of
-/// how near.
+/// How a line passes a point: the vector from the point to the line's origin, the distance along the line at which it is
+/// nearest, and the square of the distance between them there.
 #[inline(always)]
 fn past<S: Simd>(o: V3<S>, d: V3<S>, center: Vec3) -> (V3<S>, F<S>, F<S>) {
     let q = o.sub1(center);
@@ -214,14 +220,15 @@ fn past<S: Simd>(o: V3<S>, d: V3<S>, center: Vec3) -> (V3<S>, F<S>, F<S>) {
 
 /// The unit vector of every lane.
 ///
-/// Not a division by the radius: what a hit point is off by would come back, 13 times as large, in the length of each
-/// direction that is reflected inside of a ball.
+/// The normal of a ball is not divided by the radius instead: the error of a hit point would come back, 13 times as large,
+/// in the length of each direction that is reflected inside a ball.
 #[inline(always)]
 fn unit<S: Simd>(simd: S, v: V3<S>) -> V3<S> {
     v * Lane(F::<S>::splat(simd, 1.0) / v.dot(v).sqrt())
 }
 
-/// Where a line is between `-half` and `half` on one axis. Directions too small to divide by are nudged: 0 * inf never forms.
+/// The interval in which a line is between `-half` and `half` on one axis. Directions too small to divide by are nudged
+/// away from 0, so that 0 times infinity never forms.
 #[inline(always)]
 fn slab<S: Simd>(simd: S, o: F<S>, d: F<S>, half: f32) -> (F<S>, F<S>) {
     let d = d.abs().max(F::<S>::splat(simd, 1e-20)).copysign(d);
@@ -229,7 +236,7 @@ fn slab<S: Simd>(simd: S, o: F<S>, d: F<S>, half: f32) -> (F<S>, F<S>) {
     (a.min(b), a.max(b))
 }
 
-/// A vector a lane, through one matrix.
+/// The vector of every lane, through one matrix.
 #[inline(always)]
 fn turned<S: Simd>(m: Mat3, v: V3<S>) -> V3<S> {
     V3 { x: v.dot1(m.row(0)), y: v.dot1(m.row(1)), z: v.dot1(m.row(2)) }

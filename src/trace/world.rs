@@ -1,79 +1,75 @@
-//! What is traced: shapes with materials, lights, and the sky behind them.
+//! What the ray tracer is given: convex bodies with their materials, lights, and the background behind them.
+//!
+//! Light is linear; a colour is light per channel (red, green, blue) and may exceed 1. Lengths are metres, y points up.
+//! Nothing is validated: directions and axes that are called unit have to be of length 1, and numbers that are not finite
+//! give unspecified light.
 
 use super::shape::Shape;
-use crate::texture::{Pattern, Texture};
+use crate::texture::Texture;
 use glam::Vec3;
 
-/// How a surface answers light: Phong over a texture, a mirror on top, or clear glass.
+/// How a surface answers light: Phong's model over a solid texture with a mirror on top, or clear glass.
+///
+/// A matte surface reflects `albedo` times the light that falls on it by Lambert's law, and adds a highlight
+/// `[Phong75]`. The mirror takes its share of both and replaces it by the mirrored light. Glass has neither texture nor
+/// mirror: it splits light by Fresnel's law for unpolarised light, and adds a highlight.
 #[derive(Clone, Copy, Debug)]
 pub struct Material {
-    /// Base colour by position, linear.
+    /// Colour of the surface by position. Glass ignores it.
     pub albedo: Texture,
-    /// Mirror: share of each colour that is reflected, the rest is shaded locally. Ignored by glass.
+    /// Share of each colour that is mirrored at normal incidence, 0 to 1; the rest is shaded locally. Glass ignores it.
     pub reflectance: Vec3,
-    /// What Fresnel (Schlick's fifth power) adds to `reflectance` towards grazing angles: 0 none, 1 a full mirror.
+    /// How much of what lacks to a full mirror is added at grazing angles, 0 to 1, by the fifth power of Schlick's
+    /// approximation `[Schlick94]`. Glass ignores it.
     pub fresnel: f32,
-    /// Weight of the Phong highlight.
+    /// Weight of the highlight; 0 for none.
     pub specular: f32,
-    /// Exponent of the Phong highlight.
+    /// Exponent of the highlight: the larger, the smaller and sharper it is.
     pub exponent: f32,
-    /// Index of refraction; 0: opaque.
+    /// Index of refraction, relative to what surrounds the body; 0 for an opaque surface.
     pub ior: f32,
-    /// What one crossing of the surface leaves of each colour. Only glass.
+    /// Share of each colour that one crossing of a glass surface leaves, 0 to 1. Opaque surfaces ignore it.
     pub filter: Vec3,
 }
 
-/// How many numbers of a material the shading of a hit needs.
-pub const SURFACE: usize = 14;
-/// Where the mean colour stands among them, three numbers;
-pub const ALBEDO: usize = 0;
-/// the mirror, three;
-pub const REFLECTANCE: usize = 3;
-/// the tint of glass, three;
-pub const FILTER: usize = 6;
-/// what Fresnel adds to the mirror;
-pub const FRESNEL: usize = 9;
-/// the weight of the highlight;
-pub const SPECULAR: usize = 10;
-/// and its exponent;
-pub const EXPONENT: usize = 11;
-/// the index of refraction;
-pub const IOR: usize = 12;
-/// and 1 where there is a texture.
-pub const TEXTURED: usize = 13;
-
 impl Material {
-    /// A matt surface.
-    pub const fn matt(albedo: Texture) -> Material {
+    /// A surface that scatters light evenly: no mirror, no highlight.
+    pub const fn matte(albedo: Texture) -> Material {
         let black = Vec3::ZERO;
         Material { albedo, reflectance: black, fresnel: 0.0, specular: 0.0, exponent: 1.0, ior: 0.0, filter: Vec3::ONE }
     }
 
-    /// Clear glass of index `ior`, each crossing tinted by `filter`.
+    /// A matte surface of one colour.
+    pub const fn plain(color: Vec3) -> Material {
+        Material::matte(Texture::plain(color))
+    }
+
+    /// A mirror over black: it shows nothing but `reflectance` times what it mirrors.
+    pub const fn mirror(reflectance: Vec3) -> Material {
+        Material { reflectance, ..Material::plain(Vec3::ZERO) }
+    }
+
+    /// Clear glass with the index of refraction `ior`, above 0. Each crossing of the surface leaves `filter` of the light.
     pub const fn glass(ior: f32, filter: Vec3) -> Material {
-        Material { ior, filter, ..Material::matt(Texture::plain(Vec3::ZERO)) }
+        Material { ior, filter, ..Material::plain(Vec3::ZERO) }
     }
 
-    /// With a mirror of one grey and a highlight.
+    /// The same material with a colourless mirror and a highlight.
     pub const fn polished(self, reflectance: f32, specular: f32, exponent: f32) -> Material {
-        Material { reflectance: Vec3::splat(reflectance), specular, exponent, ..self }
+        Material { reflectance: Vec3::splat(reflectance), ..self.shiny(specular, exponent) }
     }
 
-    /// What the shading of a hit needs of it.
-    pub fn numbers(&self) -> [f32; SURFACE] {
-        let mut numbers = [0.0; SURFACE];
-        for (at, color) in [(ALBEDO, self.albedo.mean()), (REFLECTANCE, self.reflectance), (FILTER, self.filter)] {
-            numbers[at..at + 3].copy_from_slice(&color.to_array());
-        }
-        numbers[FRESNEL] = self.fresnel;
-        numbers[SPECULAR] = self.specular;
-        numbers[EXPONENT] = self.exponent;
-        numbers[IOR] = self.ior;
-        numbers[TEXTURED] = if self.albedo.pattern == Pattern::Plain { 0.0 } else { 1.0 };
-        numbers
+    /// The same material with a highlight of the weight `specular`.
+    pub const fn shiny(self, specular: f32, exponent: f32) -> Material {
+        Material { specular, exponent, ..self }
     }
 
-    /// Does light pass through?
+    /// The same material with a lacquer: a mirror that grows by `fresnel` (0 to 1) towards grazing angles.
+    pub const fn lacquered(self, fresnel: f32) -> Material {
+        Material { fresnel, ..self }
+    }
+
+    /// Whether light passes through.
     pub const fn is_glass(&self) -> bool {
         self.ior > 0.0
     }
@@ -82,20 +78,33 @@ impl Material {
 /// A convex body.
 #[derive(Clone, Copy, Debug)]
 pub struct Object {
-    /// Where it is.
+    /// Shape and place.
     pub shape: Shape,
     /// What it is made of.
     pub material: Material,
-    /// Does it keep light from others? Glass should not; a floor below all lights need not.
+    /// Whether it keeps light from other bodies. Shadows are opaque, so glass usually should not; a floor below all
+    /// lights need not.
     pub casts_shadow: bool,
+}
+
+impl Object {
+    /// A body that casts a shadow.
+    pub const fn new(shape: Shape, material: Material) -> Object {
+        Object { shape, material, casts_shadow: true }
+    }
+
+    /// The same body without a shadow.
+    pub const fn without_shadow(self) -> Object {
+        Object { casts_shadow: false, ..self }
+    }
 }
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug)]
-pub enum Source {
-    /// A point in space, no falloff (thesis A).
+pub enum Emitter {
+    /// A point in space. Its light does not fall off with distance `[Intro07]`.
     Point(Vec3),
-    /// The unit direction towards a light without distance.
+    /// The unit direction towards a light that is infinitely far away.
     Directional(Vec3),
 }
 
@@ -103,40 +112,102 @@ pub enum Source {
 #[derive(Clone, Copy, Debug)]
 pub struct Light {
     /// Where it is.
-    pub source: Source,
-    /// Linear colour times intensity.
+    pub emitter: Emitter,
+    /// Light on a white surface that faces it.
     pub color: Vec3,
-    /// Radius of the luminous ball (metres; for a directional light the sine of its angular radius): 0 for hard shadows.
+    /// Radius of the luminous ball, for soft shadows: metres, or for a directional light the sine of its angular radius.
+    /// 0 for hard shadows. The 64 kB build takes every light as a point.
     pub radius: f32,
 }
 
-/// What a ray meets that meets nothing.
-#[derive(Clone, Copy, Debug)]
-pub struct Sky {
-    /// Colour at and below the horizon.
-    pub horizon: Vec3,
-    /// Colour straight up; between, linear in the direction's y.
-    pub zenith: Vec3,
-    /// Unit direction, colour and exponent of a glow; exponent 0: none.
-    pub glow: (Vec3, Vec3, f32),
+impl Light {
+    /// A light at a point, with hard shadows.
+    pub const fn point(position: Vec3, color: Vec3) -> Light {
+        Light { emitter: Emitter::Point(position), color, radius: 0.0 }
+    }
+
+    /// A light in a unit direction, with hard shadows.
+    pub const fn directional(towards: Vec3, color: Vec3) -> Light {
+        Light { emitter: Emitter::Directional(towards), color, radius: 0.0 }
+    }
+
+    /// The same light with a radius (see [`Light::radius`]).
+    pub const fn with_radius(self, radius: f32) -> Light {
+        Light { radius, ..self }
+    }
 }
 
-/// Everything that the tracer needs of one instant.
+/// A lobe of light in the background, around the sun for example.
+#[derive(Clone, Copy, Debug)]
+pub struct Glow {
+    /// Unit direction of its middle.
+    pub direction: Vec3,
+    /// Light that it adds in its middle.
+    pub color: Vec3,
+    /// Exponent of the cosine by which it falls off; 0 for no glow.
+    pub exponent: f32,
+}
+
+impl Glow {
+    /// No glow.
+    pub const NONE: Glow = Glow { direction: Vec3::Y, color: Vec3::ZERO, exponent: 0.0 };
+}
+
+/// What a ray sees that meets no body: a vertical gradient, and a glow on top.
+#[derive(Clone, Copy, Debug)]
+pub struct Background {
+    /// Light at the horizon and below.
+    pub horizon: Vec3,
+    /// Light straight up. In between, light is linear in the y of the direction.
+    pub zenith: Vec3,
+    /// What is added around one direction.
+    pub glow: Glow,
+}
+
+impl Background {
+    /// The same light from everywhere.
+    pub const fn even(color: Vec3) -> Background {
+        Background::gradient(color, color)
+    }
+
+    /// From the light at the horizon to that at the zenith.
+    pub const fn gradient(horizon: Vec3, zenith: Vec3) -> Background {
+        Background { horizon, zenith, glow: Glow::NONE }
+    }
+}
+
+/// Everything that the ray tracer shows at one instant.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// Bodies; the index is the object's identity within a frame.
+    /// The bodies. A body's index is its identity within a frame.
     pub objects: Vec<Object>,
-    /// At most [`World::MAX_LIGHTS`].
+    /// The lights, at most [`World::MAX_LIGHTS`].
     pub lights: Vec<Light>,
-    /// Light from everywhere.
+    /// Light that reaches every point from everywhere.
     pub ambient: Vec3,
-    /// Background.
-    pub sky: Sky,
-    /// Longest chain: 1 is the eye ray alone.
+    /// What lies behind the bodies.
+    pub background: Background,
+    /// Number of rays in the longest path: 1 for eye rays alone, 2 with one reflection or refraction, and so on.
     pub max_level: u32,
 }
 
 impl World {
-    /// Lights whose state a corner can remember.
+    /// The number of lights whose state the path signature of a sample can tell apart.
     pub const MAX_LIGHTS: usize = 8;
+
+    /// Nothing under a black sky, for paths of up to five rays.
+    pub const EMPTY: World = World {
+        objects: Vec::new(),
+        lights: Vec::new(),
+        ambient: Vec3::ZERO,
+        background: Background::even(Vec3::ZERO),
+        max_level: 5,
+    };
+}
+
+impl Default for World {
+    /// [`World::EMPTY`].
+    fn default() -> World {
+        World::EMPTY
+    }
 }

@@ -1,58 +1,64 @@
-//! The pinhole camera of the bench scenes, right-handed, y up; and the eyes of a stereo pair beside it.
+//! A pinhole camera, and the eyes of a stereo pair beside it.
+//!
+//! The world is right-handed with y up; lengths are metres.
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use glam::Vec3;
 
-/// A pinhole camera. Rays leave `eye` along `forward + (px + shift) * right + py * up`.
+/// A pinhole camera.
+///
+/// The ray through the screen's point (`px`, `py`) leaves `eye` along `forward + (px + shift) * right + py * up`. The screen
+/// is two units high; (0, 0) is its middle.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// Position, metres.
+    /// Where rays start, metres.
     pub eye: Vec3,
-    /// Unit view direction.
+    /// Unit vector along the view axis.
     pub forward: Vec3,
-    /// Direction to the right, scaled to half the picture's height at distance one.
+    /// Direction to the right of the picture, as long as half of its height is at a distance of one metre.
     pub right: Vec3,
-    /// Direction up, scaled like `right`.
+    /// Direction to the top of the picture, as long as `right`.
     pub up: Vec3,
-    /// How far the lens is shifted to the right, halves of the picture's height: 0 but for the two eyes of a stereo pair.
+    /// How far the picture is shifted to the right of the view axis, halves of its height: 0 but for the two eyes of a stereo
+    /// pair.
     pub shift: f32,
 }
 
-/// An eye beside a camera.
+/// Where an eye is beside a camera, and where its picture is aimed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eye {
     /// Metres to the right of the camera.
     pub offset: f32,
-    /// Metres along the view axis, above 0, at which every eye sees a thing at the same place of its picture.
+    /// Metres along the view axis at which both eyes of a pair see a thing at the same place of their pictures. Above 0.
     pub convergence: f32,
 }
 
 impl Eye {
-    /// The camera's own place.
+    /// The place of the camera itself.
     pub const MIDDLE: Eye = Eye { offset: 0.0, convergence: 1.0 };
 }
 
-/// Two eyes beside a camera.
+/// A pair of eyes beside a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stereo {
     /// Metres between the eyes, 0 or more.
     pub eye_distance: f32,
-    /// As in [`Eye`].
+    /// Metres along the view axis, as in [`Eye::convergence`].
     pub convergence: f32,
 }
 
 impl Stereo {
-    /// The left eye for a `side` of -1/2, the right one for 1/2.
+    /// The left eye for a `side` of -1/2, the right eye for 1/2.
     pub fn eye(self, side: f32) -> Eye {
         Eye { offset: side * self.eye_distance, convergence: self.convergence }
     }
 }
 
 impl Camera {
-    /// Looks from `eye` to `target` with a vertical field of view `fov` in radians, rolled by `roll` radians.
+    /// A camera at `eye` that looks at `target`, with a vertical field of view of `fov` radians and rolled by `roll` radians.
     ///
-    /// Never degenerate: where `eye` equals `target` it looks along -z, and where the view is vertical
-    /// the screen's up is -z (looking down) or +z (looking up).
+    /// The axes are never degenerate: where `eye` equals `target` the camera looks along -z, and where it looks straight down
+    /// (up) the top of its picture is towards -z (+z).
     pub fn look_at(eye: Vec3, target: Vec3, fov: f32, roll: f32) -> Camera {
         let forward = (target - eye).try_normalize().unwrap_or(Vec3::NEG_Z);
         let side = forward.cross(Vec3::Y);
@@ -69,12 +75,12 @@ impl Camera {
         }
     }
 
-    /// The camera moved to an eye; itself for [`Eye::MIDDLE`].
+    /// The camera moved to an eye. [`Eye::MIDDLE`] leaves it as it is.
     ///
-    /// The axis stays parallel and the lens is shifted: of axes that meet each eye would see the same point at another
-    /// height.
+    /// The axes of a pair stay parallel and their pictures are shifted. Were the axes turned to meet instead, the two eyes would
+    /// see most points at different heights.
     pub fn at(self, eye: Eye) -> Camera {
-        if !BENCH {
+        if !cuts::STEREO {
             return self;
         }
         let metre = eye.offset / self.right.length();

@@ -1,16 +1,15 @@
 //! Clouds in a tile: solids before, in and behind them, cells of pixels, and one cloud before another.
 
-use super::common::levels;
 use super::oracle::{DAY, FURNACE, ball, cloud, filled, span, truth};
 use fearless_simd::Level;
 use glam::{Vec3, vec3};
-use paprsek::cloud::CloudLayer;
-use paprsek::cloud::march::{Cloud, Look};
+use paprsek::cloud::{Cloud, CloudLayer, CloudLight};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::scenes;
 use paprsek::settings::{CloudSettings, Quality};
 use paprsek::view::Camera;
 use paprsek::view::View;
+use testkit::levels;
 
 /// A sum of a hundred roundings, and places that are good to 1e-5.
 const EXACT: f64 = 3e-5;
@@ -25,8 +24,8 @@ fn exact() -> CloudSettings {
 }
 
 /// Solids by coverage and depth along the view axis, with the clouds over them. They are not all of one colour.
-fn tile(clouds: Vec<Cloud>, look: Look, quality: CloudSettings, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
-    let layer = CloudLayer::new(clouds, look, |_| Vec3::ONE, f32::INFINITY, view(), quality);
+fn tile(clouds: Vec<Cloud>, light: CloudLight, quality: CloudSettings, solid: impl Fn(usize) -> (f32, f32)) -> Tile {
+    let layer = CloudLayer::new(clouds, light, &view(), &quality);
     let mut tile = Tile::at(0, 0, 64, 64);
     for at in 0..Tile::AREA {
         let (covers, depth) = solid(at);
@@ -172,8 +171,8 @@ fn every_level_draws_the_same_bits() {
     for quality in [Quality::FAST, Quality::REFERENCE].map(|quality| quality.cloud) {
         let mut first = None;
         for (name, level) in levels() {
-            let layer =
-                CloudLayer::new(clouds(), DAY, |_| Vec3::ONE, 100.0, view(), CloudSettings { steps: 100, ..quality });
+            let layer = CloudLayer::new(clouds(), DAY, &view(), &CloudSettings { steps: 100, ..quality })
+                .in_air(100.0, |_| Vec3::ONE);
             let mut tile = Tile::at(0, 0, 64, 50);
             for at in 0..Tile::AREA {
                 tile.coverage[at] = (at % 3) as f32 * 0.5;

@@ -1,15 +1,12 @@
 //! One cloud, ray by ray.
 
-use super::common::levels;
 use super::oracle::{DAY, FURNACE, aim, ball, cloud, filled, ray, rays, span, truth};
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
-use paprsek::cloud::march::Cloud;
-use paprsek::cloud::shape::Kind;
-use paprsek::cloud::sunlight;
-use paprsek::cloud::voxels::Voxels;
+use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
 use proptest::prelude::*;
 use std::sync::Arc;
+use testkit::levels;
 
 /// Transmittance is a sum of a hundred roundings of numbers up to 1.
 const ROUNDING: f64 = 100.0 * 6e-8;
@@ -20,8 +17,8 @@ const PLACES: f64 = 1e-4;
 
 const FOREVER: f32 = f32::INFINITY;
 
-fn grown(kind: &Kind, seed: u32, edge: usize) -> Voxels {
-    dispatch!(Level::new(), simd => Kind::grow(simd, kind, seed, edge))
+fn grown(kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
+    dispatch!(Level::new(), simd => CloudKind::grow(simd, kind, seed, edge))
 }
 
 #[test]
@@ -128,7 +125,7 @@ fn half_the_step_makes_a_quarter_of_the_error() {
 
 #[test]
 fn it_is_what_f64_says() {
-    let mut voxels = grown(&Kind::CUMULUS, 3, 64);
+    let mut voxels = grown(&CloudKind::CUMULUS, 3, 64);
     dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3(0.6, 0.5, 0.3).normalize(), 20.0));
     let cloud = cloud(voxels, 20.0);
     let mut worst = 0.0f64;
@@ -144,7 +141,7 @@ fn it_is_what_f64_says() {
 
 #[test]
 fn every_level_gives_the_same_bits() {
-    let cloud = cloud(grown(&Kind::CONGESTUS, 1, 32), 15.0);
+    let cloud = cloud(grown(&CloudKind::CONGESTUS, 1, 32), 15.0);
     for k in 0..60 {
         let eye = aim(k).0;
         // Lanes that go apart: some miss, some end early.
@@ -172,12 +169,12 @@ fn every_level_gives_the_same_bits() {
 
 #[test]
 fn eight_small_cubes_are_one_large_one() {
-    let whole = cloud(grown(&Kind::CUMULUS, 2, 64), 8.0);
+    let whole = cloud(grown(&CloudKind::CUMULUS, 2, 64), 8.0);
     // Each part has two voxels of its neighbours around it, which its rays do not reach.
     let part = |corner: [usize; 3]| {
         filled(36, |place| {
             let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
-            whole.voxels.density[at(0) + 64 * (at(1) + 64 * at(2))]
+            whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
         })
     };
     let parts = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| {
@@ -219,6 +216,23 @@ fn leaps_leave_nothing_out() {
             assert!(error < PLACES, "{needle:?} from {eye}: {left} against {exact_left}");
         }
     }
+}
+
+/// What empty space is was once measured when voxels were made and never again: a cloud that was written into them later
+/// was leapt over, and its pictures were cut to the size of the old one.
+#[test]
+fn what_is_written_later_is_seen() {
+    let needle = |at: usize| filled(32, |place| if place == [at; 3] { 255 } else { 0 });
+    let (early, late) = (needle(3), needle(25));
+    let mut written = early.clone();
+    written.set_density(late.density().to_vec());
+    assert_eq!(written.reach(), late.reach());
+    let target = Vec3::splat(25.5 / 16.0 - 1.0);
+    let (eye, d) = (target + Vec3::Y * 4.0, Vec3::NEG_Y);
+    let [early, late, written] = [early, late, written].map(|voxels| cloud(voxels, 50.0));
+    let [early, late, written] = [&early, &late, &written].map(|cloud| ray(cloud, &FURNACE, eye, d, FOREVER, 100.0));
+    assert!(early.1 == 1.0 && late.1 < 0.9, "{early:?} {late:?}");
+    assert_eq!(written, late);
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{DVec3, Vec3, dvec3, vec3};
-use paprsek::cloud::march::{Cloud, Look, march};
-use paprsek::cloud::voxels::Voxels;
+use paprsek::cloud::march::march;
+use paprsek::cloud::{Cloud, CloudLight, Voxels};
 use paprsek::noise::{fbm, noise};
 use paprsek::simd::hash::rnd;
 use paprsek::simd::lanes::{F, V3};
@@ -11,10 +11,15 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// All light comes from everywhere, and is 1: then light and transmittance make 1.
-pub const FURNACE: Look = Look { ambient: [Vec3::ONE; 2], towards: Vec3::Y, sun: Vec3::ZERO, phase: [0.0; 2] };
+pub const FURNACE: CloudLight =
+    CloudLight { ambient: [Vec3::ONE; 2], towards: Vec3::Y, sun: Vec3::ZERO, phase: [0.0; 2] };
 /// Light that differs by height and direction.
-pub const DAY: Look =
-    Look { ambient: [vec3(0.2, 0.3, 0.4), vec3(0.4, 0.4, 0.5)], towards: Vec3::Y, sun: Vec3::ONE, phase: [0.8, 0.5] };
+pub const DAY: CloudLight = CloudLight {
+    ambient: [vec3(0.2, 0.3, 0.4), vec3(0.4, 0.4, 0.5)],
+    towards: Vec3::Y,
+    sun: Vec3::ONE,
+    phase: [0.8, 0.5],
+};
 
 /// A cloud in the cube from -1 to 1.
 pub fn cloud(voxels: Voxels, extinction: f32) -> Cloud {
@@ -48,7 +53,7 @@ pub fn aim(k: usize) -> (Vec3, Vec3) {
 pub fn rays(
     level: Level,
     cloud: &Cloud,
-    look: &Look,
+    look: &CloudLight,
     eye: Vec3,
     d: &[Vec3; 16],
     limit: f32,
@@ -56,7 +61,7 @@ pub fn rays(
 ) -> Vec<(Vec3, f32)> {
     fn all<S: Simd>(
         simd: S,
-        (cloud, look, eye): (&Cloud, &Look, Vec3),
+        (cloud, look, eye): (&Cloud, &CloudLight, Vec3),
         d: &[Vec3; 16],
         limit: f32,
         cut: [f32; 2],
@@ -78,7 +83,7 @@ pub fn rays(
 }
 
 /// Light and transmittance along one ray that nothing ends before `limit`.
-pub fn ray(cloud: &Cloud, look: &Look, eye: Vec3, d: Vec3, limit: f32, steps: f32) -> (Vec3, f32) {
+pub fn ray(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, limit: f32, steps: f32) -> (Vec3, f32) {
     rays(Level::new(), cloud, look, eye, &[d; 16], limit, [steps, 0.0])[0]
 }
 
@@ -110,14 +115,14 @@ fn look_up(voxels: &Voxels, p: DVec3) -> [f64; 2] {
             at += (base[axis] as usize + far) * [1, n, n * n][axis];
             weight *= if far == 1 { f[axis] } else { 1.0 - f[axis] };
         }
-        sum[0] += weight * voxels.density[at] as f64;
-        sum[1] += weight * voxels.light[at] as f64;
+        sum[0] += weight * voxels.density()[at] as f64;
+        sum[1] += weight * voxels.light()[at] as f64;
     }
     sum
 }
 
 /// The march in f64, as the bench scenes specify it, but that nothing ends it.
-pub fn truth(cloud: &Cloud, look: &Look, eye: Vec3, d: Vec3, steps: u32) -> (DVec3, f64) {
+pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, steps: u32) -> (DVec3, f64) {
     let (q, d) = ((eye - cloud.centre).as_dvec3() / cloud.size as f64, d.as_dvec3());
     let Some((entry, exit)) = span(q, d) else { return (DVec3::ZERO, 1.0) };
     let length = (exit - entry) / steps as f64;
@@ -142,7 +147,7 @@ pub fn depth(voxels: &Voxels, voxel: usize, towards: DVec3, extinction: f64, [sa
     let at = |place: [i64; 3]| {
         let inside = place.iter().all(|i| (0..n as i64).contains(i));
         let index = place[0] + n as i64 * (place[1] + n as i64 * place[2]);
-        if inside { voxels.density[index as usize] as f64 / 255.0 } else { 0.0 }
+        if inside { voxels.density()[index as usize] as f64 / 255.0 } else { 0.0 }
     };
     let mut sum = 0.0;
     for s in 0..samples {

@@ -3,9 +3,6 @@
 //! This proves "unchanged", not "right"; the tests with oracles do that. A change that is meant to alter pictures
 //! replaces `frames.txt` by the table that the failing test leaves behind, and says why.
 
-#[path = "../common/mod.rs"]
-mod common;
-
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
@@ -52,7 +49,7 @@ fn table(renderer: &mut Renderer) -> String {
 #[test]
 fn every_frame_is_what_it_was() {
     let kept = include_str!("frames.txt");
-    for (name, level) in common::levels() {
+    for (name, level) in testkit::levels() {
         let found = table(&mut Renderer::new(0).unwrap().at_level(level));
         let changed: Vec<_> = found.lines().filter(|line| !kept.lines().any(|k| k == *line)).collect();
         let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/frames.txt");

@@ -5,10 +5,9 @@ use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
-use paprsek::particles::snow::Snow;
+use paprsek::particles::{Fire, ParticleLayer, Snow};
 use paprsek::scenes::bench::particles::fires;
+use paprsek::settings::Quality;
 use paprsek::view;
 use paprsek::view::View;
 use std::f64::consts::TAU;
@@ -80,7 +79,8 @@ fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer
 
 /// The same for fires seen along `forward` from `eye`, on two threads.
 pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<Vec3> {
-    let particles = ParticleLayer::fire(fires.to_vec(), exposure, &view(eye, forward, size), size.0, size.1);
+    let particles =
+        ParticleLayer::new(fires.to_vec(), &view(eye, forward, size), &Quality::EXACT.particles).exposed(exposure);
     draw(&mut Renderer::new(2).unwrap(), particles, size, behind)
 }
 
@@ -97,13 +97,14 @@ pub fn snow(field: Snow, eye: Vec3, forward: Vec3, size: Size) -> Vec<Vec3> {
             Stats::default()
         }
     }
-    let layer = ParticleLayer::snow(vec![field], vec3(0.95, 0.97, 1.0), &view(eye, forward, size), size.0, size.1);
+    let layer = ParticleLayer::new([field], &view(eye, forward, size), &Quality::EXACT.particles)
+        .colored(vec3(0.95, 0.97, 1.0));
     over(&mut Renderer::new(2).unwrap(), Box::new(Gradient(size.1 as f32)), layer, size)
 }
 
-/// A particle that stands still: where it is, its radius, and its light and share of what is behind that it takes where
-/// it is brightest. It is number 0 of the bench scene's stream.
-pub fn still(place: Vec3, radius: f32, light: Vec3, alpha: f32) -> Fire {
+/// A particle that stands still: where it is, its radius, and its light where it is brightest. It is number 0 of the bench
+/// scene's stream.
+pub fn still(place: Vec3, radius: f32, light: Vec3) -> Fire {
     let mut fire = fires(0.0)[0];
     fire.flame.life = [1.0, 0.0];
     (fire.flame.ring, fire.flame.speed, fire.flame.lift) = ([0.0; 2], [0.0; 2], 0.0);
@@ -111,7 +112,7 @@ pub fn still(place: Vec3, radius: f32, light: Vec3, alpha: f32) -> Fire {
     // A third of a life after its birth 30 x (1 - x)^2 is 40/9.
     fire.time = 1.0 / 3.0 - random(fire.seed, 0, 1);
     fire.weight = 9.0 / 40.0;
-    (fire.flame.light, fire.flame.alpha) = ([light; 2], alpha);
+    fire.flame.light = [light; 2];
     Fire { place, count: 1.0, first: 0, ..fire }
 }
 
@@ -121,7 +122,6 @@ struct Soft {
     /// Metres before a solid within which it fades.
     edge: f64,
     light: DVec3,
-    alpha: f64,
 }
 
 /// A fire's particles that are before the eye.
@@ -160,30 +160,25 @@ fn softs(fire: &Fire, eye: DVec3, camera: &Camera, height: usize) -> Vec<Soft> {
         let whole = (f64::from(fire.count) - f64::from(i)).clamp(0.0, 1.0);
         let glow = 30.0 * x * (1.0 - x).powi(2) * f64::from(fire.weight) * whole;
         let light = flame.light[0].as_dvec3() + (flame.light[1] - flame.light[0]).as_dvec3() * x;
-        let alpha = (glow * f64::from(flame.alpha)).min(1.0) * share;
-        found.push(Soft { edge: spot.radius / metre, spot, light: light * glow * share, alpha });
+        found.push(Soft { edge: spot.radius / metre, spot, light: light * glow * share });
     }
     found
 }
 
-/// What [`burn`] should give: from far to near each sprite takes its share of the light behind it and adds its own.
+/// What [`burn`] should give: the light of all sprites on film, over what is behind.
 pub fn truth(fires: &[Fire], exposure: f64, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<DVec3> {
     let camera = Camera::new(forward.as_dvec3(), size);
-    let mut all: Vec<Soft> = fires.iter().flat_map(|fire| softs(fire, eye.as_dvec3(), &camera, size.1)).collect();
-    all.sort_by(|a, b| b.spot.depth.total_cmp(&a.spot.depth));
-    let (mut sum, mut passes) = (vec![DVec3::ZERO; size.0 * size.1], vec![1.0; size.0 * size.1]);
-    for soft in &all {
+    let mut sum = vec![DVec3::ZERO; size.0 * size.1];
+    for soft in fires.iter().flat_map(|fire| softs(fire, eye.as_dvec3(), &camera, size.1)) {
         camera.cover(&soft.spot, |at, mut weight| {
             if let Some(depth) = behind(at % size.0, at / size.0).1 {
                 weight *= ((f64::from(depth) - soft.spot.depth) / soft.edge).clamp(0.0, 1.0);
             }
-            let leaves = 1.0 - weight * soft.alpha;
-            passes[at] *= leaves;
-            sum[at] = sum[at] * leaves + soft.light * weight;
+            sum[at] += soft.light * weight;
         });
     }
     let pixel = |at: usize| {
-        let light = behind(at % size.0, at / size.0).0.as_dvec3() * passes[at];
+        let light = behind(at % size.0, at / size.0).0.as_dvec3();
         1.0 - (1.0 - light) * (-exposure * sum[at]).exp()
     };
     (0..size.0 * size.1).map(pixel).collect()

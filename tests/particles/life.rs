@@ -3,8 +3,7 @@
 use super::layer::{Size, burn, dusk, off, same, snow, truth, worst};
 use super::oracle::random;
 use glam::{DVec3, Vec3, vec3};
-use paprsek::particles::fire::Fire;
-use paprsek::particles::snow::{Flakes, Snow};
+use paprsek::particles::{Fire, Flakes, Snow};
 use paprsek::scenes::bench::particles::{self, fires};
 
 const SIZE: Size = (128, 72);

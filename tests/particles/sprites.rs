@@ -1,15 +1,13 @@
 //! Sprites in awkward places, before and in solids, across tiles, in colours and in great numbers.
 
-use super::common::levels;
 use super::layer::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth, view, worst};
 use super::oracle::{FLAKES, random, snow_beside};
 use glam::{DVec3, Vec3, vec3};
 use paprsek::frame::Renderer;
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::fire::Fire;
-use paprsek::particles::snow::Flakes;
-use paprsek::particles::sprite::Lens;
+use paprsek::particles::{Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, fires, flakes};
+use paprsek::settings::Quality;
+use testkit::levels;
 
 /// Light, where places on the screen are good to some 1e-5 pixels and sprites are about a pixel large, or larger.
 const PLACES: f64 = 1e-4;
@@ -37,13 +35,13 @@ fn both(fires: &[Fire], exposure: f32) -> (Vec<Vec3>, Vec<DVec3>) {
 }
 
 /// Sprites of all colours and sizes anywhere before the eye, some of them beside the picture.
-fn colours(count: u32, alpha: f32) -> Vec<Fire> {
+fn colours(count: u32) -> Vec<Fire> {
     let one = |i: u32| {
         // From 0.4 to 50 metres, each further away than the one before.
         let depth = 0.4 * 125f32.powf((i as f32 + between(i, 7) * 0.4 + 0.5) / count as f32);
         let place = vec3(between(i, 0) * 0.6, between(i, 1) * 0.6, -1.0) * depth;
         let light = vec3(between(i, 2).abs(), between(i, 3).abs(), between(i, 4).abs());
-        still(place, depth * (0.01 + 0.12 * between(i, 5).abs()), light, alpha * between(i, 6).abs())
+        still(place, depth * (0.01 + 0.12 * between(i, 5).abs()), light)
     };
     (0..count).map(one).collect()
 }
@@ -51,12 +49,9 @@ fn colours(count: u32, alpha: f32) -> Vec<Fire> {
 #[test]
 fn a_sprite_is_its_disc() {
     for radius in [0.01, 0.1, 1.0, 10.0] {
-        for alpha in [0.0, 0.7, 1.0] {
-            let fires = [still(vec3(0.3, -0.2, -4.0), radius, vec3(0.2, 0.4, 0.6), alpha)];
-            let (found, truth) = both(&fires, 1.0);
-            let off = worst(&found, &truth);
-            assert!(off < PLACES, "radius {radius}, alpha {alpha}: {off}");
-        }
+        let (found, truth) = both(&[still(vec3(0.3, -0.2, -4.0), radius, vec3(0.2, 0.4, 0.6))], 1.0);
+        let off = worst(&found, &truth);
+        assert!(off < PLACES, "radius {radius}: {off}");
     }
 }
 
@@ -64,7 +59,7 @@ fn a_sprite_is_its_disc() {
 fn nothing_is_seen_of_what_is_nowhere() {
     const NAN: f32 = f32::NAN;
     const INFINITE: f32 = f32::INFINITY;
-    let good = still(vec3(0.0, 0.0, -3.0), 0.5, Vec3::ONE, 0.5);
+    let good = still(vec3(0.0, 0.0, -3.0), 0.5, Vec3::ONE);
     let at = |x, y, z| Fire { place: vec3(x, y, z), ..good };
     let mut cases = vec![
         ("behind the eye", at(0.0, 0.0, 3.0)),
@@ -89,7 +84,7 @@ fn nothing_is_seen_of_what_is_nowhere() {
         cases.extend([("x", at(far, 0.0, -3.0)), ("y", at(0.0, far, -3.0)), ("z", at(0.0, 0.0, -far.abs()))]);
     }
     // With and without something else in the picture.
-    for others in [vec![], colours(40, 0.9)] {
+    for others in [vec![], colours(40)] {
         let (without, _) = both(&others, 1.0);
         for (name, case) in &cases {
             let (with, _) = both(&[&others[..], &[*case]].concat(), 1.0);
@@ -110,7 +105,7 @@ fn sprites_near_the_eye_cover_what_they_should() {
         ("a hundred thousand pixels", vec3(0.0, -300.0, -0.5), 300.1),
     ];
     for (name, place, radius) in cases {
-        let (found, truth) = both(&[still(place, radius, vec3(0.3, 0.5, 0.7), 0.6)], 1.0);
+        let (found, truth) = both(&[still(place, radius, vec3(0.3, 0.5, 0.7))], 1.0);
         let off = worst(&found, &truth);
         println!("{name}: {off:.1e}");
         // Of middles that many pixels away the last bits are missing.
@@ -122,7 +117,7 @@ fn sprites_near_the_eye_cover_what_they_should() {
 #[test]
 fn a_sprite_may_be_as_large_as_it_likes() {
     for radius in [1e6, 1e9, 1e12, 1e18] {
-        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), radius, vec3(0.3, 0.5, 0.7), 0.6)], 1.0);
+        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), radius, vec3(0.3, 0.5, 0.7))], 1.0);
         let off = worst(&found, &truth);
         assert!(off < PLACES, "{radius} metres: {off}");
     }
@@ -132,7 +127,7 @@ fn a_sprite_may_be_as_large_as_it_likes() {
 #[test]
 fn a_sprite_may_be_of_any_colour() {
     for light in [Vec3::X, Vec3::Y, Vec3::Z] {
-        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), 0.5, light, 0.0)], 1.0);
+        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), 0.5, light)], 1.0);
         let off = worst(&found, &truth);
         assert!(off < PLACES, "{light}: {off}");
     }
@@ -142,7 +137,7 @@ fn a_sprite_may_be_of_any_colour() {
 fn a_lens_limits_what_is_small_and_near() {
     let lens = particles::FLAKES.lens;
     assert_eq!((lens.radius, lens.near), ([1.0, 24.0], [0.25, 1.0]));
-    let few = |depth: f32| Fire { lens, ..still(vec3(0.1, 0.02, -1.0) * depth, 0.05, Vec3::ONE, 0.9) };
+    let few = |depth: f32| Fire { lens, ..still(vec3(0.1, 0.02, -1.0) * depth, 0.05, Vec3::ONE) };
     for depth in [0.2501, 0.3, 0.6, 0.999, 1.0, 3.0, 20.0, 100.0] {
         let (found, truth) = both(&[few(depth)], 1.0);
         let off = worst(&found, &truth);
@@ -156,7 +151,7 @@ fn a_lens_blurs_what_is_near() {
     let lens = Lens { aperture: 0.05, focus: 4.0, ..fires(0.0)[0].lens };
     for depth in [0.3, 1.0, 3.99, 4.0, 8.0] {
         for radius in [1e-3, 0.1] {
-            let fire = Fire { lens, ..still(vec3(0.05, 0.02, -1.0) * depth, radius, Vec3::ONE, 0.9) };
+            let fire = Fire { lens, ..still(vec3(0.05, 0.02, -1.0) * depth, radius, Vec3::ONE) };
             let (found, truth) = both(&[fire], 1.0);
             let off = worst(&found, &truth);
             assert!(off < PLACES, "{radius} at {depth} metres: {off}");
@@ -164,40 +159,11 @@ fn a_lens_blurs_what_is_near() {
     }
 }
 
-/// From far to near, whatever order they are in.
-#[test]
-fn smoke_is_sorted() {
-    for count in [2, 30, 300] {
-        let mut fires = colours(count, 1.0);
-        let (found, truth) = both(&fires, 1.3);
-        let off = worst(&found, &truth);
-        println!("{count} sprites over each other: {off:.1e}");
-        assert!(off < PLACES, "{count}: {off}");
-        // No two are equally far, so there is but one order.
-        fires.reverse();
-        assert!(same(&both(&fires, 1.3).0, &found), "{count} reversed");
-        let middle = fires.len() / 3;
-        fires.rotate_left(middle);
-        assert!(same(&both(&fires, 1.3).0, &found), "{count} rotated");
-    }
-}
-
-/// A red sprite before a green one is another picture than behind it: the test above can tell.
-#[test]
-fn what_is_near_hides_what_is_far() {
-    let at = |z: f32, light: Vec3| still(vec3(0.0, 0.0, z), 5.0, light, 1.0);
-    let middle = |fires: &[Fire]| both(fires, 1.0).0[70 * SIZE.0 + 75];
-    let red = middle(&[at(-2.0, Vec3::X), at(-3.0, Vec3::Y)]);
-    let green = middle(&[at(-3.0, Vec3::X), at(-2.0, Vec3::Y)]);
-    assert!(red.x > 0.6 && red.y < 0.01, "{red}");
-    assert!(green.y > 0.6 && green.x < 0.01, "{green}");
-}
-
 #[test]
 fn what_only_shines_has_any_order() {
     /// Sums of 400 numbers in f32.
     const ROUNDING: f64 = 3e-6;
-    let mut fires = colours(400, 0.0);
+    let mut fires = colours(400);
     let (found, truth) = both(&fires, 0.2);
     assert!(worst(&found, &truth) < PLACES);
     fires.reverse();
@@ -222,18 +188,15 @@ fn solids(x: usize, y: usize) -> (Vec3, Option<f32>) {
 
 #[test]
 fn solids_hide_sprites_softly() {
-    for alpha in [0.0, 0.8] {
-        for radius in [0.5, 5.0, 1e-3] {
-            // So that the fade is that of its radius: all of it is before 3 metres and behind.
-            let light = vec3(0.8, 0.3, 0.5);
-            let fires =
-                [still(vec3(0.0, 0.0, -3.0), radius, light, alpha), still(vec3(0.4, 0.0, -3.5), radius, light, alpha)];
-            let found = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
-            let truth = truth(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
-            let off = worst(&found, &truth);
-            println!("radius {radius}, alpha {alpha}: {off:.1e}");
-            assert!(off < PLACES, "radius {radius}, alpha {alpha}: {off}");
-        }
+    for radius in [0.5, 5.0, 1e-3] {
+        // So that the fade is that of its radius: all of it is before 3 metres and behind.
+        let light = vec3(0.8, 0.3, 0.5);
+        let fires = [still(vec3(0.0, 0.0, -3.0), radius, light), still(vec3(0.4, 0.0, -3.5), radius, light)];
+        let found = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
+        let truth = truth(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
+        let off = worst(&found, &truth);
+        println!("radius {radius}: {off:.1e}");
+        assert!(off < PLACES, "radius {radius}: {off}");
     }
 }
 
@@ -241,7 +204,7 @@ fn solids_hide_sprites_softly() {
 #[test]
 fn depth_is_tested_exactly() {
     const GREY: Vec3 = Vec3::splat(0.25);
-    let one = [still(vec3(0.0, 0.0, -3.0), 0.5, vec3(0.8, 0.3, 0.5), 0.8)];
+    let one = [still(vec3(0.0, 0.0, -3.0), 0.5, vec3(0.8, 0.3, 0.5))];
     let wall = |fires: &[Fire], behind: Behind| burn(fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, behind);
     let without = wall(&[], |_, _| (GREY, None));
     let whole = wall(&one, |_, _| (GREY, None));
@@ -258,32 +221,28 @@ fn there_are_no_seams_between_tiles() {
     /// Columns are counted from another edge, so a middle's last bit differs.
     const ROUNDING: f64 = 2e-5;
     const HEIGHT: usize = 140;
-    for alpha in [0.0, 0.9] {
-        let fires = colours(200, alpha);
-        let narrow = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (150, HEIGHT), |_, _| (Vec3::splat(0.2), None));
-        for more in [1, 16, 31, 40] {
-            let width = 150 + 2 * more;
-            let wide = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (width, HEIGHT), |_, _| (Vec3::splat(0.2), None));
-            let middle: Vec<DVec3> =
-                wide.chunks(width).flat_map(|row| row[more..more + 150].iter().map(|c| c.as_dvec3())).collect();
-            let off = worst(&narrow, &middle);
-            assert!(off < ROUNDING, "{more} columns more, alpha {alpha}: {off}");
-        }
+    let fires = colours(200);
+    let narrow = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (150, HEIGHT), |_, _| (Vec3::splat(0.2), None));
+    for more in [1, 16, 31, 40] {
+        let width = 150 + 2 * more;
+        let wide = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (width, HEIGHT), |_, _| (Vec3::splat(0.2), None));
+        let middle: Vec<DVec3> =
+            wide.chunks(width).flat_map(|row| row[more..more + 150].iter().map(|c| c.as_dvec3())).collect();
+        let off = worst(&narrow, &middle);
+        assert!(off < ROUNDING, "{more} columns more: {off}");
     }
 }
 
 #[test]
 fn every_level_and_thread_count_gives_the_same_light() {
-    for alpha in [0.0, 1.0] {
-        let mut first = None;
-        for (name, level) in levels() {
-            for threads in [1, 2, 3] {
-                let view = view(Vec3::ZERO, Vec3::NEG_Z, SIZE);
-                let particles = ParticleLayer::fire(colours(150, alpha), 1.0, &view, SIZE.0, SIZE.1);
-                let mut renderer = Renderer::new(threads).unwrap().at_level(level);
-                let found = draw(&mut renderer, particles, SIZE, solids);
-                assert!(same(first.get_or_insert(found.clone()), &found), "{name}, {threads} threads, alpha {alpha}");
-            }
+    let mut first = None;
+    for (name, level) in levels() {
+        for threads in [1, 2, 3] {
+            let view = view(Vec3::ZERO, Vec3::NEG_Z, SIZE);
+            let particles = ParticleLayer::new(colours(150), &view, &Quality::EXACT.particles);
+            let mut renderer = Renderer::new(threads).unwrap().at_level(level);
+            let found = draw(&mut renderer, particles, SIZE, solids);
+            assert!(same(first.get_or_insert(found.clone()), &found), "{name}, {threads} threads");
         }
     }
 }

@@ -4,10 +4,9 @@ use super::layer::{Size, draw, view};
 use super::oracle::{Camera, Time, flake, random};
 use glam::{DMat2, DVec2, DVec3, Vec3, dvec2, vec3};
 use paprsek::frame::Renderer;
-use paprsek::particles::ParticleLayer;
-use paprsek::particles::snow::Flakes;
-use paprsek::particles::sprite::Lens;
+use paprsek::particles::{Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, flakes};
+use paprsek::settings::Quality;
 
 const SIZE: Size = (300, 240);
 
@@ -15,7 +14,8 @@ const SIZE: Size = (300, 240);
 fn passes(field: &Flakes, time: f64, forward: Vec3, streak: Vec3) -> Vec<f64> {
     let mut snow = flakes(field, time, Vec3::ZERO);
     snow.streak = streak;
-    let layer = ParticleLayer::snow(vec![snow], Vec3::ZERO, &view(Vec3::ZERO, forward, SIZE), SIZE.0, SIZE.1);
+    let layer =
+        ParticleLayer::new([snow], &view(Vec3::ZERO, forward, SIZE), &Quality::EXACT.particles).colored(Vec3::ZERO);
     let light = draw(&mut Renderer::new(2).unwrap(), layer, SIZE, |_, _| (Vec3::ONE, None));
     light.iter().map(|c| f64::from(c.x)).collect()
 }

@@ -1,13 +1,12 @@
 //! The light of the air: against an integral in f64 and without seams.
 
-use crate::common;
 use glam::{DVec3, Mat3, Vec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::{Dome, Sky};
-use paprsek::sky::layer::{Look, SkyLayer};
+use paprsek::sky::layer::SkyLayer;
 use paprsek::sky::place::Place;
 use paprsek::view::Camera;
 use paprsek::view::View;
@@ -113,7 +112,7 @@ fn scatters_as_an_integral_in_f64() {
     for altitude in [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0] {
         let mut sky = sky(altitude);
         sky.air.again = 0.0;
-        let dome = Dome::new(sky, EXACT);
+        let dome = Dome::new(sky, &EXACT);
         for (height, azimuth) in [(90.0, 0.0), (45.0, 10.0), (45.0, 170.0), (15.0, 0.0), (15.0, 90.0), (15.0, 180.0)] {
             let d = toward(height, azimuth);
             let (found, truth) = (dome.light(d), once(&sky.air, sky.sun.as_dvec3(), d.as_dvec3()));
@@ -140,7 +139,7 @@ fn no_jump_as_the_sun_goes_down() {
     const PACE: f32 = 1.0;
     let quality = Quality::DEFAULT.sky;
     let look = |altitude: f32| {
-        let dome = Dome::new(sky(altitude), quality);
+        let dome = Dome::new(sky(altitude), &quality);
         let mut colors = vec![];
         for azimuth in [0.0, 60.0, 120.0, 180.0] {
             for height in [-3.0, 0.5, 3.0, 10.0, 30.0, 80.0] {
@@ -177,7 +176,7 @@ fn no_jump_as_the_sun_goes_down() {
 #[test]
 fn no_jump_across_the_horizon() {
     for altitude in [40.0, 3.0, 0.0, -5.0, -10.0, -18.0] {
-        let dome = Dome::new(sky(altitude), EXACT);
+        let dome = Dome::new(sky(altitude), &EXACT);
         for azimuth in [0.0, 90.0, 180.0] {
             let code = |y: f32| {
                 dome.radiance(toward(y, azimuth)).to_array().map(|c| 255.0 * paprsek::frame::encode::srgb_encode(c))
@@ -197,10 +196,10 @@ fn no_jump_across_the_horizon() {
 
 #[test]
 fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
-    let noon = Dome::new(sky(50.0), EXACT);
+    let noon = Dome::new(sky(50.0), &EXACT);
     let zenith = noon.radiance(Vec3::Y);
     assert!(zenith.z > 1.8 * zenith.x && zenith.z > zenith.y, "{zenith}");
-    let dusk = Dome::new(sky(-3.0), EXACT);
+    let dusk = Dome::new(sky(-3.0), &EXACT);
     let (glow, shadow, belt) =
         (dusk.radiance(toward(1.0, 0.0)), dusk.radiance(toward(1.0, 180.0)), dusk.radiance(toward(12.0, 180.0)));
     assert!(glow.x > 1.5 * glow.z, "{glow}");
@@ -210,21 +209,22 @@ fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
     let summer = Air { haze: 2.0, ..sky(0.0).air };
     let winter = Air { haze: 0.6, ..sky(0.0).air };
     let warmth = |air| {
-        let c = Dome::new(Sky { air, ..sky(1.0) }, EXACT).radiance(toward(2.0, 20.0));
+        let c = Dome::new(Sky { air, ..sky(1.0) }, &EXACT).radiance(toward(2.0, 20.0));
         c.x / c.z
     };
     assert!(warmth(summer) > 1.2 * warmth(winter));
     // Nights are dark, and a full moon makes them lighter and leaves them blue.
-    let night = Dome::new(sky(-30.0), EXACT);
-    let moonlit = Dome::new(Sky { moon: toward(40.0, 90.0), lit: 1.0, ..sky(-30.0) }, EXACT);
+    let night = Dome::new(sky(-30.0), &EXACT);
+    let moonlit = Dome::new(Sky { moon: toward(40.0, 90.0), lit: 1.0, ..sky(-30.0) }, &EXACT);
     let (dark, light) = (night.radiance(toward(40.0, 200.0)), moonlit.radiance(toward(40.0, 200.0)));
     assert!(dark.max_element() < 0.06 && dark.z > dark.x);
     assert!(light.z > 1.1 * dark.z && light.z > light.x && light.max_element() < 0.15, "{dark} {light}");
 }
 
-fn frame(renderer: &mut Renderer, sky: Sky, quality: SkySettings, look: Look, size: (usize, usize)) -> Frame {
+fn frame(renderer: &mut Renderer, sky: Sky, quality: &SkySettings, moon_size: f32, size: (usize, usize)) -> Frame {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.3, 0.3, -1.0), 0.9, 0.1);
-    let layer = SkyLayer::new(Dome::new(sky, quality), camera, size.0, size.1, look);
+    let dome = Dome::new(sky, quality).with_sizes(2.0, moon_size);
+    let layer = SkyLayer::new(dome, &View::new(camera, size.0, size.1), quality);
     let mut frame = Frame::new(size.0, size.1);
     renderer.draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     frame
@@ -241,12 +241,11 @@ fn the_same_bytes_at_every_level_and_on_any_threads() {
     for sky in skies() {
         for quality in [Quality::FAST, Quality::EXACT].map(|q| q.sky) {
             for size in [(200, 130), (67, 3), (1, 1)] {
-                let look = Look { moon: 12.0, ..Look::default() };
-                let truth = frame(&mut Renderer::new(1).unwrap(), sky, quality, look, size);
-                for (name, level) in common::levels() {
+                let truth = frame(&mut Renderer::new(1).unwrap(), sky, &quality, 12.0, size);
+                for (name, level) in testkit::levels() {
                     for threads in [1, 3] {
                         let mut renderer = Renderer::new(threads).unwrap().at_level(level);
-                        assert!(frame(&mut renderer, sky, quality, look, size) == truth, "{name}, {threads} threads");
+                        assert!(frame(&mut renderer, sky, &quality, 12.0, size) == truth, "{name}, {threads} threads");
                     }
                 }
             }
@@ -264,8 +263,8 @@ fn cells_are_as_good_as_pixels() {
         let fine = SkySettings { steps: 10, cell: 0.0, grid: 1 };
         let coarse = SkySettings { cell: 0.022, ..fine };
         let size = (1280, 720);
-        let a = frame(&mut renderer, sky(altitude), fine, Look::default(), size);
-        let b = frame(&mut renderer, sky(altitude), coarse, Look::default(), size);
+        let a = frame(&mut renderer, sky(altitude), &fine, 2.0, size);
+        let b = frame(&mut renderer, sky(altitude), &coarse, 2.0, size);
         for (a, b) in a.pixels.iter().zip(&b.pixels) {
             for shift in [0, 8, 16] {
                 worst = worst.max((a >> shift & 255).abs_diff(b >> shift & 255));
@@ -280,11 +279,9 @@ fn cells_are_as_good_as_pixels() {
 fn fills_what_solids_leave() {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.3, -1.0), 0.9, 0.0);
     for sky in skies() {
-        let layer = |behind| {
-            let look = Look { behind, ..Look::default() };
-            SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look)
-        };
-        for (_, level) in common::levels() {
+        let settings = Quality::FAST.sky;
+        let layer = || SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings);
+        for (_, level) in testkit::levels() {
             let (mut all, mut rest) = (Tile::at(0, 0, 64, 64), Tile::at(0, 0, 64, 64));
             for plane in [&mut all.red, &mut rest.red] {
                 plane.fill(0.25);
@@ -292,8 +289,8 @@ fn fills_what_solids_leave() {
             for (i, coverage) in rest.coverage.iter_mut().enumerate() {
                 *coverage = [0.0, 0.5, 1.0][i % 3];
             }
-            layer(false).draw(level, &mut all);
-            layer(true).draw(level, &mut rest);
+            layer().draw(level, &mut all);
+            layer().behind().draw(level, &mut rest);
             for i in 0..Tile::AREA {
                 let (sky, share) = (all.red[i], 1.0 - rest.coverage[i]);
                 match i % 3 {
@@ -311,7 +308,7 @@ fn fills_what_solids_leave() {
 fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 1.0, -1.0), 1.2, 0.0);
     let view = View::new(camera, 640, 360);
-    let count = |altitude: f32| Dome::new(sky(altitude), EXACT).stars(&view, 640, 360, 0.0, 1.0).len();
+    let count = |altitude: f32| Dome::new(sky(altitude), &EXACT).stars(&view).len();
     assert_eq!(count(3.0), 0);
     let counts: Vec<usize> = (0..40).map(|i| count(2.0 - 0.5 * i as f32)).collect();
     assert!(counts.windows(2).all(|w| w[0] <= w[1]), "{counts:?}");
@@ -319,7 +316,7 @@ fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     // A sidereal day later each is where it was.
     let dark = |days: f64| {
         let turn = Place::PLZEN.turn(days).as_mat3();
-        Dome::new(Sky { turn, ..sky(-30.0) }, EXACT).stars(&view, 640, 360, 0.0, 1.0)
+        Dome::new(Sky { turn, ..sky(-30.0) }, &EXACT).stars(&view)
     };
     let (now, later) = (dark(5000.0), dark(5000.0 + 0.997_269_57));
     let near = |a: (f32, f32), b: (f32, f32)| (a.0 - b.0).hypot(a.1 - b.1) < 0.1;
@@ -351,10 +348,11 @@ fn the_moon_is_lit_where_the_sun_is() {
         let across = (right * 3.0 + up).normalize() * (1.0f32 - ahead * ahead).sqrt();
         let sky = Sky { moon, lit, moon_to_sun: (across + moon * ahead).normalize(), ..sky(-30.0) };
         let camera = Camera::look_at(Vec3::ZERO, moon, 0.2, 0.0);
-        let look = Look { moon: 10.0, ..Look::default() };
         let mut tile = Tile::at(0, 0, 64, 64);
-        let layer = SkyLayer::new(Dome::new(sky, Quality::FAST.sky), camera, 64, 64, look);
-        layer.draw(common::levels()[0].1, &mut tile);
+        let settings = Quality::FAST.sky;
+        let dome = Dome::new(sky, &settings).with_sizes(2.0, 10.0);
+        let layer = SkyLayer::new(dome, &View::new(camera, 64, 64), &settings);
+        layer.draw(testkit::levels()[0].1, &mut tile);
         let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
         for i in 0..Tile::AREA {
             if tile.green[i] > 0.15 {
@@ -380,8 +378,9 @@ fn the_sun_reddens_towards_the_horizon() {
         let sky = sky(altitude);
         let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
-        let dome = Dome::new(sky, Quality::FAST.sky);
-        SkyLayer::new(dome, camera, 64, 64, Look::default()).draw(common::levels()[0].1, &mut tile);
+        let settings = Quality::FAST.sky;
+        SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings)
+            .draw(testkit::levels()[0].1, &mut tile);
         let middle = 32 * Tile::SIZE + 32;
         let (red, blue) = (tile.red[middle], tile.blue[middle]);
         assert!(red > 0.9 && red <= 1.0, "{altitude}: {red}");
@@ -397,7 +396,7 @@ fn the_light_is_handed_over_without_a_jump() {
     let (mut last, mut turns) = (None::<(Vec3, Vec3)>, 0);
     for minute in 0..1440 {
         let days = 9676.5 + minute as f64 / 1440.0;
-        let light = Dome::new(Sky::new(days, &Place::PLZEN), Quality::DEFAULT.sky).lighting();
+        let light = Dome::new(Sky::new(days, &Place::PLZEN), &Quality::DEFAULT.sky).lighting();
         if let Some((direction, color)) = last {
             // A sinking sun loses its light within a few minutes.
             assert!((light.color - color).length() < 0.35, "{minute}: {color} {}", light.color);
@@ -418,7 +417,7 @@ proptest! {
         x in -1.0..1.0f32, y in -1.0..1.0f32, z in -1.0..1.0f32,
     ) {
         let sky = Sky::new(days, &Place { latitude, longitude });
-        let dome = Dome::new(sky, Quality::DEFAULT.sky);
+        let dome = Dome::new(sky, &Quality::DEFAULT.sky);
         for d in [vec3(x, y, z).normalize_or(Vec3::Y), Vec3::Y, -Vec3::Y, sky.sun, sky.moon, -sky.sun] {
             let c = dome.radiance(d);
             prop_assert!(c.is_finite() && c.min_element() >= 0.0 && c.max_element() <= 1.0, "{} {}", d, c);

@@ -1,25 +1,20 @@
-//! Threads that draw the bands of a frame.
+//! Threads that work on a frame together.
 //!
-//! rayon's workers wait for the next frame; in the 64 kB build, which has no rayon, threads live for a frame.
+//! There are two pools with the same interface: rayon's threads, which stay and wait for the next frame, and the 64 kB build's,
+//! which live for one piece of work. Either runs the same function on several threads at once and sums what they return;
+//! [`crate::frame::Workers`] makes of that a queue of jobs.
 
 #[cfg(feature = "rayon")]
 mod rayon;
 #[cfg(not(feature = "rayon"))]
 mod scoped;
+mod start;
 
 #[cfg(feature = "rayon")]
 pub use self::rayon::{Pool, cores};
 #[cfg(not(feature = "rayon"))]
 pub use scoped::{Pool, cores};
-use std::thread::Builder;
-
-/// Stack of a thread, bytes: the standard size. Said here, it is not looked for in the environment.
-const STACK: usize = 2 << 20;
-
-/// Starts a thread that nobody waits for; `None` where none can start.
-pub fn start(work: &'static (dyn Fn() + Sync)) -> Option<()> {
-    Builder::new().stack_size(STACK).spawn(work).ok().map(drop)
-}
+pub use start::start;
 
 #[cfg(test)]
 mod tests {

@@ -1,4 +1,4 @@
-//! Threads that stay: the only file that names rayon.
+//! A pool whose threads stay from frame to frame. The only file that names rayon.
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,7 +8,9 @@ use std::thread::available_parallelism;
 pub struct Pool(ThreadPool);
 
 impl Pool {
-    /// `threads` threads (0: all cores), the calling one among them where it can be. Fails where they cannot start.
+    /// A pool of `threads` threads (0: one per core). The calling thread is one of them unless it belongs to a pool already.
+    ///
+    /// Fails where the threads cannot be started.
     pub fn new(threads: usize) -> Result<Pool, String> {
         let build = |own: bool| {
             let pool = ThreadPoolBuilder::new().num_threads(threads);
@@ -17,25 +19,27 @@ impl Pool {
         build(true).or_else(|_| build(false)).map(Pool).map_err(|e| format!("cannot start threads: {e}"))
     }
 
-    /// Threads in use.
+    /// The number of threads.
     pub fn threads(&self) -> usize {
         self.0.current_num_threads()
     }
 
-    /// Does `work` on `most` threads at once, or on as many as there are; the sum of what it gives.
+    /// Runs `work` once on each of at most `most` threads, at the same time, and returns the sum of the results.
+    ///
+    /// The calling thread always takes part.
     pub fn sum(&self, most: usize, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         let sum = AtomicU64::new(0);
         let add = || sum.fetch_add(work(), Ordering::Relaxed);
         self.0.scope(|scope| {
             (1..self.threads().min(most)).for_each(|_| scope.spawn(|_| _ = add()));
-            // Not a task: it starts at once.
+            // A call, not a task, which would have to wait for a thread.
             add();
         });
         sum.into_inner()
     }
 }
 
-/// The cores that this process may use at once.
+/// The number of cores that this process may use at once.
 pub fn cores() -> usize {
     available_parallelism().map_or(1, usize::from)
 }

@@ -1,6 +1,6 @@
-//! Threads that live for a frame: to start one takes some 30 microseconds, and rayon would take 6 kB packed.
+//! A pool whose threads live for one piece of work: starting one takes some 30 microseconds. rayon would take 6 kB packed.
 
-use super::STACK;
+use super::start::STACK;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{self, Builder};
 
@@ -8,26 +8,27 @@ use std::thread::{self, Builder};
 pub struct Pool(usize);
 
 impl Pool {
-    /// `threads` threads (0: all cores), the calling one among them.
+    /// A pool of `threads` threads (0: one per core), of which the calling thread is one. Never fails.
     pub fn new(threads: usize) -> Result<Pool, String> {
         Ok(Pool(if threads > 0 { threads } else { cores() }))
     }
 
-    /// Threads in use.
+    /// The number of threads.
     pub fn threads(&self) -> usize {
         self.0
     }
 
-    /// Does `work` on `most` threads at once, or on as many as there are; the sum of what it gives.
+    /// Runs `work` once on each of at most `most` threads, at the same time, and returns the sum of the results.
+    ///
+    /// The calling thread always takes part. Where no more threads can start it works with those that did.
     pub fn sum(&self, most: usize, work: &(dyn Fn() -> u64 + Sync)) -> u64 {
         let sum = AtomicU64::new(0);
-        // As an object, as [`super::start`] has it, so that there is one way to start a thread.
+        // A trait object, as [`super::start`] takes it, so that the program has one instance of starting a thread.
         let add: &(dyn Fn() + Sync) = &|| {
             sum.fetch_add(work(), Ordering::Relaxed);
         };
         thread::scope(|scope| {
             for _ in 1..self.0.min(most) {
-                // Where no more threads can start, those that did do the work.
                 if Builder::new().stack_size(STACK).spawn_scoped(scope, add).is_err() {
                     break;
                 }
@@ -38,13 +39,14 @@ impl Pool {
     }
 }
 
-/// The cores that this process may run on. The standard answer also reads the quota of a container, for 4 kB packed.
+/// The number of cores that this process may run on. The standard library's answer minds a container's quota too, for 4 kB
+/// packed.
 #[cfg(target_os = "linux")]
 pub fn cores() -> usize {
     rustix::thread::sched_getaffinity(None).map_or(1, |cores| cores.count() as usize)
 }
 
-/// The same as the standard library has it.
+/// The number of cores that this process may use at once.
 #[cfg(not(target_os = "linux"))]
 pub fn cores() -> usize {
     thread::available_parallelism().map_or(1, usize::from)

@@ -2,8 +2,7 @@
 
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
-use crate::cloud::CloudLayer;
-use crate::cloud::march::Look;
+use crate::cloud::{CloudLayer, CloudLight};
 use crate::frame::encode::Transfer;
 use crate::frame::{Cache, FrameSpec, Scene};
 use crate::frame::{Layer, Picture, Stats, Tile, Workers};
@@ -34,7 +33,7 @@ fn picture(spec: &FrameSpec, variant: usize) -> Picture {
     let (eye, way) = set::camera(variant, spec.time);
     let camera = Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0);
     let view = View::new(spec.camera(camera), spec.width, spec.height);
-    let look = Look {
+    let light = CloudLight {
         ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
         towards: set::sun(),
         sun: vec3(0.86, 0.78, 0.68),
@@ -42,7 +41,7 @@ fn picture(spec: &FrameSpec, variant: usize) -> Picture {
     };
     let q = &spec.quality;
     // `fast` takes the steps that are specified, and ends rays where it says; `exact` is the limit of both.
-    let clouds = CloudLayer::new(set::clouds(variant), look, |_| HAZE, 1400.0, view, q.cloud);
+    let clouds = CloudLayer::new(set::clouds(variant), light, &view, &q.cloud).in_air(1400.0, |_| HAZE);
     let cells = Cells { size: if q.cloud.cell > 1 { 8 } else { 1 }, grid: q.cloud.grid };
     Picture {
         layers: vec![Box::new(Cumuli { clouds, background: Background { view, cells } })],

@@ -1,8 +1,6 @@
 //! The voxels and clouds that volume renderers are compared by, after the specification.
 
-use crate::cloud::march::Cloud;
-use crate::cloud::shape::Kind;
-use crate::cloud::voxels::Voxels;
+use crate::cloud::{Cloud, CloudKind, Voxels};
 use crate::simd::hash::rnd;
 use crate::simd::level;
 use fearless_simd::dispatch;
@@ -22,9 +20,8 @@ pub fn shape(k: usize) -> Arc<Voxels> {
     static SHAPES: [OnceLock<Arc<Voxels>>; 4] = [const { OnceLock::new() }; 4];
     let grow = || {
         let level = level::best();
-        let mut voxels = dispatch!(level, simd => Kind::grow(simd, &Kind::CUMULUS, k as u32, EDGE));
-        voxels.light = bake(&voxels.density);
-        voxels.pack();
+        let mut voxels = dispatch!(level, simd => CloudKind::grow(simd, &CloudKind::CUMULUS, k as u32, EDGE));
+        voxels.set_light(bake(voxels.density()));
         Arc::new(voxels)
     };
     SHAPES[k].get_or_init(grow).clone()

@@ -3,10 +3,8 @@
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture, Stats, Tile};
-use crate::particles::ParticleLayer;
-use crate::particles::fire::{Fire, Flame};
-use crate::particles::snow::{Flakes, Snow};
-use crate::particles::sprite::Lens;
+use crate::particles::{Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
+use crate::settings::Quality;
 use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::Level;
@@ -51,7 +49,6 @@ pub const FLAME: Flame = Flame {
     lift: 0.55,
     radius: [0.15, 0.035],
     light: [vec3(1.0 * 0.008, 0.62 * 0.008, 0.20 * 0.008), vec3(0.80 * 0.008, 0.10 * 0.008, 0.02 * 0.008)],
-    alpha: 0.0,
 };
 
 /// Flakes of a field at `time` seconds around an eye that walks as specified, moved by `beside` metres.
@@ -71,7 +68,7 @@ pub fn snowfall(spec: &FrameSpec, of: &Flakes) -> ParticleLayer {
     // The eye is the origin, since far from it there are no fractions of metres.
     let camera = spec.camera(Camera::look_at(Vec3::ZERO, way.as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
-    ParticleLayer::snow(vec![flakes(of, t, camera.eye)], vec3(0.95, 0.97, 1.0), &view, spec.width, spec.height)
+    ParticleLayer::new([flakes(of, t, camera.eye)], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
 }
 
 /// The torches at `time` seconds, as specified.
@@ -99,7 +96,8 @@ fn fire(spec: &FrameSpec) -> Picture {
     let way = DVec3::Y * 1.8 - eye;
     let camera = spec.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
-    let particles = ParticleLayer::fire(fires(spec.time), 1.6, &view, spec.width, spec.height);
+    // All particles that are specified, whatever the quality.
+    let particles = ParticleLayer::new(fires(spec.time), &view, &Quality::EXACT.particles);
     over(spec, FIRE_SKY, particles)
 }
 

@@ -2,9 +2,7 @@
 
 use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
-use crate::particles::ParticleLayer;
-use crate::particles::snow::{Flakes, Snow};
-use crate::particles::sprite::Lens;
+use crate::particles::{Flakes, Lens, ParticleLayer, Snow};
 use crate::scenes::show::day;
 use crate::timeline::ease;
 use crate::view::Camera;
@@ -49,7 +47,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let way = wind.as_dvec3() * t + DVec3::X * (1.5 * (t / 1.5).sin());
     let mut rain = Snow::new(&DROPS, t, camera.eye.as_dvec3(), way, 0.3 + 0.7 * ease(0.0, 6.0, t));
     rain.streak = (wind - Vec3::Y * DROPS.fall[0] as f32) * (0.5 * SHUTTER);
-    let rain = ParticleLayer::snow(vec![rain], sky * 1.6, &view, spec.width, spec.height);
+    let rain = ParticleLayer::new([rain], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = day::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));
     picture

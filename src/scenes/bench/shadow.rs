@@ -4,11 +4,7 @@ use super::shadow_set;
 use crate::frame::Picture;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
-use crate::raster::fit;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::project::Projection;
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::{Body, World};
+use crate::raster::{Bias, Body, Haze, Light, Projection, ShadowViews, World, fit};
 use crate::scenes::drawn;
 use crate::view::Camera;
 use glam::{Affine3A, Vec2, Vec3, vec3};
@@ -37,31 +33,19 @@ const SIZES: [u32; 2] = [1024, 512];
 fn sun(spec: &FrameSpec) -> Picture {
     let towards = shadow_set::sun(spec.time).as_vec3();
     const WIDTH: f32 = 72.0;
-    let plan = ShadowViews {
-        views: vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, SIZES[0])],
-        // In texels, of which the specification says metres.
-        bias: Bias { constant: 0.03, slope: 0.15 * SIZES[0] as f32 / WIDTH, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        from: 0,
-        smooth: false,
-    };
-    let light = Light { source: Source::Sun(towards), color: vec3(1.05, 0.92, 0.74), shadow: Some(plan) };
+    let views = vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, SIZES[0])];
+    // In texels, of which the specification says metres.
+    let bias = Bias { constant: 0.03, slope: 0.15 * SIZES[0] as f32 / WIDTH, normal: 0.0 };
+    let shadow = ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
+    let light = Light::sun(towards, vec3(1.05, 0.92, 0.74)).with_shadow(shadow);
     picture(spec, light, vec3(0.20, 0.27, 0.40), vec3(0.42, 0.55, 0.72))
 }
 
 fn torch(spec: &FrameSpec) -> Picture {
     let position = shadow_set::torch(spec.time).as_vec3();
-    let plan = ShadowViews {
-        views: fit::cube(position, SIZES[1]),
-        bias: Bias { constant: 0.03, slope: 2.12, normal: 0.0 },
-        back_faces: false,
-        traced: false,
-        from: 0,
-        smooth: false,
-    };
-    let source = Source::Lamp { position, falloff: Vec2::new(0.0, 0.06), reach: f32::INFINITY };
-    let light = Light { source, color: vec3(2.6, 1.35, 0.5), shadow: Some(plan) };
+    let bias = Bias { constant: 0.03, slope: 2.12, normal: 0.0 };
+    let shadow = ShadowViews { smooth: false, ..ShadowViews::new(fit::cube(position, SIZES[1]), bias) };
+    let light = Light::lamp(position, vec3(2.6, 1.35, 0.5), Vec2::new(0.0, 0.06), f32::INFINITY).with_shadow(shadow);
     picture(spec, light, vec3(0.020, 0.028, 0.055), vec3(0.010, 0.014, 0.030))
 }
 
@@ -70,16 +54,12 @@ fn picture(spec: &FrameSpec, light: Light, ambient: Vec3, fog: Vec3) -> Picture 
     static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
     let camera = Camera::look_at(shadow_set::eye(spec.time).as_vec3(), vec3(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
     let world = World {
-        bodies: BODIES.get_or_init(bodies).clone(),
-        textures: Vec::new(),
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],
-        veil: None,
-        snow: None,
         haze: Haze::even(fog, 0.012),
         zenith: fog,
-        film: false,
         background: Some(fog),
+        ..World::new(BODIES.get_or_init(bodies).clone())
     };
     drawn(spec, world, camera, Transfer::Gamma22)
 }

@@ -2,8 +2,8 @@
 //! triangles, and how the eye and the two lights move.
 
 use crate::noise::{fbm, noise};
-use crate::raster::form::Body;
-use crate::raster::mesh::{Face, Mesh, Paint};
+use crate::raster::form::Rings;
+use crate::raster::{Face, Mesh, Paint};
 use crate::simd::hash::rnd;
 use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
 use std::f64::consts::TAU;
@@ -109,12 +109,12 @@ fn add_box(mesh: &mut Mesh, i: u32) {
     mesh.paints.push(paint(0.42 + 0.2 * random(i, 6), 0.30, 0.22));
 }
 
-const fn round(rows: &'static [[i8; 5]], sides: u8) -> Body {
-    Body { rows, sides, half: false, swell: 0.0, taper: 0.0 }
+const fn round(rows: &'static [[i8; 5]], sides: u8) -> Rings {
+    Rings { rows, sides, half: false, swell: 0.0, taper: 0.0 }
 }
 
 /// Trunk, in fiftieths, and cones, in twentieths.
-const PINE: [(f32, Body); 4] = [
+const PINE: [(f32, Rings); 4] = [
     (0.02, round(&[[-15, 0, 7, 7, 0], [35, 0, 7, 7, 0]], 6)),
     (0.05, round(&[[12, 0, 0, 0, 0x11], [12, 0, 20, 20, 0x11], [38, 0, 0, 0, 0x11]], 10)),
     (0.05, round(&[[27, 0, 0, 0, 0x11], [27, 0, 16, 16, 0x11], [52, 0, 0, 0, 0x11]], 10)),
@@ -124,7 +124,7 @@ const PINE: [(f32, Body); 4] = [
 fn add_pine(mesh: &mut Mesh, i: u32) {
     let first = mesh.paints.len() as u16;
     for (scale, body) in &PINE {
-        mesh.body(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i), first);
+        mesh.rings(body, &(turn(i) * (scale * (0.7 + 0.9 * random(i, 2)))), place(i), first);
     }
     mesh.paints.push(paint(0.25, 0.16, 0.10));
     mesh.paints.push(paint(0.10, 0.26 + 0.12 * random(i, 6), 0.13));

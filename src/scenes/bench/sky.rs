@@ -4,6 +4,7 @@ use super::sky_grid::{self as grid, Cells, Field};
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture, Stats, Tile};
+use crate::simd::hash::pcg;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
 use crate::view::Camera;
@@ -29,10 +30,9 @@ pub fn camera(time: f64) -> Camera {
     Camera::look_at(Vec3::ZERO, vec3(sin as f32, 0.36, cos as f32), 50f32.to_radians(), 0.0)
 }
 
-/// `u^2 (3 - 2 u)`, from 0 at `a` to 1 at `b`.
+/// Smoothstep from 0 at `a` to 1 at `b`.
 fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
-    let u = ((x - a) / (b - a)).clamp(0.0, 1.0);
-    u * u * (3.0 - 2.0 * u)
+    math::smooth1((x - a) / (b - a))
 }
 
 /// The sky's colours at an instant: all but stars and the sun's disc.
@@ -173,11 +173,4 @@ fn catalogue() -> &'static [(Vec3, f32)] {
         }
         stars
     })
-}
-
-/// The specified hash. O'Neill's PCG-RXS-M-XS, 2014, one step.
-fn pcg(n: u32) -> u32 {
-    let s = n.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let w = ((s >> ((s >> 28) + 4)) ^ s).wrapping_mul(277_803_737);
-    (w >> 22) ^ w
 }

@@ -5,8 +5,7 @@ use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::scenes::traced;
 use crate::texture::{Palette, Pattern, Texture};
-use crate::trace::shape::Shape;
-use crate::trace::world::{Light, Material, Object, Sky, Source, World};
+use crate::trace::{Background, Light, Material, Object, Shape, World};
 use crate::view::Camera;
 use glam::{Vec3, vec3};
 use std::f64::consts::FRAC_PI_4;
@@ -69,13 +68,13 @@ pub fn world(time: f64, textured: bool, glass: bool) -> World {
         } else {
             Texture::plain(color * 0.6)
         };
-        let material = Material::matt(albedo).polished(0.25, 0.5, 48.0);
-        objects.push(Object { shape: Shape::Sphere { center, radius: 0.55 }, material, casts_shadow: true });
+        let material = Material::matte(albedo).polished(0.25, 0.5, 48.0);
+        objects.push(Object::new(Shape::Sphere { center, radius: 0.55 }, material));
     }
     let middle = if glass {
         Material::glass(1.5, Vec3::ONE)
     } else {
-        Material::matt(Texture::plain(Vec3::splat(0.1))).polished(0.8, 0.8, 64.0)
+        Material::plain(Vec3::splat(0.1)).polished(0.8, 0.8, 64.0)
     };
     let shape = Shape::Sphere { center: vec3(0.0, 1.1, 0.0), radius: 1.1 };
     objects.push(Object { shape, material: middle, casts_shadow: !glass });
@@ -85,17 +84,16 @@ pub fn world(time: f64, textured: bool, glass: bool) -> World {
     } else {
         Texture::plain(vec3(0.55, 0.54, 0.5))
     };
-    let material = Material::matt(floor).polished(0.15, 0.2, 32.0);
-    objects.push(Object { shape: Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material, casts_shadow: false });
-    let light = |position, color| Light { source: Source::Point(position), color, radius: 0.0 };
+    let material = Material::matte(floor).polished(0.15, 0.2, 32.0);
+    objects.push(Object::new(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material).without_shadow());
     World {
         objects,
         lights: vec![
-            light(vec3(4.0, 6.0, 3.0), vec3(0.9, 0.85, 0.8)),
-            light(vec3(-5.0, 4.0, -2.0), vec3(0.35, 0.4, 0.5)),
+            Light::point(vec3(4.0, 6.0, 3.0), vec3(0.9, 0.85, 0.8)),
+            Light::point(vec3(-5.0, 4.0, -2.0), vec3(0.35, 0.4, 0.5)),
         ],
         ambient: Vec3::splat(0.08),
-        sky: Sky { horizon: vec3(0.75, 0.8, 0.9), zenith: vec3(0.2, 0.35, 0.6), glow: (Vec3::Y, Vec3::ZERO, 0.0) },
+        background: Background::gradient(vec3(0.75, 0.8, 0.9), vec3(0.2, 0.35, 0.6)),
         max_level: if glass { 6 } else { 4 },
     }
 }

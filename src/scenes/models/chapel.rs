@@ -1,8 +1,8 @@
 //! A chapel on the hill, half a ruin: an open arcade, rafters without tiles, a bell tower, broken walls.
 
 use super::{BODY, END, GROUND, PAINTS, ROTATE, build, paint};
-use crate::raster::form::{Body, SQUARE};
-use crate::raster::mesh::Mesh;
+use crate::raster::Mesh;
+use crate::raster::form::{Rings, SQUARE};
 use crate::scenes::script::{ADD, AGAIN, COUNT, MUL, REPEAT, Script, Word, script, set};
 use glam::Vec3;
 
@@ -71,16 +71,16 @@ const PIECES: &[u8] = script![
     [0.0, 0.0, 0.0, ROTATE, 0.0, 7.6, 0.1, 0.2, 0.1, 5.6, 0.0, BODY, END],
 ];
 
-const fn square(rows: &'static [[i8; 5]]) -> Body {
-    Body { rows, sides: 4, half: false, swell: SQUARE, taper: 0.0 }
+const fn square(rows: &'static [[i8; 5]]) -> Rings {
+    Rings { rows, sides: 4, half: false, swell: SQUARE, taper: 0.0 }
 }
 
 /// A block of one metre each way, a gable, the spire, a pillar; the spire has other paint.
-static BODIES: [Body; 4] = [
+static BODIES: [Rings; 4] = [
     square(&[[-10, 10, 0, 10, 0], [-10, 0, 10, 10, 0], [10, 0, 10, 10, 0], [10, 10, 0, 10, 0]]),
     square(&[[0, 4, 0, 35, 0], [0, 0, 4, 35, 0], [32, 0, 4, 1, 0], [32, 4, 0, 1, 0]]),
     square(&[[0, 21, 0, 21, 0x11], [0, 0, 21, 21, 0x11], [31, 0, 0, 0, 0]]),
-    Body {
+    Rings {
         rows: &[[-10, 0, 4, 4, 0], [2, 0, 4, 4, 0], [3, 0, 3, 3, 0], [18, 0, 3, 3, 0], [21, 0, 5, 5, 0]],
         sides: 8,
         half: false,

@@ -2,7 +2,7 @@
 
 use super::{PAINTS, paint};
 use crate::noise::octaves;
-use crate::raster::mesh::Mesh;
+use crate::raster::Mesh;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
 

@@ -6,8 +6,8 @@ pub mod mustang;
 pub mod tree;
 
 use super::script::{Script, VARIABLES, operations};
-use crate::raster::form::Body;
-use crate::raster::mesh::{Mesh, Paint};
+use crate::raster::form::Rings;
+use crate::raster::{Mesh, Paint};
 use crate::simd::hash::rnd;
 use glam::{Mat3, Vec3, vec3};
 
@@ -73,7 +73,7 @@ const STREAM: u32 = 5;
 /// Adds what a script builds of `bodies` on a `foot`: `unit` metres are its unit, `seed` is what its random numbers come
 /// from.
 #[inline(never)]
-fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Body], mut foot: Vec3, unit: f32, seed: u32) {
+fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: Vec3, unit: f32, seed: u32) {
     let (mut turn, mut out) = (Mat3::IDENTITY, Vec3::ZERO);
     loop {
         let operation = script.next();
@@ -90,7 +90,7 @@ fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Body], mut foot: Vec3, 
                 let [x, y, z, a, b, c, index, ..] = *n;
                 let size = turn * Mat3::from_diagonal(vec3(a, b, c) * (0.1 * unit));
                 let at = foot + (vec3(x, y, z) + out) * unit;
-                mesh.body(&bodies[index as usize], &size, at, script.numbers[0] as u16);
+                mesh.rings(&bodies[index as usize], &size, at, script.numbers[0] as u16);
             }
             _ => return,
         }

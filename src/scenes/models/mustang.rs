@@ -1,8 +1,8 @@
 //! An aeroplane: the North American P-51D Mustang, 9.8 m long and 11.3 m wide, its nose along -z.
 
 use super::{BODY, END, TURN, build};
-use crate::raster::form::{Body, SQUARE};
-use crate::raster::mesh::{Mesh, Paint};
+use crate::raster::form::{Rings, SQUARE};
+use crate::raster::{Mesh, Paint};
 use crate::scenes::script::{AGAIN, COS, COUNT, MUL, REPEAT, SIN, Script, get, script, set};
 use glam::{Vec3, vec3};
 
@@ -21,7 +21,7 @@ const fn plain(red: f32, green: f32, blue: f32) -> Paint {
 }
 
 /// From the tail to the nose: 5 cm along, 1 cm across.
-const FUSELAGE: Body = Body {
+const FUSELAGE: Rings = Rings {
     rows: &[
         [-120, 20, 0, 0, 0],
         [-119, 20, 13, 4, 0],
@@ -57,7 +57,7 @@ const FUSELAGE: Body = Body {
 };
 
 /// As the fuselage.
-const CANOPY: Body = Body {
+const CANOPY: Rings = Rings {
     rows: &[
         [-40, 50, 0, 0, 0x22],
         [-34, 50, 18, 13, 0x22],
@@ -77,7 +77,7 @@ const CANOPY: Body = Body {
 };
 
 /// As the fuselage: the radiator's, under the cockpit.
-const SCOOP: Body = Body {
+const SCOOP: Rings = Rings {
     rows: &[
         [-92, -18, 0, 0, 0],
         [-76, -36, 20, 14, 0],
@@ -96,7 +96,7 @@ const SCOOP: Body = Body {
 };
 
 /// From the root to the tip: 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm across.
-const WING: Body = Body {
+const WING: Rings = Rings {
     rows: &[
         [6, 11, 0, 0, 0],
         [6, 11, 115, 50, 0],
@@ -119,7 +119,7 @@ const WING: Body = Body {
 };
 
 /// As the wing.
-const STABILISER: Body = Body {
+const STABILISER: Rings = Rings {
     rows: &[
         [2, -4, 0, 0, 0],
         [2, -4, 48, 14, 0],
@@ -135,7 +135,7 @@ const STABILISER: Body = Body {
 };
 
 /// From its foot to its top: 2 cm along, the rest as the wing.
-const FIN: Body = Body {
+const FIN: Rings = Rings {
     rows: &[
         [5, 33, 0, 0, 0],
         [5, 33, 57, 12, 0],
@@ -155,7 +155,7 @@ const FIN: Body = Body {
 };
 
 /// From the hub to the tip: 2 cm along, 1 cm wide.
-const BLADE: Body = Body {
+const BLADE: Rings = Rings {
     rows: &[
         [12, 0, 0, 0, 0x55],
         [12, 0, 6, 4, 0x55],
@@ -171,7 +171,7 @@ const BLADE: Body = Body {
 };
 
 /// A black box.
-const STICK: Body = Body {
+const STICK: Rings = Rings {
     rows: &[[-1, 1, 0, 1, 0x55], [-1, 0, 1, 1, 0x55], [1, 0, 1, 1, 0x55], [1, 1, 0, 1, 0]],
     sides: 4,
     half: false,
@@ -179,7 +179,7 @@ const STICK: Body = Body {
     taper: 0.0,
 };
 
-static BODIES: [Body; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
+static BODIES: [Rings; 8] = [FUSELAGE, CANOPY, SCOOP, WING, STABILISER, FIN, STICK, BLADE];
 
 /// Decimetres.
 #[rustfmt::skip]

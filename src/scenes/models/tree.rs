@@ -2,8 +2,8 @@
 
 use super::land::{self, height, wooded};
 use super::{BODY, END, PAINTS, RANDOM, ROTATE, STREAM, build, paint};
-use crate::raster::form::Body;
-use crate::raster::mesh::Mesh;
+use crate::raster::Mesh;
+use crate::raster::form::Rings;
 use crate::scenes::script::{ADD, MUL, Script, Word, get, script, set};
 use crate::simd::hash::rnd;
 use glam::{Vec3, vec3};
@@ -28,11 +28,11 @@ const FIR: i8 = 0x11;
 const LEAF: i8 = 0x22;
 
 /// Around, hundredths of the height.
-const fn round(rows: &'static [[i8; 5]], sides: u8) -> Body {
-    Body { rows, sides, half: false, swell: 0.0, taper: 0.0 }
+const fn round(rows: &'static [[i8; 5]], sides: u8) -> Rings {
+    Rings { rows, sides, half: false, swell: 0.0, taper: 0.0 }
 }
 
-const FIR_TREE: Body = round(
+const FIR_TREE: Rings = round(
     &[
         [-5, 0, 3, 3, BARK],
         [14, 0, 2, 2, FIR],
@@ -51,7 +51,7 @@ const FIR_TREE: Body = round(
     ],
     7,
 );
-const FAR_FIR: Body = round(
+const FAR_FIR: Rings = round(
     &[
         [14, 0, 0, 0, FIR],
         [8, 0, 22, 22, FIR],
@@ -63,9 +63,9 @@ const FAR_FIR: Body = round(
     ],
     4,
 );
-const TRUNK: Body = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2, 2, BARK]], 5);
+const TRUNK: Rings = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2, 2, BARK]], 5);
 /// Hundredths of its radius.
-const CROWN: Body = round(
+const CROWN: Rings = round(
     &[
         [-90, 0, 0, 0, LEAF],
         [-60, 0, 70, 70, LEAF],
@@ -75,10 +75,10 @@ const CROWN: Body = round(
     ],
     7,
 );
-const FAR_CROWN: Body =
+const FAR_CROWN: Rings =
     round(&[[-127, 0, 8, 8, BARK], [-60, 0, 60, 60, LEAF], [40, 0, 80, 80, LEAF], [100, 0, 0, 0, LEAF]], 5);
 
-static BODIES: [Body; 5] = [FIR_TREE, FAR_FIR, FAR_CROWN, TRUNK, CROWN];
+static BODIES: [Rings; 5] = [FIR_TREE, FAR_FIR, FAR_CROWN, TRUNK, CROWN];
 
 /// Broadleaves and firs, near and far. The unit is the tree's height.
 #[rustfmt::skip]

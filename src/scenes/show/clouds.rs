@@ -1,14 +1,10 @@
 //! The third part of the intro: by aeroplane through a morning's clouds, from dawn to noon.
 
 use super::day;
-use crate::cloud::field::Field;
-use crate::cloud::march::Look;
-use crate::cloud::shape::Kind;
-use crate::cloud::voxels::Voxels;
-use crate::cloud::{CloudLayer, shadow, sunlight};
+use crate::cloud::{CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Picture, Workers};
-use crate::raster::cloud_shadow::CloudShadow;
+use crate::raster::CloudShadow;
 use crate::timeline;
 use crate::view::Camera;
 use crate::view::View;
@@ -30,7 +26,7 @@ pub const CLOUDS: Scene = Scene {
 /// Seconds that it takes.
 pub const LENGTH: f64 = 50.0;
 
-const FIELD: Field = Field {
+const FIELD: CloudField = CloudField {
     seed: 5,
     spacing: 520.0,
     share: 0.55,
@@ -69,10 +65,10 @@ fn shapes(workers: &Workers, towards: Vec3) -> Vec<Arc<Voxels>> {
         // Each at a time of its own, lest all are made in one frame.
         let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
         if *lit != sun || shape.is_none() {
-            let kind = if number < 4 { Kind::CUMULUS } else { Kind::CONGESTUS };
+            let kind = if number < 4 { CloudKind::CUMULUS } else { CloudKind::CONGESTUS };
             let mut new = match shape {
                 Some(old) => Voxels::clone(old),
-                None => dispatch!(level, simd => Kind::grow(simd, &kind, number as u32, 64)),
+                None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, 64)),
             };
             dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, FIELD.extinction));
             *shape = Some(Arc::new(new));
@@ -118,20 +114,20 @@ fn picture(spec: &FrameSpec) -> Picture {
     }
     let passes = shadow::shares(&clouds, now.direction, &points);
     if !cfg!(without = "cloud-shadows") {
-        world.veil = Some(CloudShadow { passes, corner, texel, slope });
+        world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
     let view = View::new(camera, spec.width, spec.height);
     // What is brightest without glare is to be no more than white.
     let scale = 1.15 / (0.6 * now.color + 0.85 * now.sky).max_element().max(1.0);
     let [sun, sky, ground] = [now.color, now.sky, now.ground].map(|light| light * scale);
-    let look = Look {
+    let light = CloudLight {
         ambient: [ground * 0.5 + sky * 0.4, sky * 0.85],
         towards: now.direction,
         sun: sun * 0.75,
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let mut seen = CloudLayer::new(clouds.clone(), look, air, 9000.0, view, spec.quality.cloud);
-    seen.shade(&clouds);
+    let seen =
+        CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud).in_air(9000.0, air).shaded_by(&clouds);
     day::show(spec, dome, world, view, Some(Box::new(seen)))
 }

@@ -1,19 +1,16 @@
 //! The second part of the intro: days on a hill by a lake, from dawn to the stars, through the year.
 
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture};
-use crate::raster::fit;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::{Body, RasterLayer, World};
+use crate::raster::{Bias, Body, Haze, Light, RasterLayer, ShadowViews, World, fit};
 use crate::scenes::models::{chapel, land, mustang, tree};
 use crate::scenes::script::{
     ADD, CLOUDS, LAYERS, MUL, PICK, Script, VARIABLES, Word, get, kind, operations, script, set, texture,
 };
 use crate::sky::dome::{Dome, Sky};
-use crate::sky::layer::{Look, SkyLayer};
+use crate::sky::layer::SkyLayer;
 use crate::sky::place::Place;
 use crate::texture::Texture;
 use crate::timeline::{self, ease};
@@ -148,7 +145,7 @@ pub(in crate::scenes) fn plan(day: usize, hour: f64) -> ([f32; 9], f32, Vec<Text
 /// The sky of a day, from J2000.
 #[inline(never)]
 pub(in crate::scenes) fn sky(spec: &FrameSpec, day: f64) -> Dome {
-    Dome::new(Sky::new(day, &Place::PLZEN), spec.quality.sky)
+    Dome::new(Sky::new(day, &Place::PLZEN), &spec.quality.sky)
 }
 
 /// The picture of a world under a sky, with what is between.
@@ -160,12 +157,10 @@ pub(in crate::scenes) fn show(
     view: View,
     between: Option<Box<dyn Layer>>,
 ) -> Picture {
-    let look = Look { behind: true, shimmer: spec.time, ..Look::default() };
-    let backdrop = SkyLayer::new(dome, *view.camera(), spec.width, spec.height, look);
-    let mut layers: Vec<Box<dyn Layer>> =
-        vec![Box::new(RasterLayer::new(world, view, spec.width, spec.height, *spec.quality))];
+    let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
+    let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(RasterLayer::new(world, &view, &spec.quality.raster))];
     layers.extend(between);
-    layers.push(Box::new(backdrop));
+    layers.push(Box::new(sky));
     Picture { layers, transfer: Transfer::Srgb }
 }
 
@@ -186,11 +181,8 @@ pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, 
     let [glow, haze] = [sun, level(-sun)].map(|d| dome.radiance(d));
     let image = now.color * ease(0.0, 0.04, now.direction.y as f64) * 3.0;
     World {
-        bodies,
         textures,
-        lights: vec![Light { source: Source::Sun(now.direction), color: now.color, shadow: None }],
-        veil: None,
-        snow: None,
+        lights: vec![Light::sun(now.direction, now.color)],
         ambient: [(now.sky + now.ground) * 0.5, (now.sky - now.ground) * 0.5],
         haze: Haze {
             color: haze,
@@ -200,7 +192,7 @@ pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, 
         },
         zenith: dome.radiance(Vec3::Y),
         film: true,
-        background: None,
+        ..World::new(bodies)
     }
 }
 
@@ -229,15 +221,10 @@ pub(in crate::scenes) fn point(
     [texels, from]: [u32; 2],
     traced: bool,
 ) -> Light {
-    let shadow = ShadowViews {
-        views: fit::cube(position, texels),
-        bias: Bias { constant: 0.02, slope: 2.0, normal: 0.0 },
-        back_faces: false,
-        traced,
-        from: from as usize,
-        smooth: true,
-    };
-    Light { source: Source::Lamp { position, falloff, reach }, color, shadow: Some(shadow) }
+    let bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
+    let shadow = ShadowViews::new(fit::cube(position, texels), bias);
+    let shadow = ShadowViews { traced, first_caster: from as usize, ..shadow };
+    Light::lamp(position, color, falloff, reach).with_shadow(shadow)
 }
 
 /// What the sun or the moon sees, `towards` it, of what a camera sees: up to each of `ends`, metres, in a map.
@@ -250,15 +237,10 @@ pub(in crate::scenes) fn cascades(
 ) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
     let size = if spec.quality.raster.shadow_map == 0 { 1024 } else { spec.quality.raster.shadow_map };
-    Some(ShadowViews {
-        views: fit::cascades(camera, aspect, towards, ends, size),
-        // The curve of docs/report/shadows.md has its knee here.
-        bias: Bias { constant: 0.02, slope: 3.0, normal: 0.5 },
-        back_faces: false,
-        traced: BENCH && spec.quality.raster.shadow_map == 0,
-        from: 0,
-        smooth: true,
-    })
+    // The curve of docs/report/shadows.md has its knee here.
+    let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
+    let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), bias);
+    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0, ..shadow })
 }
 
 fn picture(spec: &FrameSpec) -> Picture {

@@ -2,15 +2,13 @@
 
 use super::{clouds, day, snowfall, torches};
 use super::{letters, lumen};
+use crate::effects::Fade;
+use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
-use crate::frame::{Layer, Picture, Stats, Tile};
-use crate::particles::sprite::Lens;
-use crate::particles::strokes::Strokes;
-use crate::particles::{Emitter, ParticleLayer};
+use crate::particles::{Emitter, Lens, ParticleLayer, Strokes};
 use crate::timeline::{self, ease};
 use crate::view::Camera;
 use crate::view::View;
-use fearless_simd::Level;
 use glam::{Vec3, vec3};
 
 /// The show.
@@ -91,7 +89,7 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
     if !lines.is_empty() {
         let camera = spec.camera(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
         let view = View::new(camera, spec.width, spec.height);
-        let sparks = ParticleLayer::new(lines, Vec3::ZERO, 1.6, &view, spec.width, spec.height);
+        let sparks = ParticleLayer::new(lines, &view, &spec.quality.particles);
         picture.layers.push(Box::new(sparks));
     }
 }
@@ -103,18 +101,4 @@ pub fn light<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
     let light = cuts.fold(ease(0.0, FADE, end - time), f32::min);
     // Eyes, and codes, take about the root of it.
     light * light
-}
-
-/// What is left of the light below it.
-struct Fade(f32);
-
-impl Layer for Fade {
-    fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
-        for plane in [&mut tile.red, &mut tile.green, &mut tile.blue] {
-            for light in plane.iter_mut() {
-                *light *= self.0;
-            }
-        }
-        Stats::default()
-    }
 }

@@ -12,8 +12,7 @@ use crate::scenes::script::{
 };
 use crate::scenes::traced;
 use crate::timeline::{self, ease};
-use crate::trace::shape::Shape;
-use crate::trace::world::{Light, Material, Object, Sky, Source, World};
+use crate::trace::{Background, Emitter, Glow, Light, Material, Object, Shape, World};
 use crate::view::Camera;
 use glam::{Mat3, Vec3, vec3};
 
@@ -102,19 +101,7 @@ struct Set {
     key: [f32; 9],
 }
 
-const EMPTY: Set = Set {
-    world: World {
-        objects: Vec::new(),
-        lights: Vec::new(),
-        ambient: Vec3::ZERO,
-        sky: Sky { horizon: Vec3::ZERO, zenith: Vec3::ZERO, glow: (Vec3::ZERO, Vec3::ZERO, 0.0) },
-        max_level: 0,
-    },
-    object: CLEAR,
-    at: Vec3::ZERO,
-    turn: Mat3::IDENTITY,
-    key: [0.0; 9],
-};
+const EMPTY: Set = Set { world: World::EMPTY, object: CLEAR, at: Vec3::ZERO, turn: Mat3::IDENTITY, key: [0.0; 9] };
 
 impl Set {
     /// Runs a script at `time` seconds.
@@ -158,16 +145,16 @@ impl Set {
                     self.world.objects.push(self.object);
                 }
                 byte::SUN | byte::LAMP => {
-                    let source = match operation {
-                        byte::SUN => Source::Directional(at.normalize()),
-                        _ => Source::Point(at),
+                    let emitter = match operation {
+                        byte::SUN => Emitter::Directional(at.normalize()),
+                        _ => Emitter::Point(at),
                     };
-                    self.world.lights.push(Light { source, color: vector(0), radius: n[3] });
+                    self.world.lights.push(Light { emitter, color: vector(0), radius: n[3] });
                 }
                 _ => {
                     self.world.ambient = vector(0);
-                    let glow = (at.normalize(), vector(9), 10.0 * n[12]);
-                    self.world.sky = Sky { horizon: vector(3), zenith: vector(6), glow };
+                    let glow = Glow { direction: at.normalize(), color: vector(9), exponent: 10.0 * n[12] };
+                    self.world.background = Background { horizon: vector(3), zenith: vector(6), glow };
                     self.world.max_level = n[13] as u32;
                     return;
                 }
@@ -179,7 +166,7 @@ impl Set {
 /// Of glass.
 const CLEAR: Object = Object {
     shape: Shape::Sphere { center: Vec3::ZERO, radius: 0.0 },
-    material: Material { specular: 0.8, exponent: 200.0, ..Material::glass(1.5, vec3(0.95, 0.985, 0.98)) },
+    material: Material::glass(1.5, vec3(0.95, 0.985, 0.98)).shiny(0.8, 200.0),
     casts_shadow: true,
 };
 

@@ -1,18 +1,12 @@
 //! A walk to the chapel of `day` at the end of November: it begins to snow, and it gets dark.
 
 use super::day;
-use crate::effects::Fog;
+use crate::effects::{Fog, FogLayer};
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Scene};
 use crate::frame::{Layer, Picture};
-use crate::particles::snow::{Calm, Flakes, Snow};
-use crate::particles::sprite::Lens;
-use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::RasterLayer;
-use crate::raster::light::{Haze, Light, Source};
-use crate::raster::project::Projection;
-use crate::raster::shadow::{Bias, ShadowViews};
-use crate::raster::snow_cover::SnowCover;
+use crate::particles::{Calm, Emitter, Flakes, Lens, ParticleLayer, Snow};
+use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover};
 use crate::scenes::models::land;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
@@ -116,10 +110,9 @@ fn picture(spec: &FrameSpec) -> Picture {
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let plan = ShadowViews { views, bias, back_faces: false, traced: false, from: 0, smooth: true };
-    let from = Light { source: Source::Sun(towards), color: Vec3::ONE, shadow: Some(plan) };
+    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
     if !cfg!(without = "snow-cover") {
-        world.snow = Some(SnowCover { amount, from, gives: sky * 0.6 });
+        world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6 });
     }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
@@ -130,15 +123,15 @@ fn picture(spec: &FrameSpec) -> Picture {
     let view = View::new(camera, spec.width, spec.height);
     let air_moves = weather(spec.time);
     let density = 8e-4 + 8e-3 * air_moves.snow;
-    let fog = Fog { view, light: air, density, end: 1e5 };
+    let fog = FogLayer::new(Fog { light: air, density, end: 1e5 }, &view);
     let mut fields = Vec::new();
     for flakes in &FIELDS {
         let mut snow = Snow::new(flakes, spec.time, camera.eye.as_dvec3(), air_moves.drift, air_moves.snow);
         snow.calm = Calm { wind: air_moves.wind, height: 1.7, depth: 1.5 };
         fields.push(Emitter::Snow(snow));
     }
-    let flakes = ParticleLayer::new(fields, (air * 1.7 + 0.04).min(Vec3::ONE), 0.0, &view, spec.width, spec.height);
-    let drawn = RasterLayer::new(world, view, spec.width, spec.height, *spec.quality);
+    let flakes = ParticleLayer::new(fields, &view, &spec.quality.particles).colored((air * 1.7 + 0.04).min(Vec3::ONE));
+    let drawn = RasterLayer::new(world, &view, &spec.quality.raster);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {
         layers.push(Box::new(fog));

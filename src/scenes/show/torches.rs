@@ -2,16 +2,12 @@
 //! the moon over the lake.
 
 use super::day;
-use crate::cuts::BENCH;
+use crate::cuts;
 use crate::frame::Picture;
 use crate::frame::{FrameSpec, Scene};
-use crate::particles::fire::{Fire, Flame};
 use crate::particles::flicker::flicker;
-use crate::particles::sprite::Lens;
-use crate::particles::{Emitter, ParticleLayer};
-use crate::raster::light::Light;
-use crate::raster::mesh::Mesh;
-use crate::raster::{Body, form};
+use crate::particles::{Emitter, Fire, Flame, Lens, ParticleLayer};
+use crate::raster::{Body, Light, Mesh, form};
 use crate::scenes::models::{PAINTS, paint};
 use crate::timeline::{self, Key};
 use crate::view::Camera;
@@ -45,7 +41,7 @@ pub const FIRES: [[f32; 6]; 7] = [
 
 /// Under a fire, tenths of its radius: a bowl on a staff.
 #[rustfmt::skip]
-const BOWL: form::Body = form::Body {
+const BOWL: form::Rings = form::Rings {
     rows: &[[-45, 0, 2, 2, 0], [-14, 0, 3, 3, 0], [-10, 0, 9, 9, 0], [1, 0, 12, 12, 0], [1, 0, 10, 10, 0], [-3, 0, 0, 0, 0]],
     sides: 8,
     half: false,
@@ -102,7 +98,7 @@ fn bowls() -> Body {
                 size.y_axis.x = -0.18 * x;
             }
             if inner == 0.0 {
-                mesh.body(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
+                mesh.rings(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
             }
         }
         Body::new(Arc::new(mesh), Affine3A::IDENTITY)
@@ -119,7 +115,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, 0.4));
     // 1 / (1 + 0.0004 D + 0.000028 D^2) as in the thesis, if a unit of its game is half a centimetre.
-    let traced = BENCH && spec.quality.raster.shadow_map == 0;
+    let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
     day::point(position, color, Vec2::new(0.08, 1.12), 5.0 * root, [128, from], traced)
 }
 
@@ -136,7 +132,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.7,
         radius: [0.11, 0.03],
         light: [vec3(0.02, 0.0105, 0.003), vec3(0.012, 0.002, 0.0003)],
-        alpha: 0.0,
     },
     Flame {
         life: [0.8, 1.2],
@@ -149,7 +144,6 @@ static FLAMES: [Flame; 2] = [
         lift: 0.4,
         radius: [0.008, 0.005],
         light: [vec3(0.25, 0.12, 0.04), vec3(0.2, 0.05, 0.01)],
-        alpha: 0.0,
     },
 ];
 
@@ -173,10 +167,10 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
                 weight: 1.0,
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
-            flames.push(Emitter::Fire(fire.detailed(view, spec.quality.particles.detail)));
+            flames.push(Emitter::Fire(fire));
         }
     }
-    ParticleLayer::new(flames, Vec3::ZERO, 1.6, view, spec.width, spec.height)
+    ParticleLayer::new(flames, view, &spec.quality.particles)
 }
 
 fn picture(spec: &FrameSpec) -> Picture {

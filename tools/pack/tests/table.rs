@@ -33,20 +33,23 @@ const WORDS: &str = r#"
 pub fn long(n: usize) -> &'static str { const { unsafe { std::str::from_utf8_unchecked(&[b'x'; 3000]) } }.split_at(n).0 }
 "#;
 
+/// The small program, made with these options.
+fn compiled(name: &str, options: &[&str]) -> Vec<u8> {
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(root.join("src")).unwrap();
+    for (file, text) in [("main", MAIN), ("deep", DEEP), ("words", WORDS)] {
+        fs::write(root.join(format!("src/{file}.rs")), text).unwrap();
+    }
+    let flags = ["--edition=2024", "--crate-name=small", "-Copt-level=s", "-Cpanic=abort", "-Ccodegen-units=1"];
+    let mut rustc = Command::new("rustc");
+    rustc.args(flags).args(options).args(["-Crelocation-model=static", "-o", "small", "src/main.rs"]);
+    assert!(rustc.current_dir(&root).status().unwrap().success());
+    fs::read(root.join("small")).unwrap()
+}
+
 fn program() -> &'static [u8] {
     static ELF: OnceLock<Vec<u8>> = OnceLock::new();
-    ELF.get_or_init(|| {
-        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("small");
-        fs::create_dir_all(root.join("src")).unwrap();
-        for (file, text) in [("main", MAIN), ("deep", DEEP), ("words", WORDS)] {
-            fs::write(root.join(format!("src/{file}.rs")), text).unwrap();
-        }
-        let flags = ["--edition=2024", "--crate-name=small", "-Cdebuginfo=1", "-Copt-level=s", "-Cpanic=abort"];
-        let static_flags = ["-Crelocation-model=static", "-Ccodegen-units=1", "-o", "small", "src/main.rs"];
-        let status = Command::new("rustc").args(flags).args(static_flags).current_dir(&root).status().unwrap();
-        assert!(status.success());
-        fs::read(root.join("small")).unwrap()
-    })
+    ELF.get_or_init(|| compiled("small", &["-Cdebuginfo=1"]))
 }
 
 fn row<'a>(rows: &'a [Row], name: &str) -> &'a Row {
@@ -125,10 +128,6 @@ fn rounded_rows_add_up() {
 #[test]
 fn a_stripped_program_is_an_error() {
     assert!(Profile::read(b"no program").is_err());
-    let root = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    fs::write(root.join("unstripped"), program()).unwrap();
-    let strip = Command::new("strip").args(["-o", "stripped", "unstripped"]).current_dir(root).status().unwrap();
-    assert!(strip.success());
-    let error = Profile::read(&fs::read(root.join("stripped")).unwrap()).err();
+    let error = Profile::read(&compiled("stripped", &["-Cdebuginfo=0", "-Cstrip=symbols"])).err();
     assert!(error.is_some_and(|e| e.contains("debuginfo")));
 }

@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn one_wrong_pixel_of_64_is_counted_in_every_metric() {
         let (truth, mut wrong) = (grey([100; 64]), grey([100; 64]));
-        wrong.pixels[9] = 0x64_6c_4c;
+        wrong.pixels[9] = 0x0064_6c4c;
         let difference = Difference::between(&wrong, &truth);
         // 8 codes in green, 24 in blue.
         assert_eq!(difference.mean_square, (64.0 + 576.0) / (3.0 * 64.0));
@@ -123,7 +123,7 @@ mod tests {
         assert!((difference.psnr() - 20.0 * (255.0 / difference.rmse()).log10()).abs() < 1e-9);
         assert!(ssim(&wrong, &truth) < 1.0);
         // A gap of 8 codes alone is not bad.
-        wrong.pixels[9] = 0x64_6c_64;
+        wrong.pixels[9] = 0x0064_6c64;
         assert_eq!(bad_pixels(&wrong, &truth), 0);
     }
 }

@@ -1,0 +1,52 @@
+//! Clouds as a layer of a picture.
+
+use super::cells;
+use super::imposter_cache::ImposterCache;
+use super::seen::SeenClouds;
+use super::world::{Cloud, CloudLight};
+use crate::cuts;
+use crate::frame::cache::lock;
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
+use crate::settings::CloudSettings;
+use crate::view::View;
+use fearless_simd::Level;
+use glam::Vec3;
+
+/// Clouds before an eye: a layer after the solids and before the sky.
+pub struct CloudLayer {
+    clouds: SeenClouds,
+}
+
+impl CloudLayer {
+    /// The layer of clouds, in any order, in clear air and in the full light of the sun.
+    pub fn new(clouds: Vec<Cloud>, light: CloudLight, view: &View, settings: &CloudSettings) -> CloudLayer {
+        CloudLayer { clouds: SeenClouds::new(clouds, light, view, settings) }
+    }
+
+    /// The same in air of which `range` metres let 1/e of a cloud's light through, and which has the linear light
+    /// `light` of a unit direction itself.
+    pub fn in_air(mut self, range: f32, light: impl Fn(Vec3) -> Vec3) -> CloudLayer {
+        self.clouds.add_air(range, light);
+        self
+    }
+
+    /// The same in the shadow of clouds, which may be the layer's own. A quarter of the sun's light is left in the
+    /// deepest shadow.
+    pub fn shaded_by(mut self, clouds: &[Cloud]) -> CloudLayer {
+        self.clouds.shade(clouds);
+        self
+    }
+}
+
+impl Layer for CloudLayer {
+    fn prepare(&mut self, workers: &Workers, cache: &Cache) {
+        if cuts::IMPOSTERS && self.clouds.settings.imposter > 0.0 {
+            lock(&cache.get::<ImposterCache>()).prepare(&mut self.clouds, workers);
+        }
+    }
+
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        cells::draw(level, &self.clouds, tile);
+        Stats::default()
+    }
+}

@@ -1,0 +1,55 @@
+//! Haze in front of what is far, and the sky at the horizon that glossy surfaces mirror.
+
+use crate::simd::lanes::{F, Lane, V3};
+use fearless_simd::prelude::*;
+use glam::Vec3;
+
+/// Air that hides what is far: light fades exponentially with the distance, into a colour that depends on the direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Haze {
+    /// Colour of the haze, linear light.
+    pub color: Vec3,
+    /// Extinction per metre: `exp(-density d)` of the light is left after d metres.
+    pub density: f32,
+    /// A direction (unit), and light that is added to the colour around it, by the eighth power of the cosine.
+    pub glow: (Vec3, Vec3),
+    /// The direction of sun or moon projected to the horizon (unit), and the light of their image in a mirror there, by
+    /// the 512th power of the cosine.
+    pub image: (Vec3, Vec3),
+}
+
+impl Haze {
+    /// Haze of one colour in all directions. A `density` of 0 is clear air.
+    pub const fn even(color: Vec3, density: f32) -> Haze {
+        Haze { color, density, glow: (Vec3::Y, Vec3::ZERO), image: (Vec3::Y, Vec3::ZERO) }
+    }
+
+    /// The colour of the haze in a direction (unit).
+    #[inline(always)]
+    pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        V3::splat(simd, self.color) + lobe(simd, d, self.glow, 3)
+    }
+
+    /// Light of the image of sun or moon in a direction (unit).
+    #[inline(always)]
+    pub fn image_at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
+        lobe(simd, d, self.image, 9)
+    }
+}
+
+/// Clear air before a black sky.
+impl Default for Haze {
+    fn default() -> Haze {
+        Haze::even(Vec3::ZERO, 0.0)
+    }
+}
+
+/// A Phong lobe of light around a direction: the cosine is squared `squarings` times.
+#[inline(always)]
+fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3, Vec3), squarings: u32) -> V3<S> {
+    let mut power = d.dot1(towards).max(F::<S>::splat(simd, 0.0));
+    for _ in 0..squarings {
+        power *= power;
+    }
+    V3::splat(simd, light) * Lane(power)
+}

@@ -1,0 +1,190 @@
+//! The rasterizer as a layer of a picture: the stages of a frame, and of a tile.
+
+use super::collect::collect;
+use super::context::{ShadeContext, ShadowLookup};
+use super::depth_map::DepthMap;
+use super::fill::{SubPixel, fill};
+use super::memory::{RasterMemory, Scratch};
+use super::project::Projection;
+use super::rasters::{Raster, draw_map, set_up};
+use super::shade::flush;
+use super::shadow_maps::MapKey;
+use super::shadow_views::ShadowViews;
+use super::triangle::{SUB, TriangleSetup};
+use super::world::World;
+use crate::cuts;
+use crate::frame::cache::lock;
+use crate::frame::{Cache, Layer, Stats, Tile, Workers};
+use crate::settings::{RasterSettings, samples_per_axis};
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::lanes::F;
+use crate::view::View;
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use glam::Vec3;
+use std::sync::{Arc, Mutex};
+
+/// A world seen by a camera: the first layer of a picture, which clears its tiles.
+pub struct RasterLayer {
+    world: World,
+    view: View,
+    settings: RasterSettings,
+    /// The camera's raster, then those of lights that have no map from an earlier frame.
+    rasters: Vec<Raster>,
+    /// Shadows of each light, and after those of falling snow.
+    lookups: Vec<ShadowLookup>,
+    /// What the renderer keeps; empty until the layer is prepared.
+    memory: Arc<Mutex<RasterMemory>>,
+}
+
+impl RasterLayer {
+    /// A world as a view shows it. The frame must have the size of the view, at most 16,384 pixels along either side, and
+    /// `coverage` must be from 1 to 16.
+    pub fn new(world: World, view: &View, settings: &RasterSettings) -> RasterLayer {
+        let (view, settings) = (*view, *settings);
+        RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: Arc::default() }
+    }
+
+    /// Decides for each light, and for falling snow, where its shadows are looked up: in a map of an earlier frame, or in
+    /// rasters that are added. Returns the maps that have to be drawn into.
+    #[inline(always)]
+    fn look_up_shadows(&mut self) -> Vec<(MapKey, DepthMap)> {
+        let RasterLayer { world, rasters, lookups, memory, .. } = self;
+        let bodies = &world.bodies;
+        let mut missing = Vec::new();
+        let snow = world.snow.iter().map(|snow| &snow.fall);
+        for (slot, light) in world.lights.iter().chain(snow).enumerate() {
+            let mut lookup = ShadowLookup { map: None, first: rasters.len() };
+            // The shadows of a lamp that reaches nothing in the picture are never looked up.
+            if let Some(&ShadowViews { ref views, back_faces, traced, first_caster, .. }) = light.shadow_views()
+                && light.counts(&rasters[0].setup.projection)
+            {
+                let mut key = MapKey { slot, views: views.clone(), back_faces, casters: Vec::new() };
+                for body in bodies.iter().skip(first_caster) {
+                    if light.reaches(body.bound.0, body.bound.1) {
+                        key.casters.push(body.clone());
+                    }
+                }
+                let traced = cuts::TRACED_SHADOWS && traced;
+                // A traced light has no map, though another frame may have kept one of the same views.
+                let kept = if traced { Err(DepthMap::default()) } else { lock(memory).maps.recall(&key) };
+                match kept {
+                    Ok(map) => lookup.map = Some(map),
+                    Err(map) => {
+                        for projection in views {
+                            let setup = TriangleSetup { projection: *projection, back_faces, shaded: false };
+                            rasters.push(Raster::new(setup, first_caster, bodies.len()));
+                        }
+                        if !traced {
+                            missing.push((key, map));
+                        }
+                    }
+                }
+            }
+            lookups.push(lookup);
+        }
+        missing
+    }
+
+    /// Draws a tile; returns the number of fragments.
+    ///
+    /// ```text
+    /// for each cell of a grid in the pixel          (one, except for the reference)
+    ///     find what is visible at each sample of the cell
+    ///     collect fragments, and shade those of full queues
+    /// shade what is left in queues
+    /// ```
+    #[inline(always)]
+    fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
+        let RasterLayer { world, view, rasters, lookups, settings, .. } = self;
+        let grid = samples_per_axis(settings.grid) as u32;
+        let count = if grid > 1 { 1 } else { settings.coverage };
+        let Scratch { planes, queues } = scratch;
+        let planes = &mut planes[..count];
+        let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
+        tile.clear();
+        tile.coverage.fill(0.0);
+        tile.inv_depth.fill(0.0);
+        let share = 1.0 / (grid * grid * count as u32) as f32;
+        let context = ShadeContext { world, lookups, rasters, view, share };
+        let mut fragments = 0;
+        if !ids.is_empty() {
+            for pass in 0..grid * grid {
+                for (k, (visible, place)) in planes.iter_mut().enumerate() {
+                    *place = match grid {
+                        1 => spread(k as u32, count as u32),
+                        _ => cell([pass % grid, pass / grid], grid),
+                    };
+                    visible.clear(0.0);
+                    fill(simd, &rasters[0].meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
+                }
+                fragments += collect(simd, &context, planes, queues, tile);
+            }
+            for (texture, queue) in queues.iter_mut().enumerate() {
+                if queue.count > 0 {
+                    flush(simd, &context, texture, queue, tile);
+                }
+            }
+        }
+        if cuts::BACKGROUND
+            && let Some(color) = world.background
+        {
+            behind(simd, color, tile);
+        }
+        fragments
+    }
+}
+
+/// Adds the background to what solids leave open in a tile.
+#[inline(always)]
+fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, light) in planes.into_iter().zip(color.to_array()) {
+        let coverage = tile.coverage.as_chunks::<BLOCK>().0;
+        for (block, coverage) in plane.as_chunks_mut::<BLOCK>().0.iter_mut().zip(coverage) {
+            let mut i = 0;
+            while i < BLOCK / F::<S>::LEN {
+                let open = -load::<S, F<S>>(simd, coverage, i) + 1.0;
+                store(open * light + load::<S, F<S>>(simd, block, i), block, i);
+                i += 1;
+            }
+        }
+    }
+}
+
+/// The place of sample `k` of `n` in a pixel: a lattice with one sample in each row and each column of an `n` x `n` grid.
+fn spread(k: u32, n: u32) -> SubPixel {
+    let multiplier = if n == 4 { 2 } else { 5 };
+    cell([k, multiplier * (k + 1) % (n + 1) - 1], n)
+}
+
+/// The middle of a cell of an `n` x `n` grid in a pixel, by its column and row.
+fn cell(at: [u32; 2], n: u32) -> SubPixel {
+    at.map(|at| ((2 * at + 1) * (SUB as u32 / 2) / n) as i32)
+}
+
+impl Layer for RasterLayer {
+    fn prepare(&mut self, workers: &Workers, cache: &Cache) {
+        self.memory = cache.get();
+        let projection = Projection::of_view(&self.view);
+        let setup = TriangleSetup { projection, back_faces: false, shaded: true };
+        self.rasters.push(Raster::new(setup, 0, self.world.bodies.len()));
+        let mut missing = self.look_up_shadows();
+        let RasterLayer { world, rasters, lookups, memory, .. } = self;
+        set_up(workers, rasters, &world.bodies);
+        while let Some((key, mut map)) = missing.pop() {
+            let lookup = &mut lookups[key.slot];
+            map.resize(key.views[0].size[0] as usize, key.views.len());
+            draw_map(workers, &mut map, &rasters[lookup.first..]);
+            lookup.map = Some(lock(memory).maps.keep(key, map));
+        }
+    }
+
+    fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        // Bound, so that the lock is free again while the tile is drawn.
+        let spare = lock(&self.memory).spare.pop();
+        let mut scratch = spare.unwrap_or_else(Scratch::new);
+        let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
+        lock(&self.memory).spare.push(scratch);
+        Stats { samples }
+    }
+}

@@ -1,0 +1,61 @@
+//! Shadow maps kept from frame to frame: a map that would be the same again is not drawn again.
+//!
+//! A map depends on nothing but its key, so a frame has the same bytes whether or not its maps were kept.
+
+use super::depth_map::DepthMap;
+use super::project::Projection;
+use super::world::Body;
+use std::sync::Arc;
+
+/// What a depth map shows: maps of equal keys are equal.
+#[derive(PartialEq)]
+pub struct MapKey {
+    /// Index of the light in the world's list, or the number of lights for falling snow. Each slot keeps one map.
+    pub slot: usize,
+    /// The light's views.
+    pub views: Vec<Projection>,
+    /// Whether faces that look away from the light are drawn.
+    pub back_faces: bool,
+    /// What casts shadows. Bodies hold their meshes, so no other mesh can come to lie at the same address meanwhile.
+    pub casters: Vec<Body>,
+}
+
+/// The latest map of each slot.
+#[derive(Default)]
+pub struct ShadowMaps(Vec<(MapKey, Arc<DepthMap>)>);
+
+impl ShadowMaps {
+    /// The map of an earlier frame that has this key; otherwise memory to draw it into. A map of the same slot that is
+    /// another one is given up.
+    pub fn recall(&mut self, key: &MapKey) -> Result<Arc<DepthMap>, DepthMap> {
+        let Some(at) = self.0.iter().position(|(kept, _)| kept.slot == key.slot) else {
+            return Err(DepthMap::default());
+        };
+        if self.0[at].0 == *key {
+            return Ok(self.0[at].1.clone());
+        }
+        // Another frame may still be reading it.
+        Err(Arc::try_unwrap(self.0.swap_remove(at).1).unwrap_or_default())
+    }
+
+    /// Keeps a map for later frames.
+    pub fn keep(&mut self, key: MapKey, map: DepthMap) -> Arc<DepthMap> {
+        let map = Arc::new(map);
+        self.0.push((key, map.clone()));
+        map
+    }
+
+    /// The maps that are kept, in no order.
+    pub fn iter(&self) -> impl Iterator<Item = &(MapKey, Arc<DepthMap>)> {
+        self.0.iter()
+    }
+
+    /// Has the map of a slot drawn anew in the next frame, as if its light had moved; its memory is kept for that. For
+    /// measurements, where a map of the round before would spare the work that is timed.
+    pub fn forget(&mut self, slot: usize) {
+        for (key, _) in self.0.iter_mut().filter(|(key, _)| key.slot == slot) {
+            // No light has a map without views.
+            key.views.clear();
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The dome at the corners of square cells of pixels, interpolated between, or at every pixel.
+//!
+//! It is the sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring tiles
+//! evaluate the same ones and no seam shows. Within a cell light is bilinear. With cells of one pixel the dome is evaluated
+//! at each pixel, or at a grid of samples of it: that is the limit that cells are held against.
+
+use super::dome::{Dome, Quantity, evaluate};
+use crate::frame::Tile;
+use crate::settings::{SkySettings, samples_per_axis};
+use crate::simd::block::{BLOCK, Block3, load, store};
+use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::math::to_f32;
+use crate::view::View;
+use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
+
+/// How finely the dome is evaluated on the screen.
+#[derive(Clone, Copy, Debug)]
+pub struct Cells {
+    /// Edge of a cell, pixels: a power of two up to 64. At 1 every pixel is evaluated.
+    size: u32,
+    /// Samples along each axis of a pixel where every pixel is evaluated.
+    grid: usize,
+}
+
+impl Cells {
+    /// The largest cells of a view that the settings allow.
+    pub fn new(view: &View, settings: &SkySettings) -> Cells {
+        let mut size = 64;
+        while size > 1 && size as f32 * view.pixel() > settings.cell {
+            size /= 2;
+        }
+        Cells { size, grid: settings.grid }
+    }
+
+    /// Samples along each axis of a cell. Asked for where it is used, since it is the constant 1 in the 64 kB build.
+    #[inline(always)]
+    fn samples(self) -> u32 {
+        if self.size > 1 { 1 } else { samples_per_axis(self.grid) as u32 }
+    }
+
+    /// The middle of a cell's first pixel, pixels from the point whose light the cell starts with. That is its corner, but of a
+    /// cell of one pixel its middle.
+    fn middle(self) -> f32 {
+        if self.size > 1 { 0.5 } else { 0.0 }
+    }
+}
+
+/// Adds the dome to what solids have left of a tile.
+#[simd]
+pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut Tile) {
+    if tile.coverage.iter().all(|c| *c >= 1.0) {
+        return;
+    }
+    let size = cells.size;
+    let (left, top) = (to_f32(tile.x), to_f32(tile.y));
+    // The rows of corners above and below a row of pixels, already interpolated along x.
+    let mut lines = [[[0.0; BLOCK]; 3]; 2];
+    line(simd, dome, view, cells, left, top, &mut lines[1]);
+    for y in 0..tile.height as u32 {
+        if y % size == 0 {
+            lines[0] = lines[1];
+            line(simd, dome, view, cells, left, top + (y + size) as f32, &mut lines[1]);
+        }
+        let share = ((y % size) as f32 + cells.middle()) / size as f32;
+        let [a, b] = &lines;
+        let mut i = 0;
+        while i < BLOCK / F::<S>::LEN {
+            let (a, b) = (V3::load(simd, a, i), V3::load(simd, b, i));
+            put(simd, a + (b - a) * Lane(F::<S>::splat(simd, share)), None, y as usize, i, tile);
+            i += 1;
+        }
+    }
+}
+
+/// The light of 64 pixels from the point (`left`, `top`) of the picture on: interpolated between the corners of cells that
+/// lie on this line, or the mean of each pixel's samples.
+#[simd]
+fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, left: f32, top: f32, out: &mut Block3) {
+    let (size, grid) = (cells.size, cells.samples());
+    let step = 1.0 / grid as f32;
+    let mut x = [0.0; BLOCK];
+    for (i, x) in x.iter_mut().enumerate() {
+        *x = left + (i as u32 * size) as f32;
+    }
+    let mut sum = [[0.0; BLOCK]; 3];
+    for sample in 0..grid * grid {
+        let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
+        let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
+        let mut i = 0;
+        // One corner more than there are cells.
+        while i < BLOCK / F::<S>::LEN && i * F::<S>::LEN <= BLOCK / size as usize {
+            let ray = view.rays(simd, load::<S, F<S>>(simd, &x, i) + dx, F::<S>::splat(simd, top + dy));
+            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
+            let light = evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
+            (V3::load(simd, &sum, i) + light).store(&mut sum, i);
+            i += 1;
+        }
+    }
+    for (sum, out) in sum.iter().zip(out) {
+        for (i, out) in out.iter_mut().enumerate() {
+            let cell = i / size as usize;
+            let (a, b) = (sum[cell], sum[(cell + 1) % BLOCK]);
+            *out = a + (b - a) * ((i as u32 % size) as f32 + cells.middle()) / size as f32;
+        }
+    }
+}
+
+/// Adds light to what solids have left of vector `i` of a row of pixels.
+///
+/// With `hides`, the share of the sky behind it that it hides, the light is drawn onto the sky, and adds the less the more
+/// light is there already.
+#[simd]
+pub fn put<S: Simd>(simd: S, light: V3<S>, hides: Option<F<S>>, row: usize, i: usize, tile: &mut Tile) {
+    let one = F::<S>::splat(simd, 1.0);
+    let left = one - load::<S, F<S>>(simd, &tile.coverage.as_chunks::<BLOCK>().0[row], i);
+    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
+    for (plane, light) in planes.into_iter().zip([light.x, light.y, light.z]) {
+        let plane = &mut plane.as_chunks_mut::<BLOCK>().0[row];
+        let mut there: F<S> = load(simd, plane, i);
+        let mut room = left;
+        if let Some(hides) = hides {
+            there *= one - hides * left;
+            room *= (one - there).max(0.0);
+        }
+        store(there + light * room, plane, i);
+    }
+}

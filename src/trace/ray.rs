@@ -1,0 +1,82 @@
+//! Rays in packets of one per lane, and the nearest body that each of them meets.
+//!
+//! There is no search structure: every ray is tried against every body of a list, which suits worlds of some tens of
+//! bodies. The scalar code that this must equal is [`super::reference`].
+
+use super::shape::Ball;
+use super::world::World;
+use crate::simd::lanes::{F, M, U, V3};
+use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
+
+/// The index that stands for no body.
+pub const NOWHERE: u32 = u32::MAX;
+
+/// One ray per lane, and the body whose surface it leaves.
+#[derive(Clone, Copy)]
+pub struct RayPacket<S: Simd> {
+    /// Start, metres.
+    pub origin: V3<S>,
+    /// Unit direction.
+    pub direction: V3<S>,
+    /// Index of the body that the ray leaves, or [`NOWHERE`].
+    pub from: U<S>,
+    /// Whether the ray goes into that body.
+    pub inward: M<S>,
+}
+
+/// What a search for the nearest body is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Search {
+    /// The first surface along the ray.
+    Nearest,
+    /// Any body that casts a shadow and lies between the ray's origin and `reach`. The distance found means nothing, and
+    /// the search ends when all active lanes are dark.
+    Shadow,
+}
+
+/// For every lane the nearest of the bodies in `list`, or [`NOWHERE`], and its distance but for a few ulps.
+///
+/// Only surfaces at distances above 0 and below `reach` count, both ends excluded. A ray that only touches a round body
+/// misses it. Lanes that are not `active`, and rays with a NaN, have unspecified results.
+#[simd]
+pub fn nearest<S: Simd>(
+    simd: S,
+    world: &World,
+    list: &[u32],
+    ray: &RayPacket<S>,
+    active: M<S>,
+    reach: F<S>,
+    search: Search,
+) -> (U<S>, F<S>) {
+    let shadow = search == Search::Shadow;
+    let zero = F::<S>::splat(simd, 0.0);
+    let nowhere = U::<S>::splat(simd, NOWHERE);
+    let (mut best, mut object) = (reach, nowhere);
+    let ball = if shadow { Ball::Middle } else { Ball::Rough };
+    for &index in list {
+        let body = &world.objects[index as usize];
+        if shadow && !body.casts_shadow {
+            continue;
+        }
+        let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
+        if !(hit & active).any_true() {
+            continue;
+        }
+        let id = U::<S>::splat(simd, index);
+        let other = !ray.from.simd_eq(id);
+        if shadow {
+            object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+            if !(active & object.simd_eq(nowhere)).any_true() {
+                break;
+            }
+        } else {
+            // Outwards the body that the ray leaves does not count; inwards only its far side does.
+            let t = (t0.simd_gt(zero) & other).select(t0, t1);
+            let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+            best = meets.select(t, best);
+            object = meets.select(id, object);
+        }
+    }
+    (object, best)
+}

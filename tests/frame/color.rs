@@ -1,0 +1,247 @@
+//! Transfer functions against published values and f64, the dither's mean, elementary functions against f64.
+
+use fearless_simd::{Simd, dispatch, prelude::*};
+use paprsek::frame::encode::{Transfer, encode, gamma22_encode, quantize, srgb_decode, srgb_encode};
+use paprsek::simd::math;
+
+/// How near a step of the code, in codes, the wide encoder may take the other side of it.
+const STEP_MARGIN: f64 = 1e-4;
+
+/// Encodes a row at every level, asserts that all give the same, and answers with it.
+fn encode_all(transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32]) -> Vec<u32> {
+    let mut first = None;
+    for (name, level) in testkit::levels() {
+        let mut out = vec![0xdead_beef; r.len()];
+        dispatch!(level, simd => encode(simd, transfer, x0, y, r, g, b, &mut out));
+        assert_eq!(first.get_or_insert_with(|| out.clone()), &out, "{name}");
+    }
+    first.unwrap()
+}
+
+/// Linear lights: log-uniform below 1, uniform, and everything else.
+fn lights() -> Vec<f32> {
+    let mut all: Vec<f32> = (0..50_000).map(|i| i as f32 / 50_000.0).collect();
+    all.extend((0..50_000).map(|i| 10f32.powf(-i as f32 / 1200.0)));
+    all.extend([0.0, -0.0, 1.0, -1.0, 2.0, 1e-45, -1e-45, f32::MAX, f32::MIN, 0.003_130_8, 1f32.next_down()]);
+    all.extend([f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1f32.next_up(), 0.003_130_8f32.next_up()]);
+    all
+}
+
+#[test]
+fn srgb_agrees_with_published_values() {
+    // Linear light of 8-bit codes, as tables of IEC 61966-2-1 give it to eight places.
+    for (code, linear) in [(1, 0.00030353), (10, 0.00303527), (11, 0.00334654), (128, 0.21586050), (188, 0.50288646)] {
+        // The table's last place, and the rounding of the code to f32, which the curve's slope multiplies by 2.4.
+        assert!((srgb_decode(code as f32 / 255.0) - linear as f32).abs() < 5e-9 + 2e-7 * linear as f32, "{code}");
+    }
+    assert!((srgb_encode(0.5) - 0.735_357).abs() < 1e-7);
+    assert!((srgb_encode(0.18) - 0.461_356_1).abs() < 1e-7);
+    assert!((gamma22_encode(0.5) - 0.729_740_1).abs() < 1e-7);
+    assert_eq!((srgb_encode(0.0), srgb_encode(1.0)), (0.0, 1.0));
+    assert_eq!((srgb_decode(0.0), srgb_decode(1.0)), (0.0, 1.0));
+}
+
+#[test]
+fn srgb_decoding_inverts_encoding() {
+    for i in 0..=100_000 {
+        let c = i as f32 / 100_000.0;
+        // The standard's constants leave a step of 3e-8 between its two pieces.
+        assert!((srgb_decode(srgb_encode(c)) - c).abs() < 2e-7, "{c}");
+    }
+}
+
+#[test]
+fn codes_rise_with_light() {
+    let rising: Vec<f32> = (0..200_000).map(|i| i as f32 / 199_999.0).collect();
+    assert!(rising.windows(2).all(|w| srgb_encode(w[0]) <= srgb_encode(w[1])));
+    assert!(rising.windows(2).all(|w| gamma22_encode(w[0]) <= gamma22_encode(w[1])));
+    let codes = encode_all(Transfer::Gamma22, 0, 0, &rising, &rising, &rising);
+    assert!(codes.is_sorted());
+    assert_eq!((codes[0], codes[199_999]), (0, 0xffffff));
+    // With dither, at one pixel.
+    for (x, y) in [(0, 0), (5, 9), (1279, 719)] {
+        let at = |c: f32| encode_all(Transfer::Srgb, x, y, &[c], &[c], &[c])[0];
+        let codes: Vec<u32> = (0..2000).map(|i| at(i as f32 / 1999.0)).collect();
+        for shift in [0, 8, 16] {
+            assert!(codes.windows(2).all(|w| w[0] >> shift & 255 <= w[1] >> shift & 255));
+        }
+    }
+}
+
+#[test]
+fn black_white_and_nonsense_have_fixed_codes() {
+    for transfer in [Transfer::Gamma22, Transfer::Srgb] {
+        for y in 0..64 {
+            for (c, code) in [
+                (0.0, 0),
+                (-0.0, 0),
+                (-1.0, 0),
+                (f32::NEG_INFINITY, 0),
+                (f32::NAN, 0),
+                (1.0, 0xffffff),
+                (7.0, 0xffffff),
+                (f32::MAX, 0xffffff),
+                (f32::INFINITY, 0xffffff),
+            ] {
+                let row = [c; 1000];
+                assert!(encode_all(transfer, 3, y, &row, &row, &row).iter().all(|&p| p == code), "{transfer:?} {c}");
+                assert_eq!(quantize(transfer, c, 3, y, 1), code & 255);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_wide_encoder_agrees_with_the_scalar() {
+    let lights = lights();
+    let n = lights.len();
+    let turned = |by: usize| -> Vec<f32> { (0..n).map(|i| lights[(i + by) % n]).collect() };
+    let (g, b) = (turned(1000), turned(77_777));
+    let mut excused = 0;
+    for transfer in [Transfer::Gamma22, Transfer::Srgb] {
+        let codes = encode_all(transfer, 11, 5, &lights, &g, &b);
+        for (i, code) in codes.iter().enumerate() {
+            for (channel, c) in [lights[i], g[i], b[i]].into_iter().enumerate() {
+                let wide = code >> (16 - 8 * channel) & 255;
+                let at = |c: f32| quantize(transfer, c, 11 + i as u32, 5, channel as u32);
+                if wide != at(c) {
+                    // A relative change of light by this much moves no code by more than the margin.
+                    let change = (STEP_MARGIN / 255.0 * 2.2) as f32;
+                    assert!(at(c * (1.0 - change)) == wide || at(c * (1.0 + change)) == wide, "{transfer:?} {c:e}");
+                    excused += 1;
+                }
+            }
+        }
+    }
+    assert!(excused < 100, "{excused} of {} codes", 6 * n);
+}
+
+#[test]
+fn any_cut_of_a_row_encodes_alike() {
+    let light: Vec<f32> = (0..100).map(|i| i as f32 / 99.0).collect();
+    let whole = encode_all(Transfer::Srgb, 20, 30, &light, &light, &light);
+    for from in [0, 1, 15, 16, 33] {
+        for to in [from, from + 1, from + 15, from + 16, from + 17, 100] {
+            let cut = &light[from..to];
+            assert_eq!(encode_all(Transfer::Srgb, 20 + from as u32, 30, cut, cut, cut), whole[from..to]);
+        }
+    }
+}
+
+#[test]
+fn dither_keeps_the_mean() {
+    const AREA: u32 = 256;
+    let mut worst = 0f64;
+    for (i, &(x0, y0)) in [(0, 0), (1000, 500), (77, 3)].iter().cycle().take(120).enumerate() {
+        let c = (i as f32 / 120.0).powi(3) + 1e-4;
+        let row = [c; AREA as usize];
+        let level = fearless_simd::Level::new();
+        let mut sum = [0u64; 3];
+        for y in y0..y0 + AREA {
+            let mut out = [0; AREA as usize];
+            dispatch!(level, simd => encode(simd, Transfer::Srgb, x0, y, &row, &row, &row, &mut out));
+            for p in out {
+                sum[0] += p as u64 >> 16;
+                sum[1] += p as u64 >> 8 & 255;
+                sum[2] += p as u64 & 255;
+            }
+        }
+        for sum in sum {
+            let mean = sum as f64 / (AREA * AREA) as f64;
+            worst = worst.max((mean - 255.0 * srgb_encode(c) as f64).abs());
+        }
+    }
+    assert!(worst < 1e-3, "{worst} codes");
+}
+
+/// One function of [`math`] over many arguments at every level, which must agree bit by bit.
+fn apply_all(function: Function, arguments: &[f32]) -> Vec<f32> {
+    let mut first: Option<Vec<f32>> = None;
+    for (name, level) in testkit::levels() {
+        let out = dispatch!(level, simd => apply(simd, function, arguments));
+        let same = first.get_or_insert_with(|| out.clone()).iter().zip(&out).all(|(a, b)| a.to_bits() == b.to_bits());
+        assert!(same, "{function:?} {name}");
+    }
+    first.unwrap()
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Function {
+    Exp2,
+    Log2,
+    Powf(f32),
+    Sin,
+}
+
+#[inline(always)]
+fn apply<S: Simd>(simd: S, function: Function, arguments: &[f32]) -> Vec<f32> {
+    let mut out = arguments.to_vec();
+    for chunk in out.chunks_exact_mut(S::f32s::LEN) {
+        let x = S::f32s::from_slice(simd, chunk);
+        let y = match function {
+            Function::Exp2 => math::exp2(simd, x),
+            Function::Log2 => math::log2(simd, x),
+            Function::Powf(power) => math::powf(simd, x, power),
+            Function::Sin => math::sin(simd, x),
+        };
+        y.store_slice(chunk);
+    }
+    out
+}
+
+/// The largest error, each divided by what is allowed of `truth(x)`.
+fn worst(function: Function, x: &[f32], truth: impl Fn(f64) -> f64, allowed: impl Fn(f64) -> f64) -> f64 {
+    let values = apply_all(function, x);
+    x.iter()
+        .zip(values)
+        .map(|(&x, v)| (v as f64 - truth(x as f64)).abs() / allowed(truth(x as f64)))
+        .fold(0.0, f64::max)
+}
+
+/// A million arguments from `a` to `b`.
+fn range(a: f64, b: f64) -> Vec<f32> {
+    const N: usize = 1 << 20;
+    (0..N).map(|i| (a + (b - a) * i as f64 / (N - 1) as f64) as f32).collect()
+}
+
+#[test]
+fn exp2_is_accurate() {
+    let error = worst(Function::Exp2, &range(-126.0, 127.0), f64::exp2, |y| y);
+    assert!(error < 2e-7, "{error:e}");
+    let whole: Vec<f32> = (-126..=127).map(|i| i as f32).chain([0.0, 0.0]).collect();
+    assert_eq!(worst(Function::Exp2, &whole, f64::exp2, |y| y), 0.0);
+}
+
+#[test]
+fn log2_is_accurate() {
+    let wide: Vec<f32> = range(-125.9, 127.9).iter().map(|x| x.exp2()).collect();
+    for x in [wide, range(0.5, 2.0), range(0.99, 1.01)] {
+        let error = worst(Function::Log2, &x, f64::log2, |y| (2e-7 * y.abs()).max(1.5e-7));
+        assert!(error < 1.0, "{error}");
+    }
+    assert_eq!(apply_all(Function::Log2, &[1.0; 16]), [0.0; 16]);
+}
+
+#[test]
+fn powf_is_accurate() {
+    // No result leaves the normal numbers.
+    let wide: Vec<f32> = range(-25.0, 20.0).iter().map(|x| x.exp2()).collect();
+    for power in [1.0 / 2.2, 1.0 / 2.4, 2.0, 2.4, 5.0, 0.0, -0.5] {
+        for x in [&wide, &range(1e-4, 1.0)] {
+            let truth = |x: f64| x.powf(power as f64);
+            let error = worst(Function::Powf(power), x, truth, |y| y * (4e-7 + 1e-7 * y.log2().abs()));
+            assert!(error < 1.0, "{power}: {error}");
+        }
+    }
+    // Zero, and all that is less than a normal number, counts as the least one.
+    let tiny = apply_all(Function::Powf(1.0), &[0.0, 1e-45, -1.0, f32::NEG_INFINITY].repeat(4));
+    assert!(tiny.iter().all(|v| (v / f32::MIN_POSITIVE - 1.0).abs() < 2e-5));
+}
+
+#[test]
+fn sin_is_accurate() {
+    for x in [range(-1000.0, 1000.0), range(-4.0, 4.0), range(-1e-3, 1e-3)] {
+        let error = worst(Function::Sin, &x, f64::sin, |_| 1.0);
+        assert!(error < 2e-7, "{error:e}");
+    }
+}

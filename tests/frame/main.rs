@@ -1,0 +1,9 @@
+//! What every renderer stands on: noise, keyframes, fog, encoding to 8 bits, two eyes, and that SIMD levels, threads and
+//! history change no byte.
+
+mod color;
+mod fog;
+mod levels;
+mod noise;
+mod stereo;
+mod timeline;

@@ -1,0 +1,290 @@
+//! Noise against an independent one in f64, against what is known of it, and every SIMD level against the scalar.
+
+use fearless_simd::dispatch;
+use glam::Vec3;
+use paprsek::noise::{fbm, noise, noise_block, octaves_block, turbulence};
+use paprsek::simd::block::BLOCK;
+use proptest::prelude::*;
+
+/// f32 against exact arithmetic, all roundings of one noise together.
+const TOLERANCE: f64 = 4e-7;
+
+/// Perlin's permutation, copied apart from the source so that a slip in either shows.
+#[rustfmt::skip]
+const P: [u8; 256] = [
+    151, 160, 137, 91, 90, 15, 131, 13, 201, 95, 96, 53, 194, 233, 7, 225,
+    140, 36, 103, 30, 69, 142, 8, 99, 37, 240, 21, 10, 23, 190, 6, 148,
+    247, 120, 234, 75, 0, 26, 197, 62, 94, 252, 219, 203, 117, 35, 11, 32,
+    57, 177, 33, 88, 237, 149, 56, 87, 174, 20, 125, 136, 171, 168, 68, 175,
+    74, 165, 71, 134, 139, 48, 27, 166, 77, 146, 158, 231, 83, 111, 229, 122,
+    60, 211, 133, 230, 220, 105, 92, 41, 55, 46, 245, 40, 244, 102, 143, 54,
+    65, 25, 63, 161, 1, 216, 80, 73, 209, 76, 132, 187, 208, 89, 18, 169,
+    200, 196, 135, 130, 116, 188, 159, 86, 164, 100, 109, 198, 173, 186, 3, 64,
+    52, 217, 226, 250, 124, 123, 5, 202, 38, 147, 118, 126, 255, 82, 85, 212,
+    207, 206, 59, 227, 47, 16, 58, 17, 182, 189, 28, 42, 223, 183, 170, 213,
+    119, 248, 152, 2, 44, 154, 163, 70, 221, 153, 101, 155, 167, 43, 172, 9,
+    129, 22, 39, 253, 19, 98, 108, 110, 79, 113, 224, 232, 178, 185, 112, 104,
+    218, 246, 97, 228, 251, 34, 242, 193, 238, 210, 144, 12, 191, 179, 162, 241,
+    81, 51, 145, 235, 249, 14, 239, 107, 49, 192, 214, 31, 181, 199, 106, 157,
+    184, 84, 204, 176, 115, 121, 50, 45, 127, 4, 150, 254, 138, 236, 205, 93,
+    222, 114, 67, 29, 24, 72, 243, 141, 128, 195, 78, 66, 215, 61, 156, 180,
+];
+
+/// The 12 edges of a cube as Perlin's paper lists them, and the four that he repeats.
+const EDGES: [[i8; 3]; 16] = [
+    [1, 1, 0],
+    [-1, 1, 0],
+    [1, -1, 0],
+    [-1, -1, 0],
+    [1, 0, 1],
+    [-1, 0, 1],
+    [1, 0, -1],
+    [-1, 0, -1],
+    [0, 1, 1],
+    [0, -1, 1],
+    [0, 1, -1],
+    [0, -1, -1],
+    [1, 1, 0],
+    [0, -1, 1],
+    [-1, 1, 0],
+    [0, -1, -1],
+];
+
+/// Noise in f64 as a weighted sum over corners, the lattice in 64 bits.
+fn exact(p: [f64; 3]) -> f64 {
+    let cell = p.map(|x| x.floor() as i64);
+    let hash = |h: u8, i: i64| P[(h as i64 + i).rem_euclid(256) as usize];
+    let mut sum = 0.0;
+    for corner in 0..8 {
+        let mut weight = 1.0;
+        let mut offset = [0.0; 3];
+        let mut h = 0;
+        for axis in 0..3 {
+            let bit = corner >> axis & 1;
+            let t = p[axis] - p[axis].floor();
+            let s = t.powi(3) * (10.0 + t * (6.0 * t - 15.0));
+            weight *= if bit == 1 { s } else { 1.0 - s };
+            offset[axis] = t - bit as f64;
+            h = hash(h, cell[axis].rem_euclid(256) + bit);
+        }
+        let edge = EDGES[h as usize % 16];
+        sum += weight * (0..3).map(|a| edge[a] as f64 * offset[a]).sum::<f64>();
+    }
+    sum
+}
+
+fn exact_at(p: Vec3) -> f64 {
+    exact(p.to_array().map(|x| x as f64))
+}
+
+/// A fixed sequence of numbers in 0..1.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 40) as f64 / (1u64 << 24) as f64
+    }
+
+    /// A coordinate of either sign, log-uniform over 1e-8..1e8.
+    fn coordinate(&mut self) -> f32 {
+        let magnitude = 10f64.powf(self.next() * 16.0 - 8.0) as f32;
+        if self.next() < 0.5 { magnitude } else { -magnitude }
+    }
+
+    fn within(&mut self, radius: f32) -> Vec3 {
+        Vec3::from_array([0; 3].map(|_| (self.next() as f32 * 2.0 - 1.0) * radius))
+    }
+}
+
+/// Coordinates where implementations go wrong.
+fn specials() -> Vec<f32> {
+    let mut all =
+        vec![0.0, 0.5, 255.0, 255.5, 256.0, 256.5, 257.0, 1e8, 1e20, f32::MAX, f32::MIN_POSITIVE, 1e-45, 3e-40];
+    all.extend([16_777_215.0, 16_777_216.0, 2_147_483_520.0, 2_147_483_648.0, 4_294_967_296.0, 9.3e18]);
+    for lattice in [1.0f32, 2.0, 7.0, 255.0, 256.0, 1024.0] {
+        all.extend([lattice.next_up(), lattice.next_down()]);
+    }
+    let negative: Vec<f32> = all.iter().map(|x| -x).collect();
+    all.extend(negative);
+    all
+}
+
+#[test]
+#[allow(clippy::approx_constant)] // 3.14 is what was published.
+fn agrees_with_the_published_value() {
+    // Quoted for Perlin's reference code, in f64: the f32 coordinates themselves are off by 1e-7.
+    assert!((exact([3.14, 42.0, 7.0]) - 0.13691995878400012).abs() < 1e-15);
+    assert!((noise(Vec3::new(3.14, 42.0, 7.0)) as f64 - 0.13691995878400012).abs() < TOLERANCE);
+}
+
+#[test]
+fn agrees_with_exact_arithmetic() {
+    let mut random = Random(1);
+    let mut worst = 0.0f64;
+    for radius in [1.0, 10.0, 300.0, 5000.0, 1e6] {
+        for _ in 0..100_000 {
+            let p = random.within(radius);
+            worst = worst.max((noise(p) as f64 - exact_at(p)).abs());
+        }
+    }
+    for _ in 0..200_000 {
+        let p = Vec3::new(random.coordinate(), random.coordinate(), random.coordinate());
+        worst = worst.max((noise(p) as f64 - exact_at(p)).abs());
+    }
+    assert!(worst < TOLERANCE, "{worst:e}");
+}
+
+#[test]
+fn specials_agree_with_exact_arithmetic() {
+    for &x in &specials() {
+        for &y in &specials() {
+            let p = Vec3::new(x, y, 0.4);
+            // Beyond i64 the oracle's lattice saturates; all such floats are multiples of 256.
+            let q = p.to_array().map(|x| if x.abs() >= 9.2e18 { 0.0 } else { x as f64 });
+            assert!((noise(p) as f64 - exact(q)).abs() < TOLERANCE, "{p}");
+        }
+    }
+}
+
+#[test]
+fn vanishes_on_the_lattice() {
+    for i in -300..300 {
+        let p = Vec3::new(i as f32, (i * 7 % 301) as f32, (i * 13 % 257) as f32);
+        assert_eq!(noise(p).to_bits(), 0, "{p}");
+    }
+}
+
+#[test]
+fn repeats_after_256() {
+    let mut random = Random(2);
+    for _ in 0..10_000 {
+        // Multiples of 1/64, so that adding 256 is exact.
+        let p = (random.within(256.0) * 64.0).floor() / 64.0;
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            assert_eq!(noise(p).to_bits(), noise(p + 256.0 * axis).to_bits(), "{p}");
+        }
+    }
+}
+
+#[test]
+fn is_continuous_across_cells() {
+    for i in -260..260 {
+        for (y, z) in [(0.3, 0.7), (-0.6, 12.1)] {
+            let (x, y, z) = (i as f32, y, z);
+            let here = noise(Vec3::new(x, y, z));
+            for near in [x.next_up(), x.next_down()] {
+                // The slope is below 2.
+                let step = 2.0 * (near - x).abs() + 1e-6;
+                assert!((noise(Vec3::new(near, y, z)) - here).abs() < step, "{x}");
+                assert!((noise(Vec3::new(y, near, z)) - noise(Vec3::new(y, x, z))).abs() < step, "{x}");
+                assert!((noise(Vec3::new(y, z, near)) - noise(Vec3::new(y, z, x))).abs() < step, "{x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn has_the_known_distribution() {
+    let mut random = Random(3);
+    let (mut low, mut high, mut sum, mut squares) = (0.0f32, 0.0f32, 0.0, 0.0);
+    let n = 1_000_000;
+    for _ in 0..n {
+        let v = noise(random.within(128.0));
+        (low, high) = (low.min(v), high.max(v));
+        sum += v as f64;
+        squares += (v * v) as f64;
+    }
+    let sigma = (squares / n as f64).sqrt();
+    assert!((-1.04..-0.8).contains(&low) && (0.8..1.04).contains(&high), "{low} {high}");
+    assert!((sum / n as f64).abs() < 0.01, "{}", sum / n as f64);
+    assert!((0.25..0.29).contains(&sigma), "{sigma}");
+}
+
+#[test]
+fn octaves_add_up() {
+    let mut random = Random(4);
+    for _ in 0..10_000 {
+        let p = random.within(50.0);
+        let octaves: Vec<f64> = (0..6).map(|m| exact_at(p * (1 << m) as f32)).collect();
+        for n in 0..=6 {
+            let sum = |f: fn(f64) -> f64| (0..n).map(|m| f(octaves[m]) * 0.5f64.powi(m as i32 + 1)).sum::<f64>();
+            assert!((fbm(p, n as u32) as f64 - sum(|v| v)).abs() < TOLERANCE);
+            assert!((turbulence(p, n as u32) as f64 - sum(f64::abs)).abs() < TOLERANCE);
+        }
+    }
+}
+
+#[test]
+fn not_numbers_are_survived() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for p in [Vec3::new(bad, 0.5, 0.5), Vec3::new(0.5, bad, 0.5), Vec3::new(0.5, 0.5, bad), Vec3::splat(bad)] {
+            assert!(noise(p).is_nan());
+            fbm(p, 4);
+            turbulence(p, 4);
+        }
+    }
+}
+
+/// Every level against the scalar, bit by bit; NaN against any NaN.
+fn check_levels(points: &[Vec3; BLOCK]) {
+    let [mut x, mut y, mut z] = [[0.0; BLOCK]; 3];
+    for (i, p) in points.iter().enumerate() {
+        (x[i], y[i], z[i]) = (p.x, p.y, p.z);
+    }
+    let same = |what: &str, level: &str, out: &[f32; BLOCK], truth: &dyn Fn(Vec3) -> f32| {
+        for (p, v) in points.iter().zip(out) {
+            let t = truth(*p);
+            assert!(t.to_bits() == v.to_bits() || t.is_nan() && v.is_nan(), "{what} {level} at {p}: {v:e} for {t:e}");
+        }
+    };
+    for (name, level) in testkit::levels() {
+        let mut out = [0.0; BLOCK];
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
+        same("noise", name, &out, &noise);
+        for octaves in [0, 1, 5] {
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, None, &mut out));
+            same("fbm", name, &out, &|p| fbm(p, octaves));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, None, &mut out));
+            same("turbulence", name, &out, &|p| turbulence(p, octaves));
+        }
+    }
+}
+
+#[test]
+fn every_level_gives_the_same_bits() {
+    let mut random = Random(5);
+    for round in 0..3000 {
+        check_levels(&core::array::from_fn(|_| match round % 3 {
+            0 => random.within(300.0),
+            1 => Vec3::new(random.coordinate(), random.coordinate(), random.coordinate()),
+            // Half cells: many ties and zeros.
+            _ => random.within(20.0).floor() * 0.5,
+        }));
+    }
+}
+
+#[test]
+fn every_level_gives_the_same_bits_of_specials() {
+    let mut all = specials();
+    all.extend([f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+    let mut i = 0;
+    for &x in &all {
+        for &y in &all {
+            check_levels(&core::array::from_fn(|k| {
+                i += 1;
+                let z = all[(i + k) % all.len()];
+                if k % 2 == 0 { Vec3::new(x, y, 0.3) } else { Vec3::new(y, 0.7, z) }
+            }));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    #[test]
+    fn any_bits_are_survived(bits: [[u32; 3]; BLOCK]) {
+        check_levels(&bits.map(|p| Vec3::from_array(p.map(f32::from_bits))));
+    }
+}

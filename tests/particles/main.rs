@@ -1,0 +1,11 @@
+//! Particles against a drawing of the same text in f64, with time that is never rounded.
+
+mod fire_detail;
+mod flicker;
+mod history;
+mod layer;
+mod life;
+mod oracle;
+mod sprites;
+mod streaks;
+mod truth;

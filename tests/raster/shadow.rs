@@ -1,0 +1,349 @@
+//! Shadows of the sun by depth maps against what stands between a point and the light, in f64; and that a kept map changes nothing.
+//!
+//! A point is misclassified where more than half of the light comes though it should not, or the other way round. Acne
+//! (dark instead of lit) and leaks (lit instead of dark) are counted apart. Only the box is to cast a shadow where what
+//! looks away from the sun is drawn: level ground does not.
+
+use glam::{Affine3A, DVec2, DVec3, Vec2, Vec3, dvec3, vec3};
+use paprsek::frame::Cache;
+use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, World};
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
+use std::sync::Arc;
+use testkit::drawn::{Count, Planes, block, body, dark, draw, draw_with, enters, ground, ray};
+
+const SIZE: [usize; 2] = [220, 130];
+/// Depth maps are what is tested: one sample a pixel, and shadows as the intro has them.
+const QUALITY: Quality = Quality::FAST;
+/// A map cannot know an edge better than its 3x3 texels reach.
+const REACH: f64 = 1.5;
+/// Texels along a map's border in which it is not looked up, and how far rounding may move a point there.
+const MARGIN: f32 = 2.0;
+const NEAR: f32 = 0.01;
+/// The target: misclassified points, of the receiver's visible pixels.
+const SHARE: f64 = 0.01;
+
+/// The distance of a point from the outline of the convex hull of others.
+fn from_outline(points: &[DVec2], p: DVec2) -> f64 {
+    // An edge of the hull has all points on one side.
+    let mut least = f64::MAX;
+    for &a in points {
+        for &b in points {
+            let along = b - a;
+            let length = along.length();
+            if length < 1e-9 || points.iter().any(|&q| along.perp_dot(q - a) < -1e-9 * length) {
+                continue;
+            }
+            let k = ((p - a).dot(along) / (length * length)).clamp(0.0, 1.0);
+            least = least.min(p.distance(a + along * k));
+        }
+    }
+    least
+}
+
+/// Direction to a sun.
+fn sun(elevation: f64, azimuth: f64) -> DVec3 {
+    let (sin, cos) = elevation.to_radians().sin_cos();
+    if elevation == 90.0 { DVec3::Y } else { dvec3(cos * azimuth.sin(), sin, cos * azimuth.cos()) }
+}
+
+/// A box above level ground under a sun, whose map is `width` metres wide.
+struct Sunny {
+    elevation: f64,
+    texels: u32,
+    width: f32,
+    bias: Bias,
+    smooth: bool,
+    back_faces: bool,
+    traced: bool,
+}
+
+const BOX: (Vec3, Vec3) = (vec3(-1.5, 2.5, -1.0), vec3(1.5, 4.0, 2.0));
+
+impl Sunny {
+    fn towards(&self) -> DVec3 {
+        sun(self.elevation, 0.7)
+    }
+
+    /// It stands on the ground where the sun is low, and else above it: so that the shadow is seen.
+    fn block(&self) -> (Vec3, Vec3) {
+        (if self.elevation < 10.0 { BOX.0.with_y(0.0) } else { BOX.0 }, BOX.1)
+    }
+
+    fn plan(&self) -> ShadowViews {
+        let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
+        let Sunny { bias, smooth, back_faces, traced, .. } = *self;
+        ShadowViews { back_faces, traced, smooth, ..ShadowViews::new(vec![view], bias) }
+    }
+
+    fn draw(&self, camera: Camera) -> Planes {
+        let (low, high) = self.block();
+        let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
+        let lights = vec![Light::sun(self.towards().as_vec3(), Vec3::ONE).with_shadow(self.plan())];
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
+    }
+
+    /// Each pixel that shows the ground: where, and the share of the sun's light there.
+    fn receivers(&self, camera: Camera) -> Vec<(DVec3, f64)> {
+        let planes = self.draw(camera);
+        let point = |pixel: usize| {
+            let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+            let t = -camera.eye.as_dvec3().y / d.y;
+            let seen = (planes.inv_depth[pixel] as f64 * t - 1.0).abs() < 1e-3;
+            // Where the box stands, its sides are as far away as the ground.
+            let (low, high) = self.block();
+            let p = camera.eye.as_dvec3() + d * t;
+            let gap = (p - p.clamp(low.as_dvec3(), high.as_dvec3())).length();
+            (seen && gap > 0.02)
+                .then(|| (camera.eye.as_dvec3() + d * t, planes.color[pixel].x as f64 / self.towards().y))
+        };
+        (0..planes.color.len()).filter_map(point).collect()
+    }
+
+    fn count(&self, camera: Camera, reach: f64) -> Count {
+        let towards = self.towards();
+        let texel = (self.width / self.texels as f32) as f64;
+        let side = towards.any_orthonormal_vector();
+        let over = towards.cross(side);
+        let flat = |p: DVec3| DVec2::new(p.dot(side), p.dot(over));
+        let (low, high) = self.block();
+        let corners: Vec<DVec2> = (0..8)
+            .map(|i| flat(Vec3::select(glam::BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), low, high).as_dvec3()))
+            .collect();
+        let mut count = Count::default();
+        for (p, share) in self.receivers(camera) {
+            let lit = enters(p, towards, (low, high)).is_none();
+            let far = from_outline(&corners, flat(p)) > reach * texel;
+            count.add(lit, share > 0.5, far);
+        }
+        count
+    }
+}
+
+/// From above and from the side.
+fn cameras() -> [Camera; 2] {
+    let look = |eye: Vec3| Camera::look_at(eye, vec3(0.0, 0.0, 0.5), 0.9, 0.0);
+    [look(vec3(3.0, 16.0, 9.0)), look(vec3(-9.0, 5.0, 7.0))]
+}
+
+#[test]
+fn the_suns_shadow_has_its_outline() {
+    let none = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [128, 512, 2048] {
+            for smooth in [false, true] {
+                let (width, bias, back_faces, traced) = (44.0, none, true, false);
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
+                for camera in cameras() {
+                    let count = scene.count(camera, REACH);
+                    println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
+                    assert!(count.pixels > 5000 && count.dark > 20, "{elevation} {texels}: {count:?}");
+                    assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+                    // At a third of a metre the texels themselves are some hundredths of what is seen.
+                    assert!(texels < 512 || count.share() <= SHARE, "{elevation} {texels}: {count:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn ground_does_not_shadow_itself() {
+    // Two texels along the normal lift level ground over all texels that are looked up, however low the sun is; they
+    // move what is seen of the map by as much.
+    let bias = Bias { constant: 0.002, slope: 0.0, normal: 2.0 };
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [512, 2048] {
+            for smooth in [false, true] {
+                let (width, back_faces, traced) = (44.0, false, false);
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
+                let count = scene.count(cameras()[0], REACH + 2.0);
+                println!("{elevation} degrees, {texels}: {:.3} %, {count:?}", 100.0 * count.share());
+                assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+            }
+        }
+    }
+    // Without, it does: the test can fail.
+    let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
+    let (smooth, back_faces, traced) = (true, false, false);
+    let scene = Sunny { elevation: 30.0, texels: 512, width: 44.0, bias, smooth, back_faces, traced };
+    let count = scene.count(cameras()[0], REACH + 2.0);
+    assert!(count.acne > 1000, "{count:?}");
+}
+
+/// Texels: corners are snapped to 1/256, and a little is left of the bias.
+const TRACED_REACH: f64 = 0.1;
+
+#[test]
+fn traced_shadows_have_their_outline() {
+    let (width, smooth, traced) = (44.0, true, true);
+    for elevation in [1.0, 5.0, 30.0, 60.0, 90.0] {
+        for texels in [64, 512] {
+            // Where the ground is drawn it must not hide itself; where the box's back is, there is no need.
+            for (back_faces, share) in [(false, 1.0), (true, 0.0)] {
+                let bias = Bias { constant: 0.02, slope: share, normal: share };
+                let scene = Sunny { elevation, texels, width, bias, smooth, back_faces, traced };
+                for camera in cameras() {
+                    let count = scene.count(camera, TRACED_REACH);
+                    assert!(count.pixels > 5000 && count.dark > 20, "{elevation} {texels}: {count:?}");
+                    assert_eq!(count.far, 0, "{elevation} degrees, {texels} texels: {count:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plan_without_views_is_no_shadow() {
+    let world = |shadow| {
+        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
+        World { lights, ..dark(vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))]) }
+    };
+    let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, testkit::levels()[0].1);
+    for traced in [false, true] {
+        let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
+        let plan = ShadowViews { traced, ..ShadowViews::new(Vec::new(), bias) };
+        assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
+    }
+}
+
+#[test]
+fn bodies_before_the_first_that_casts_hide_nothing() {
+    // The box comes first: it hides the ground unless the plan begins after it.
+    let picture = |shadow| {
+        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
+        let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
+        draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, testkit::levels()[0].1)
+    };
+    let truth = picture(None);
+    for traced in [false, true] {
+        let hidden = |from| {
+            let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
+            let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
+            let plan = ShadowViews { traced, first_caster: from, ..ShadowViews::new(views, bias) };
+            let found = picture(Some(plan));
+            let pairs = found.color.iter().zip(&truth.color);
+            pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
+        };
+        assert!(hidden(0) > 200, "{}", hidden(0));
+        // The number of bodies, and one beyond.
+        assert_eq!([hidden(1), hidden(2), hidden(3)], [0; 3]);
+    }
+}
+
+#[test]
+fn beyond_the_map_is_light() {
+    // The box is larger than the map.
+    let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    for smooth in [false, true] {
+        let (texels, width) = (64, 2.5);
+        let (back_faces, traced) = (true, false);
+        let scene = Sunny { elevation: 9.0, texels, width, bias, smooth, back_faces, traced };
+        let view = scene.plan().views[0];
+        let (mut beyond, mut dark, mut cut) = (0, 0, 0);
+        for (p, share) in scene.receivers(cameras()[0]) {
+            let at = view.matrix().project_point3(p.as_vec3());
+            let (low, high) = (at.x.min(at.y), at.x.max(at.y));
+            if low < MARGIN - NEAR || high > texels as f32 - MARGIN + NEAR {
+                assert!((share - 1.0).abs() < 1e-5, "{p}: {share}");
+                beyond += 1;
+                cut += enters(p, scene.towards(), BOX).is_some() as u32;
+            } else {
+                dark += (share < 0.5) as u32;
+            }
+        }
+        assert!(beyond > 1000 && dark > 100 && cut > 20, "{beyond} {dark} {cut}");
+    }
+}
+
+#[test]
+fn the_finest_map_that_reaches_is_looked_up() {
+    // Two maps: a wide one, and a fine one around the box. Within the fine one it is as if that were alone.
+    let bias = Bias { constant: 1e-3, slope: 0.0, normal: 0.0 };
+    let scene =
+        |width| Sunny { elevation: 40.0, texels: 128, width, bias, smooth: true, back_faces: true, traced: false };
+    let (fine, wide) = (scene(6.0), scene(44.0));
+    let camera = cameras()[0];
+    let both = {
+        let mut plan = fine.plan();
+        plan.views.extend(wide.plan().views);
+        let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
+        let lights = vec![Light::sun(fine.towards().as_vec3(), Vec3::ONE).with_shadow(plan)];
+        draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
+    };
+    let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
+    let view = fine.plan().views[0];
+    let (mut inside, mut outside) = (0, 0);
+    for pixel in 0..both.color.len() {
+        if both.inv_depth[pixel] == 0.0 {
+            continue;
+        }
+        let d = ray(&camera, SIZE, (pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+        let p = camera.eye.as_dvec3() + d / both.inv_depth[pixel] as f64;
+        let at = view.matrix().project_point3(p.as_vec3());
+        // On the margin's edge either may be looked up.
+        let (low, high) = (at.x.min(at.y), at.x.max(at.y));
+        if low > MARGIN + NEAR && high < 128.0 - MARGIN - NEAR {
+            assert_eq!(both.color[pixel], fine_alone.color[pixel], "{p}");
+            inside += 1;
+        } else if low < MARGIN - NEAR || high > 128.0 - MARGIN + NEAR {
+            assert_eq!(both.color[pixel], wide_alone.color[pixel], "{p}");
+            outside += 1;
+        }
+    }
+    assert!(inside > 1000 && outside > 1000, "{inside} {outside}");
+}
+
+#[test]
+fn kept_maps_change_no_frame() {
+    let shapes: Vec<Arc<Mesh>> = [1.0, 1.0, 0.6].map(|s| Arc::new(block(BOX.0 * s, BOX.1 * s))).to_vec();
+    let floor = Arc::new(ground(14.0, 0.0, 6));
+    // Box, its place, is it there, the sun, texels, lights.
+    let frame = |cache: &Cache, k: usize, fresh: bool| {
+        let renew = |mesh: &Arc<Mesh>| if fresh { Arc::new(Mesh::clone(mesh)) } else { mesh.clone() };
+        // Every way in which one frame may resemble the last.
+        let shape = [0, 0, 1, 1, 0, 2, 0, 0, 0, 0][k % 10];
+        let at = [0.0, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-3][k % 10];
+        let there = k % 10 != 6;
+        let (elevation, texels) = ([40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 40.0, 41.0][k % 8], [192, 64][k % 7 / 6]);
+        let scene = Sunny {
+            elevation,
+            texels,
+            width: [44.0, 30.0][k % 5 / 4],
+            bias: Bias { constant: 0.01, slope: 2.0, normal: 1.0 },
+            smooth: !k.is_multiple_of(3),
+            back_faces: k % 9 == 8,
+            traced: k % 11 == 10,
+        };
+        let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
+        let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
+        let lamp = Light::lamp(position, Vec3::X, Vec2::new(0.0, 0.1), 20.0);
+        let lamp = lamp.with_shadow(ShadowViews { views, ..scene.plan() });
+        let mut lights = vec![Light::sun(scene.towards().as_vec3(), Vec3::ONE).with_shadow(scene.plan()), lamp];
+        if k % 4 == 3 {
+            lights.reverse();
+        }
+        lights.truncate(1 + (k % 6 != 5) as usize);
+        let place = Affine3A::from_translation(vec3(at, 0.0, 0.0));
+        let mut bodies = vec![Body::new(renew(&floor), Affine3A::IDENTITY), Body::new(renew(&shapes[shape]), place)];
+        bodies.truncate(1 + there as usize);
+        let size = [[90, 60], [64, 64], [33, 70]][k % 3];
+        draw_with(cache, &World { lights, ..dark(bodies) }, cameras()[k % 2], size, QUALITY, testkit::levels()[0].1)
+    };
+    let truths: Vec<Planes> = (0..40).map(|k| frame(&Cache::default(), k, true)).collect();
+    // Several at once with one cache: they take maps from each other.
+    let cache = Cache::default();
+    std::thread::scope(|scope| {
+        for thread in 0..3 {
+            let (frame, truths, cache) = (&frame, &truths, &cache);
+            scope.spawn(move || {
+                for k in 0..120 {
+                    // Often the same twice, or back to the one before.
+                    let k = [k, k, k + 1, k][k % 4] * (thread + 1) % truths.len();
+                    assert_eq!(truths[k].differs(&frame(cache, k, false)), None, "frame {k}");
+                }
+            });
+        }
+    });
+    assert!((1..40).filter(|&k| truths[k].color != truths[k - 1].color).count() > 30);
+}
