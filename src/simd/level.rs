@@ -31,7 +31,6 @@ pub fn name(level: Level) -> &'static str {
 }
 
 /// Every SIMD level of this machine with its name, the best first.
-#[cfg(feature = "full")]
 pub fn all() -> Vec<(&'static str, Level)> {
     let best = Level::new();
     #[cfg(target_arch = "x86_64")]

@@ -124,12 +124,14 @@ impl Dome {
     }
 
     /// The same dome with sun and moon drawn at these multiples of their true diameters.
+    #[inline(always)] // A call would copy the dome once more.
     pub fn with_sizes(self, sun: f32, moon: f32) -> Dome {
         Dome { sun_size: sun, moon_size: moon, ..self }
     }
 
     /// The same dome with stars that twinkle, as they do at a time in seconds. It is the film's time: the sky's own may run
     /// faster.
+    #[inline(always)] // A call would copy the dome once more.
     pub fn with_shimmer(self, seconds: f64) -> Dome {
         Dome { shimmer: seconds, ..self }
     }

@@ -9,6 +9,7 @@ use super::world::World;
 use crate::frame::cache::lock;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::TraceSettings;
+use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
@@ -53,7 +54,7 @@ impl TraceLayer {
     /// Lists the objects that eye rays through a tile may meet: those whose bounds touch the cone around the tile.
     fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
         let eye = self.view.camera().eye;
-        let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
+        let (x, y) = (to_f32(tile.x), to_f32(tile.y));
         let half = Tile::SIZE as f32 * 0.5;
         // Corners of the grid reach one pixel beyond the tile.
         let cone = Cone::new(&self.view, (x + half, y + half), half + 1.0);
