@@ -1,12 +1,11 @@
-//! A ring of stones at sunrise, drawn as triangles with shadow maps.
+//! A ring of stones at sunrise: triangles, and shadows by depth maps.
 //!
-//! First the scene is drawn as the sun sees it, which keeps the depth of what the light meets first [Williams78]. A point in
-//! view is lit if nothing in that map is nearer to the sun. Four maps share the view, the finest for what is close to the
-//! eye; nine texels are weighted around each lookup, so that the edges of shadows are smooth [Reeves87].
+//! The scene is first drawn as the sun sees it, which leaves the depth of what light meets first [Williams78]. A point in
+//! view is lit where nothing in that map is nearer to the sun. Four maps share the view, the finest for what is close to
+//! the eye [Valient08]; nine weighted texels around each lookup make the edges smooth [Reeves87].
 
 use glam::{Affine3A, Mat3, Vec3, vec3};
-use paprsek::frame::encode::Transfer;
-use paprsek::frame::{Frame, Picture, Renderer};
+use paprsek::frame::{Frame, Picture, Renderer, encode::Transfer};
 use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, RasterLayer, ShadowViews, World, fit};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
@@ -28,14 +27,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = Camera::look_at(vec3(3.0, 2.4, 21.0), vec3(-0.5, 2.3, 0.0), 42f32.to_radians(), 0.0);
     let maps = fit::cascades(&camera, 16.0 / 9.0, sun, &[14.0, 24.0, 45.0, 400.0], 2048);
     let shadow = ShadowViews::new(maps, Bias { constant: 0.02, slope: 1.0, normal: 1.0 });
-    let world = World {
-        lights: vec![Light::sun(sun, vec3(2.6, 1.7, 0.95)).with_shadow(shadow)],
-        ambient: [vec3(0.20, 0.24, 0.36), vec3(0.06, 0.08, 0.14)],
-        haze: Haze { glow: (sun, vec3(0.45, 0.2, 0.02)), ..Haze::even(vec3(0.5, 0.45, 0.45), 0.012) },
-        film: true,
-        background: Some(vec3(0.5, 0.45, 0.45)),
-        ..World::new(vec![Body::new(mesh.into(), Affine3A::IDENTITY)])
-    };
+    let lights = vec![Light::sun(sun, vec3(2.6, 1.7, 0.95)).with_shadow(shadow)];
+    let ambient = [vec3(0.20, 0.24, 0.36), vec3(0.06, 0.08, 0.14)];
+    let haze = Haze { glow: (sun, vec3(0.45, 0.2, 0.02)), ..Haze::even(vec3(0.5, 0.45, 0.45), 0.012) };
+    let bodies = vec![Body::new(mesh.into(), Affine3A::IDENTITY)];
+    let world = World { lights, ambient, haze, film: true, background: Some(haze.color), ..World::new(bodies) };
     let layer = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
     renderer.draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
     let path = std::env::args().nth(1).unwrap_or("target/shadow.png".into());
