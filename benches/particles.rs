@@ -8,7 +8,7 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
-use paprsek::particles::ParticleLayer;
+use paprsek::particles::{Emitter, ParticleLayer};
 use paprsek::scenes;
 use paprsek::scenes::bench::particles::{FLAKES, fires, snowfall};
 use paprsek::settings::Quality;
@@ -33,7 +33,8 @@ fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
         return snowfall(&renderer.spec(time, &Quality::FAST, SIZE), &FLAKES).without_solids();
     }
     let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
-    ParticleLayer::new(fires(time), &View::new(camera, width, height), &Quality::EXACT.particles).without_solids()
+    let fires = fires(time).into_iter().map(Emitter::Fire).collect();
+    ParticleLayer::new(fires, &View::new(camera, width, height), &Quality::EXACT.particles).without_solids()
 }
 
 /// Milliseconds: the median.

@@ -8,7 +8,6 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
 use glam::{Affine3A, Vec2, Vec3};
-use paprsek::frame::cache::lock;
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::{Bias, Body, Light, Projection, RasterLayer, RasterMemory, ShadowViews, World, fit};
@@ -88,7 +87,7 @@ fn depth_only(bodies: &[Body], light: Light) -> Picture {
 /// The bits of every texel, mixed.
 fn sum(renderer: &Renderer) -> u64 {
     let memory = renderer.cache().get::<RasterMemory>();
-    let memory = lock(&memory);
+    let memory = memory.lock();
     let (key, map) = memory.maps.iter().find(|(key, _)| key.slot == 0).expect("a map was drawn");
     let mut sum = 0u64;
     for view in 0..key.views.len() {

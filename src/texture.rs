@@ -1,13 +1,13 @@
 //! Solid textures `[Perlin02]`: a scalar field in space, turned into colours by a palette.
 //!
-//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (`[Intro07]`). The plain truth is
-//! [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the size of a pixel
-//! on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed form.
+//! The point in space is the only coordinate, so nothing is unwrapped and no image is stored (`[Intro07]`). The plain
+//! truth is [`Texture::color`], for one point. [`shade`] does the same for blocks of points, and where it is given the
+//! size of a pixel on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed
+//! form.
 
 use crate::cuts;
 use crate::noise::{self, Footprint};
-pub use crate::simd::block::Block3;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
@@ -75,8 +75,8 @@ pub struct Texture {
     pub pattern: Pattern,
     /// The colours of its values.
     pub palette: Palette,
-    /// From world to texture space: a point `p` is looked up at `turn * (p - origin)`. The matrix holds the scale, and the
-    /// rotation of the object that the texture is tied to.
+    /// From world to texture space: a point `p` is looked up at `turn * (p - origin)`. The matrix holds the scale, and
+    /// the rotation of the object that the texture is tied to.
     pub turn: Mat3,
     /// Where the origin of texture space lies in the world, metres.
     pub origin: Vec3,
@@ -157,8 +157,8 @@ impl Texture {
     }
 }
 
-/// What of a pattern is a sum of octaves of noise: the number of octaves, whether they are absolute, how far the sum moves
-/// the pattern, and the size of the first octave's cells.
+/// What of a pattern is a sum of octaves of noise: the number of octaves, whether they are absolute, how far the sum
+/// moves the pattern, and the size of the first octave's cells.
 #[inline(always)]
 fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
     match *pattern {
@@ -172,8 +172,8 @@ fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
 
 /// The colours of a block of points, linear light: [`Texture::color`], [`BLOCK`] at a time.
 ///
-/// `footprint` is the length of a pixel's picture on the surface, metres. Where it is given, a colour is an estimate of the
-/// mean over it.
+/// `footprint` is the length of a pixel's picture on the surface, metres. Where it is given, a colour is an estimate of
+/// the mean over it.
 ///
 /// ```text
 /// points -> texture space, in cells of the first octave
@@ -273,8 +273,8 @@ fn wave<S: Simd>(simd: S, wood: bool, p: V3<S>, n: F<S>, warp: f32, scale: f32) 
 
 /// What is left of such a wave over a footprint that is `phase` long, whose faded noise had the variance `lost`.
 ///
-/// The mean of a sine with a normally distributed phase is damped by `exp(-variance / 2)`. The phase is spread evenly over the
-/// footprint, of which a third lies along any one axis; wood's sawtooth counts as its first sine.
+/// The mean of a sine with a normally distributed phase is damped by `exp(-variance / 2)`. The phase is spread evenly
+/// over the footprint, of which a third lies along any one axis; wood's sawtooth counts as its first sine.
 #[inline(always)]
 fn damping<S: Simd>(simd: S, wood: bool, phase: F<S>, lost: F<S>) -> F<S> {
     // The variance of the phase, and the square of the radians of a wave.

@@ -1,16 +1,16 @@
 //! Keyframes, easing and cuts: from seconds to values.
 //!
 //! A table of keys has a time and some values per line. Between the keys each value runs along Steffen's monotone cubic
-//! `[Steffen90]`: its speed is continuous, and between two keys it never leaves their range. So nothing swings past a wall,
-//! and two keys of the same value hold it still. Catmull-Rom, the alternative, does neither.
+//! `[Steffen90]`: its speed is continuous, and between two keys it never leaves their range. So nothing swings past a
+//! wall, and two keys of the same value hold it still. Catmull-Rom, the alternative, does neither.
 
 /// A key: its time in seconds, then the values at that time. Times ascend within a table.
 pub type Key<const N: usize> = [f32; N];
 
 /// The values of a table of keys at `time` seconds.
 ///
-/// Before the first key, and where `time` is NaN, they are those of the first key; after the last key, those of the last. The
-/// result's own time is interpolated as the values are. Panics where the table is empty.
+/// Before the first key, and where `time` is NaN, they are those of the first key; after the last key, those of the
+/// last. The result's own time is interpolated as the values are. Panics where the table is empty.
 pub fn sample<const N: usize>(keys: &[Key<N>], time: f64) -> Key<N> {
     let mut line = keys[0];
     blend(keys.as_flattened(), N, time, &mut line);
@@ -70,8 +70,8 @@ fn monotone(speed: f32, a: f32, b: f32) -> f32 {
     }
 }
 
-/// An ease from 0 at `from` seconds to 1 at `to` seconds, with no speed and no acceleration at either end: Perlin's quintic
-/// `[Perlin02]`. A `time` of NaN gives 0.
+/// An ease from 0 at `from` seconds to 1 at `to` seconds, with no speed and no acceleration at either end: Perlin's
+/// quintic `[Perlin02]`. A `time` of NaN gives 0.
 #[inline(never)] // Called in many places, never in a hot loop.
 pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     let x = (time - from) / (to - from);
@@ -79,10 +79,11 @@ pub fn ease(from: f64, to: f64, time: f64) -> f32 {
     x * x * x * (x * (x * 6.0 - 15.0) + 10.0)
 }
 
-/// The shot that runs at `time`, of a list of shots with the seconds at which they start, and the seconds since its start.
+/// The shot that runs at `time`, of a list of shots with the seconds at which they start, and the seconds since its
+/// start.
 ///
-/// Before the first start, and where `time` is NaN, it is the start of the first shot. From `end` seconds on it is the end of
-/// the last one, where time stops. Panics where the list is empty.
+/// Before the first start, and where `time` is NaN, it is the start of the first shot. From `end` seconds on it is the
+/// end of the last one, where time stops. Panics where the list is empty.
 pub fn cut<T>(list: &[(f64, T)], end: f64, time: f64) -> (&T, f64) {
     let mut next = 1;
     while next < list.len() && list[next].0 <= time {

@@ -5,7 +5,6 @@ use super::imposter_cache::ImposterCache;
 use super::seen::SeenClouds;
 use super::world::{Cloud, CloudLight};
 use crate::cuts;
-use crate::frame::cache::lock;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::view::View;
@@ -41,7 +40,7 @@ impl CloudLayer {
 impl Layer for CloudLayer {
     fn prepare(&mut self, workers: &Workers, cache: &Cache) {
         if cuts::IMPOSTERS && self.clouds.settings.imposter > 0.0 {
-            lock(&cache.get::<ImposterCache>()).prepare(&mut self.clouds, workers);
+            cache.get::<ImposterCache>().lock().prepare(&mut self.clouds, workers);
         }
     }
 

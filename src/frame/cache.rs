@@ -4,7 +4,39 @@
 //! process do not see each other. Nothing that is kept changes a frame: it only saves the time to compute it again.
 
 use std::any::Any;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+#[cfg(feature = "full")]
+use std::sync::Arc;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// A handle on a value of a [`Cache`], which a layer holds while it is drawn.
+#[cfg(feature = "full")]
+#[derive(Default)]
+pub struct Kept<T: 'static>(Arc<Mutex<T>>);
+
+/// A handle on a value of a [`Cache`]. The 64 kB build has one renderer, for as long as it runs, so it counts no handles
+/// and never gives a value back: 0.3 kB packed.
+#[cfg(not(feature = "full"))]
+pub struct Kept<T: 'static>(&'static Mutex<T>);
+
+#[cfg(not(feature = "full"))]
+impl<T: Default> Default for Kept<T> {
+    fn default() -> Kept<T> {
+        Kept(Box::leak(Box::default()))
+    }
+}
+
+impl<T> Clone for Kept<T> {
+    fn clone(&self) -> Kept<T> {
+        Kept(Clone::clone(&self.0))
+    }
+}
+
+impl<T> Kept<T> {
+    /// The value, for this thread alone.
+    pub fn lock(&self) -> MutexGuard<'_, T> {
+        lock(&self.0)
+    }
+}
 
 /// One value of each type that asks for a place here.
 #[derive(Default)]
@@ -12,21 +44,22 @@ pub struct Cache(Mutex<Vec<Box<dyn Any + Send>>>);
 
 impl Cache {
     /// This cache's value of type `T`, which starts as the default. Every later call gives the same one.
-    pub fn get<T: Default + Send + 'static>(&self) -> Arc<Mutex<T>> {
+    pub fn get<T: Default + Send + 'static>(&self) -> Kept<T> {
         let mut values = lock(&self.0);
         for value in values.iter() {
-            if let Some(value) = value.downcast_ref::<Arc<Mutex<T>>>() {
+            if let Some(value) = value.downcast_ref::<Kept<T>>() {
                 return value.clone();
             }
         }
-        let value = Arc::<Mutex<T>>::default();
+        let value = Kept::<T>::default();
         values.push(Box::new(value.clone()));
         value
     }
 }
 
-/// Locks what a panic elsewhere leaves intact: values are only ever replaced as a whole.
-pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+/// Locks a value. A panic of another thread leaves it intact, as values are only ever replaced as a whole.
+#[inline(never)] // Each type has its own, but the packer folds equal ones.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -37,9 +70,9 @@ mod tests {
     #[test]
     fn each_type_has_one_value_per_cache() {
         let (one, other) = (Cache::default(), Cache::default());
-        *lock(&one.get::<u32>()) = 5;
-        *lock(&one.get::<u64>()) = 6;
-        assert_eq!((*lock(&one.get::<u32>()), *lock(&one.get::<u64>())), (5, 6));
-        assert_eq!(*lock(&other.get::<u32>()), 0);
+        *one.get::<u32>().lock() = 5;
+        *one.get::<u64>().lock() = 6;
+        assert_eq!((*one.get::<u32>().lock(), *one.get::<u64>().lock()), (5, 6));
+        assert_eq!(*other.get::<u32>().lock(), 0);
     }
 }

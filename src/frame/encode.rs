@@ -1,10 +1,10 @@
 //! From linear light to the 8-bit codes of a screen's pixels.
 //!
-//! A transfer function turns light into a code, which is rounded, or for sRGB truncated after a dither has been added: a
-//! dither turns the bands of a smooth gradient into a pattern too fine to be seen.
+//! A transfer function turns light into a code, which is rounded, or for sRGB truncated after a dither has been added:
+//! a dither turns the bands of a smooth gradient into a pattern too fine to be seen.
 //!
-//! [`encode`] is what a frame uses, 64 pixels at a time. The reference beside it is [`quantize`], one channel of one pixel in
-//! f64.
+//! [`encode`] is what a frame uses, 64 pixels at a time. The reference beside it is [`quantize`], one channel of one
+//! pixel in f64.
 
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::math::{exp2_within, log2};
@@ -56,17 +56,19 @@ pub fn quantize(transfer: Transfer, linear: f32, x: u32, y: u32, channel: u32) -
     (255.0 * value as f64 + threshold as f64) as u32
 }
 
-/// Steps of the dither along x and y, in units of 2^-32: the inverse of the plastic number and its square, rounded to odd
-/// numbers, so that every value comes before one comes again.
+/// Steps of the dither along x and y, in units of 2^-32: the inverse of the plastic number and its square, rounded to
+/// odd numbers, so that every value comes before one comes again.
 const STEP_X: u32 = 0xC13F_A9A9;
 const STEP_Y: u32 = 0x91E1_0DA5;
-/// Step of the dither from red to green to blue, in units of 2^-32: a third, so that the three seldom round up together.
+/// Step of the dither from red to green to blue, in units of 2^-32: a third, so that the three seldom round up
+/// together.
 const STEP_CHANNEL: u32 = 0x5555_5555;
 
 /// The dither, 0 to 1 - 2^-16, that is added to a code before it is truncated.
 ///
-/// It is the R2 sequence `[Roberts18]` laid out over the picture: neighbours differ, and every area has all values equally
-/// often, so the mean of its codes is the light itself. It has 16 bits, so that 255 and a dither stay below 256 in f32.
+/// It is the R2 sequence `[Roberts18]` laid out over the picture: neighbours differ, and every area has all values
+/// equally often, so the mean of its codes is the light itself. It has 16 bits, so that 255 and a dither stay below 256
+/// in f32.
 fn dither(x: u32, y: u32, channel: u32) -> f32 {
     let turns = x.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
     let turns = turns.wrapping_add(channel.wrapping_mul(STEP_CHANNEL));

@@ -1,12 +1,13 @@
 //! Frames at the size of a window, for windows that do not scale by themselves.
 //!
-//! Bilinear, in whole numbers: a pixel of the window is a mix of the four pixels of the frame that are nearest to its middle.
-//! The channels of a pixel are mixed at once, in the fields of a `u64`.
+//! Bilinear, in whole numbers: a pixel of the window is a mix of the four pixels of the frame that are nearest to its
+//! middle. The channels of a pixel are mixed at once, in the fields of a `u64`.
 
 use crate::frame::Frame;
 use std::ops::Range;
 
-/// Columns and rows of the largest picture with the aspect of `frame` that fits into a window of `width` x `height` pixels.
+/// Columns and rows of the largest picture with the aspect of `frame` that fits into a window of `width` x `height`
+/// pixels.
 ///
 /// Each is at least 1. Panics where the frame has no pixels.
 pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
@@ -33,8 +34,8 @@ pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> 
     bytes
 }
 
-/// The two of `from` pixels between whose middles the middle of pixel `number` lies, and its way from the first to the second
-/// in 256ths. A pixel is `width` 65536ths as wide as those.
+/// The two of `from` pixels between whose middles the middle of pixel `number` lies, and its way from the first to the
+/// second in 256ths. A pixel is `width` 65536ths as wide as those.
 fn tap(number: usize, width: usize, from: usize) -> (usize, usize, u64) {
     let place = (number * width + width / 2).saturating_sub(1 << 15);
     let first = place >> 16;

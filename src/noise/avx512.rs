@@ -1,7 +1,7 @@
 //! Noise for 64 points with AVX-512.
 //!
-//! Hashing is on bytes, whose arithmetic wraps just as Perlin's `& 255` does. A table of 256 bytes fills four registers, and
-//! to look up 64 points in it takes two permutations (`vpermi2b`) and a blend.
+//! Hashing is on bytes, whose arithmetic wraps just as Perlin's `& 255` does. A table of 256 bytes fills four
+//! registers, and to look up 64 points in it takes two permutations (`vpermi2b`) and a blend.
 //!
 //! ```text
 //! cells of all points -> a register of bytes for each axis
@@ -9,8 +9,8 @@
 //! for each 16 points: offsets and weights, the blend of the lower four corners, of the upper four, and of both
 //! ```
 //!
-//! Point 16 g + i lives in byte g of the 32-bit lane i. So the bytes of 16 points are those lanes shifted, and neither packing
-//! nor unpacking needs a shuffle.
+//! Point 16 g + i lives in byte g of the 32-bit lane i. So the bytes of 16 points are those lanes shifted, and neither
+//! packing nor unpacking needs a shuffle.
 
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
@@ -18,8 +18,8 @@ use crate::simd::block::{BLOCK, load, store};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 
-/// The low four bits of each entry of the permutation, and in the high four bits those of the next entry: one lookup gives
-/// the gradients of a corner and of the one above it.
+/// The low four bits of each entry of the permutation, and in the high four bits those of the next entry: one lookup
+/// gives the gradients of a corner and of the one above it.
 static GRADIENT_PAIRS: [u8; 256] = {
     let mut pairs = [0; 256];
     let mut i = 0;
@@ -30,8 +30,8 @@ static GRADIENT_PAIRS: [u8; 256] = {
     pairs
 };
 
-/// Components of the 16 gradients. Their products with an offset are exact, so a fused multiply-add rounds just once, as
-/// Perlin's sum of two does.
+/// Components of the 16 gradients. Their products with an offset are exact, so a fused multiply-add rounds just once,
+/// as Perlin's sum of two does.
 static GRADIENTS: [[f32; 16]; 3] = [
     [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0],
     [1.0, 1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0],
@@ -73,7 +73,8 @@ fn load_table(simd: Avx512, table: &[u8]) -> [u8x64<Avx512>; 4] {
 /// The cells of the 16 coordinates of group `g` times `zoom`; the low byte is the cell modulo 256.
 #[inline(always)]
 fn cell(simd: Avx512, x: &[f32; BLOCK], zoom: f32, g: usize) -> u32x16<Avx512> {
-    // Where the conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are multiples of 256.
+    // Where the conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are multiples of
+    // 256.
     (load::<_, Floats>(simd, x, g) * zoom).floor().to_int::<i32x16<_>>().bitcast()
 }
 

@@ -1,8 +1,8 @@
 //! Gradient noise: Perlin's improved noise `[Perlin02]` and sums of its octaves.
 //!
-//! At each point of the integer lattice stands one of twelve gradients, chosen by a hash of the point. The noise at a point
-//! in space is a blend of the eight corners of its cell, each of which adds the product of its gradient and the offset from
-//! it. The blend's weights are a quintic, so that the first two derivatives are continuous across cells.
+//! At each point of the integer lattice stands one of twelve gradients, chosen by a hash of the point. The noise at a
+//! point in space is a blend of the eight corners of its cell, each of which adds the product of its gradient and the
+//! offset from it. The blend's weights are a quintic, so that the first two derivatives are continuous across cells.
 //!
 //! The files, from the plain truth to the fastest kernel; all give the same bits:
 //!

@@ -1,8 +1,8 @@
 //! Noise for blocks of points at the SIMD level that is there, and sums of its octaves.
 //!
-//! A pixel whose picture on a surface covers several cells of an octave should show that octave's mean, not its value at
-//! one point, or it shimmers. So each octave may fade with the length `L` of the footprint, in the octave's own cells, by
-//! `1 / (1 + 0.3 L^2)`. That is a fit to its best linear predictor, within 0.04 of what was measured.
+//! A pixel whose picture on a surface covers several cells of an octave should show that octave's mean, not its value
+//! at one point, or it shimmers. So each octave may fade with the length `L` of the footprint, in the octave's own
+//! cells, by `1 / (1 + 0.3 L^2)`. That is a fit to its best linear predictor, within 0.04 of what was measured.
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512;
@@ -123,8 +123,8 @@ fn faded<S: Simd>(
     n * keep + gone * mean
 }
 
-/// [`fbm`](super::fbm) at one point, or [`turbulence`](super::turbulence) where noises are `absolute`: the same bits for
-/// at most 8 `octaves`, by way of [`noise_block`], so that the 64 kB build needs no scalar kernel.
+/// [`fbm`](super::fbm) at one point, or [`turbulence`](super::turbulence) where noises are `absolute`: the same bits
+/// for at most 8 `octaves`, by way of [`noise_block`], so that the 64 kB build needs no scalar kernel.
 ///
 /// Panics for more than [`BLOCK`] octaves; octaves from the ninth on are 0.
 #[inline(never)] // Called in many places, never in a hot loop.

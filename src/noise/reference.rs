@@ -16,11 +16,11 @@ fn lattice(floor: f32) -> usize {
     (floor - 256.0 * (floor * (1.0 / 256.0)).floor()) as usize
 }
 
-/// Perlin's quintic `6 t^5 - 15 t^4 + 10 t^3`, for `t` from 0 to 1: rises from 0 to 1, and its first two derivatives vanish
-/// at both ends.
+/// Perlin's quintic `6 t^5 - 15 t^4 + 10 t^3`, for `t` from 0 to 1: rises from 0 to 1, and its first two derivatives
+/// vanish at both ends.
 ///
-/// It is expanded about 1/2. Perlin's own form adds 10 to numbers near -9 where `t` is near 1, and noise is off by up to
-/// 2e-6; this one keeps noise within 4e-7 for one more operation, and is exact at both ends too.
+/// It is expanded about 1/2. Perlin's own form adds 10 to numbers near -9 where `t` is near 1, and noise is off by up
+/// to 2e-6; this one keeps noise within 4e-7 for one more operation, and is exact at both ends too.
 pub fn fade(t: f32) -> f32 {
     let d = t - 0.5;
     let q = d * d;
@@ -50,9 +50,9 @@ pub fn gradient(hash: usize, x: f32, y: f32, z: f32) -> f32 {
 
 /// Perlin's improved noise at `p`, in lattice units.
 ///
-/// It is 0 on the lattice; its standard deviation is 0.27, its absolute value is seldom above 0.9 and never above 1.04. The
-/// period is 256 along each axis. The result is within 4e-7 of exact arithmetic and never -0. From 2^24 on, where a float
-/// has no fraction, it is 0. NaN or infinite coordinates give NaN.
+/// It is 0 on the lattice; its standard deviation is 0.27, its absolute value is seldom above 0.9 and never above 1.04.
+/// The period is 256 along each axis. The result is within 4e-7 of exact arithmetic and never -0. From 2^24 on, where a
+/// float has no fraction, it is 0. NaN or infinite coordinates give NaN.
 pub fn noise(p: Vec3) -> f32 {
     let corner = p.floor();
     let (ix, iy, iz) = (lattice(corner.x), lattice(corner.y), lattice(corner.z));
@@ -73,8 +73,8 @@ pub fn noise(p: Vec3) -> f32 {
     lerp(w, plane(0, z), plane(1, z - 1.0)) + 0.0
 }
 
-/// Fractional Brownian motion: a sum of noises, each at twice the frequency and half the amplitude of the one before it,
-/// the first at the amplitude 1/2.
+/// Fractional Brownian motion: a sum of noises, each at twice the frequency and half the amplitude of the one before
+/// it, the first at the amplitude 1/2.
 ///
 /// The standard deviation is about 0.16. All octaves vanish together on the integer lattice.
 pub fn fbm(p: Vec3, octaves: u32) -> f32 {

@@ -6,8 +6,8 @@
 //! for each vector of points: offsets and weights, the blend of the lower four corners, of the upper four, and of both
 //! ```
 //!
-//! The hashes are looked up one point at a time: gathers would not be faster than these loads of pairs, and byte shuffles
-//! of a table of 256 only are from AVX-512 on.
+//! The hashes are looked up one point at a time: gathers would not be faster than these loads of pairs, and byte
+//! shuffles of a table of 256 only are from AVX-512 on.
 
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
@@ -78,7 +78,8 @@ pub fn noise64<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mu
     );
 }
 
-/// Noise at 64 points times `zoom`; `component` makes a float of the number with a sign in the low two bits of each lane.
+/// Noise at 64 points times `zoom`; `component` makes a float of the number with a sign in the low two bits of each
+/// lane.
 #[inline(always)]
 fn noise64_by<S: Simd>(
     simd: S,
@@ -107,8 +108,8 @@ fn noise64_by<S: Simd>(
     }
 }
 
-/// The gradients of each cell's corners as [`GRADIENTS`] has them: of the corner at (0, 0), (1, 0), (0, 1) and (1, 1) in x
-/// and y, each with that of the corner above it in z in the next byte.
+/// The gradients of each cell's corners as [`GRADIENTS`] has them: of the corner at (0, 0), (1, 0), (0, 1) and (1, 1)
+/// in x and y, each with that of the corner above it in z in the next byte.
 #[inline(always)]
 fn hashes(ix: &[u32; BLOCK], iy: &[u32; BLOCK], iz: &[u32; BLOCK]) -> [[u32; BLOCK]; 4] {
     let mut codes = [[0u32; BLOCK]; 4];
@@ -124,8 +125,8 @@ fn hashes(ix: &[u32; BLOCK], iy: &[u32; BLOCK], iz: &[u32; BLOCK]) -> [[u32; BLO
     codes
 }
 
-/// The blend of the four corners of one face of a cell, at the offset (x, y, z) from the first, by the weights `u` along x
-/// and `v` along y.
+/// The blend of the four corners of one face of a cell, at the offset (x, y, z) from the first, by the weights `u`
+/// along x and `v` along y.
 #[inline(always)]
 fn face<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
     [aa, ba, ab, bb]: [C; 4],
@@ -161,8 +162,8 @@ fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
 /// The cells of coordinates times `zoom`, modulo 256.
 #[inline(always)]
 fn cells<S: Simd>(simd: S, x: &[f32; BLOCK], zoom: f32, cells: &mut [u32; BLOCK]) {
-    // Where the x86 conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are multiples of
-    // 256. Other conversions saturate.
+    // Where the x86 conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are
+    // multiples of 256. Other conversions saturate.
     let saturates = !cfg!(target_arch = "x86_64") || simd.level().is_fallback();
     let mut i = 0;
     while i < BLOCK / S::f32s::LEN {

@@ -33,28 +33,18 @@ impl ParticleLayer {
     /// The layer of flakes alone, or of fires and writing. Within a layer their order does not matter.
     ///
     /// Fires have the detail of the settings. Writing is in front of all that is there.
-    pub fn new(
-        emitters: impl IntoIterator<Item = impl Into<Emitter>>,
-        view: &View,
-        settings: &ParticleSettings,
-    ) -> ParticleLayer {
+    pub fn new(mut emitters: Vec<Emitter>, view: &View, settings: &ParticleSettings) -> ParticleLayer {
         // Sparks let all of the light behind pass; with black in place of the rest it keeps its bits.
         let (mut planes, mut solids, mut color) = ((LIGHT, PLANES), true, Vec3::ZERO);
-        let mut all = Vec::new();
-        for emitter in emitters {
-            let emitter = match emitter.into() {
-                Emitter::Fire(fire) => Emitter::Fire(fire.detailed(view, settings.detail)),
-                emitter => emitter,
-            };
+        for emitter in &mut emitters {
             match emitter {
                 Emitter::Snow(_) => (planes, color) = ((PASSES, LIGHT), Vec3::ONE),
-                Emitter::Fire(_) => {}
+                Emitter::Fire(fire) => *fire = fire.detailed(view, settings.detail),
                 Emitter::Strokes(_) => solids = false,
             }
-            all.push(emitter);
         }
         let (screen, chunks) = (Screen::new(view), Vec::new());
-        ParticleLayer { emitters: all, screen, chunks, color, exposure: EXPOSURE, planes, solids }
+        ParticleLayer { emitters, screen, chunks, color, exposure: EXPOSURE, planes, solids }
     }
 
     /// The same with flakes of a colour, linear light, which takes the place of the light that they take; white

@@ -13,7 +13,7 @@ use super::shadow_views::ShadowViews;
 use super::triangle::{SUB, TriangleSetup};
 use super::world::World;
 use crate::cuts;
-use crate::frame::cache::lock;
+use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::{RasterSettings, samples_per_axis};
 use crate::simd::block::{BLOCK, load, store};
@@ -21,7 +21,6 @@ use crate::simd::lanes::F;
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
-use std::sync::{Arc, Mutex};
 
 /// A world seen by a camera: the first layer of a picture, which clears its tiles.
 pub struct RasterLayer {
@@ -32,8 +31,8 @@ pub struct RasterLayer {
     rasters: Vec<Raster>,
     /// Shadows of each light, and after those of falling snow.
     lookups: Vec<ShadowLookup>,
-    /// What the renderer keeps; empty until the layer is prepared.
-    memory: Arc<Mutex<RasterMemory>>,
+    /// What the renderer keeps; none until the layer is prepared.
+    memory: Option<Kept<RasterMemory>>,
 }
 
 impl RasterLayer {
@@ -41,14 +40,14 @@ impl RasterLayer {
     /// `coverage` must be from 1 to 16.
     pub fn new(world: World, view: &View, settings: &RasterSettings) -> RasterLayer {
         let (view, settings) = (*view, *settings);
-        RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: Arc::default() }
+        RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: None }
     }
 
     /// Decides for each light, and for falling snow, where its shadows are looked up: in a map of an earlier frame, or in
     /// rasters that are added. Returns the maps that have to be drawn into.
     #[inline(always)]
-    fn look_up_shadows(&mut self) -> Vec<(MapKey, DepthMap)> {
-        let RasterLayer { world, rasters, lookups, memory, .. } = self;
+    fn look_up_shadows(&mut self, memory: &Kept<RasterMemory>) -> Vec<(MapKey, DepthMap)> {
+        let RasterLayer { world, rasters, lookups, .. } = self;
         let bodies = &world.bodies;
         let mut missing = Vec::new();
         let snow = world.snow.iter().map(|snow| &snow.fall);
@@ -66,7 +65,7 @@ impl RasterLayer {
                 }
                 let traced = cuts::TRACED_SHADOWS && traced;
                 // A traced light has no map, though another frame may have kept one of the same views.
-                let kept = if traced { Err(DepthMap::default()) } else { lock(memory).maps.recall(&key) };
+                let kept = if traced { Err(DepthMap::default()) } else { memory.lock().maps.recall(&key) };
                 match kept {
                     Ok(map) => lookup.map = Some(map),
                     Err(map) => {
@@ -164,27 +163,29 @@ fn cell(at: [u32; 2], n: u32) -> SubPixel {
 
 impl Layer for RasterLayer {
     fn prepare(&mut self, workers: &Workers, cache: &Cache) {
-        self.memory = cache.get();
+        let memory = cache.get();
         let projection = Projection::of_view(&self.view);
         let setup = TriangleSetup { projection, back_faces: false, shaded: true };
         self.rasters.push(Raster::new(setup, 0, self.world.bodies.len()));
-        let mut missing = self.look_up_shadows();
-        let RasterLayer { world, rasters, lookups, memory, .. } = self;
+        let mut missing = self.look_up_shadows(&memory);
+        let RasterLayer { world, rasters, lookups, .. } = self;
         set_up(workers, rasters, &world.bodies);
         while let Some((key, mut map)) = missing.pop() {
             let lookup = &mut lookups[key.slot];
             map.resize(key.views[0].size[0] as usize, key.views.len());
             draw_map(workers, &mut map, &rasters[lookup.first..]);
-            lookup.map = Some(lock(memory).maps.keep(key, map));
+            lookup.map = Some(memory.lock().maps.keep(key, map));
         }
+        self.memory = Some(memory);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        // Bound, so that the lock is free again while the tile is drawn.
-        let spare = lock(&self.memory).spare.pop();
+        let spare = self.memory.as_ref().and_then(|memory| memory.lock().spare.pop());
         let mut scratch = spare.unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
-        lock(&self.memory).spare.push(scratch);
+        if let Some(memory) = &self.memory {
+            memory.lock().spare.push(scratch);
+        }
         Stats { samples }
     }
 }

@@ -5,8 +5,7 @@
 
 use super::fill::SubPixel;
 use super::id::Id;
-use crate::simd::block::BLOCK;
-use crate::texture::Block3;
+use crate::simd::block::{BLOCK, Block3};
 
 /// Fragments of one texture, and the surfaces that they show once these are known.
 #[derive(Clone)]

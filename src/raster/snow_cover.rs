@@ -7,10 +7,10 @@
 
 use super::light::Light;
 use super::queue::FragmentQueue;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
-use crate::texture::{Block3, Palette, Pattern, Texture};
+use crate::texture::{Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
 use glam::{Vec3, vec3};
 

@@ -1,7 +1,7 @@
 //! Random numbers without a state: a hash of a counter, so that a number depends on nothing that was drawn before it.
 //!
-//! The hash is one step of O'Neill's generator PCG-RXS-M-XS-32 `[ONeill14]`, which `[JarzynskiOlano20]` found the best of the
-//! short ones.
+//! The hash is one step of O'Neill's generator PCG-RXS-M-XS-32 `[ONeill14]`, which `[JarzynskiOlano20]` found the best
+//! of the short ones.
 
 use crate::simd::lanes::U;
 use fearless_simd::prelude::*;

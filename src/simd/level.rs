@@ -10,8 +10,8 @@ pub fn best() -> Level {
     if cfg!(target_feature = "avx2") { Level::baseline() } else { Level::new() }
 }
 
-/// The name of the level that kernels run at when they are asked for `level`: `avx512`, `avx2`, `sse4.2`, `sse2`, `neon`
-/// or `scalar`.
+/// The name of the level that kernels run at when they are asked for `level`: `avx512`, `avx2`, `sse4.2`, `sse2`,
+/// `neon` or `scalar`.
 ///
 /// A build may hold kernels for fewer levels than the machine has; then it is the name of the one that runs.
 pub fn name(level: Level) -> &'static str {
@@ -31,7 +31,6 @@ pub fn name(level: Level) -> &'static str {
 }
 
 /// Every SIMD level of this machine with its name, the best first.
-#[cfg(feature = "full")]
 pub fn all() -> Vec<(&'static str, Level)> {
     let best = Level::new();
     #[cfg(target_arch = "x86_64")]

@@ -2,7 +2,8 @@
 //! gives the same bits.
 //!
 //! The polynomials are those of Cephes `[Cephes]` and DirectXMath. Errors are against f64, measured by the tests of
-//! `color`. Where nothing else is said, an argument out of range and NaN give an unspecified number, which may be any float.
+//! `color`. Where nothing else is said, an argument out of range and NaN give an unspecified number, which may be any
+//! float.
 
 use crate::simd::lanes::V3;
 use fearless_simd::{Simd, prelude::*};
@@ -22,8 +23,8 @@ pub fn exp2<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
 pub fn exp2_within<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     let whole = (x + 0.5).floor();
     let f = x - whole;
-    // Terms in pairs rather than Horner's chain, here and in `log2`: a chain, in which each operation waits for the last
-    // one's result, took a third longer.
+    // Terms in pairs rather than Horner's chain, here and in `log2`: a chain, in which each operation waits for the
+    // last one's result, took a third longer.
     let q = f * f;
     let high = (f * 1.339_887_4e-3 + 9.618_437e-3) + q * 1.535_336_2e-4;
     let middle = f * 5.550_332_5e-2 + 2.402_264_8e-1;
@@ -62,8 +63,8 @@ pub fn powf<S: Simd>(simd: S, x: S::f32s, power: f32) -> S::f32s {
 
 /// The sine of `x` radians for |x| <= 1000: absolute error 2e-7.
 ///
-/// The argument is reduced by pi in two parts, of which the first is so short that its multiples are exact; then follows
-/// the odd polynomial of degree 11 of DirectXMath's `XMScalarSin` on -pi/2..pi/2.
+/// The argument is reduced by pi in two parts, of which the first is so short that its multiples are exact; then
+/// follows the odd polynomial of degree 11 of DirectXMath's `XMScalarSin` on -pi/2..pi/2.
 #[inline(always)]
 pub fn sin<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
     const PI_HIGH: f32 = 3.140_625;

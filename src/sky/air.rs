@@ -1,14 +1,14 @@
 //! What the air of a round earth does to light: what it scatters towards the eye, and what it lets through.
 //!
-//! The air is two layers that thin out with height, of gas (Rayleigh) and haze (Mie), and a shell of ozone, which makes the
-//! blue hour blue. Light that has been scattered once is summed along each direction; light that has been scattered more
-//! often is approximated by the mean of a few directions. Light that grazes the earth comes red out of the haze, so the
-//! earth's shadow and every colour of dusk follow by themselves.
+//! The air is two layers that thin out with height, of gas (Rayleigh) and haze (Mie), and a shell of ozone, which makes
+//! the blue hour blue. Light that has been scattered once is summed along each direction; light that has been scattered
+//! more often is approximated by the mean of a few directions. Light that grazes the earth comes red out of the haze,
+//! so the earth's shadow and every colour of dusk follow by themselves.
 //!
 //! The coefficients are those of `[Bruneton08]` and `[Hillaire20]` at 680, 550 and 440 nm. Optical depths are Chapman's
-//! function `[Chapman31]` in closed form `[Fitzmaurice64]`, so the sum has no inner loop. A column is the optical depth of one
-//! of the three along a way, counted in km of its densest place. Lengths are km. The tests sum the same light in f64 by brute
-//! force.
+//! function `[Chapman31]` in closed form `[Fitzmaurice64]`, so the sum has no inner loop. A column is the optical depth
+//! of one of the three along a way, counted in km of its densest place. Lengths are km. The tests sum the same light in
+//! f64 by brute force.
 
 use super::place::Place;
 use super::time::{sane, turned};
@@ -48,8 +48,8 @@ pub struct Air {
     pub haze: f32,
     /// Amount of ozone: 1 is 300 Dobson units.
     pub ozone: f32,
-    /// Light from all around that is scattered again, over the mean of a few directions of light that is scattered once.
-    /// 0 leaves it out.
+    /// Light from all around that is scattered again, over the mean of a few directions of light that is scattered
+    /// once. 0 leaves it out.
     pub again: f32,
 }
 
@@ -82,8 +82,8 @@ fn erfcx<S: Simd>(y: F<S>) -> F<S> {
 /// Columns of gas, haze and ozone on the way to space from a height, km, where gas and haze have a `density` over their
 /// densest. `up` is the sine of the way's altitude.
 ///
-/// Gas and haze by Chapman's function, in the expansion of `[Fitzmaurice64]`: within 0.3 %. A way that would meet the ground
-/// goes on through air that gets ever denser, which lets nothing through, so there is no edge.
+/// Gas and haze by Chapman's function, in the expansion of `[Fitzmaurice64]`: within 0.3 %. A way that would meet the
+/// ground goes on through air that gets ever denser, which lets nothing through, so there is no edge.
 #[simd]
 fn columns<S: Simd>(simd: S, height: F<S>, density: V3<S>, up: F<S>) -> V3<S> {
     let zero = F::<S>::splat(simd, 0.0);
@@ -109,8 +109,8 @@ fn columns<S: Simd>(simd: S, height: F<S>, density: V3<S>, up: F<S>) -> V3<S> {
     let (squared, back) = (lowest * lowest, radius * up);
     let mut k = 0;
     while k < 2 {
-        // The length of the way within a ball whose edge is soft by a km. At a hard edge all light that grazes the shell
-        // would change at once, and dusk would jerk.
+        // The length of the way within a ball whose edge is soft by a km. At a hard edge all light that grazes the
+        // shell would change at once, and dusk would jerk.
         let edge = EARTH + OZONE[k];
         let q = -squared + edge * edge;
         let half: F<S> = ((q + (q * q + 1.5e8).sqrt()) * 0.5).sqrt();
@@ -216,9 +216,9 @@ impl Points {
 
 /// The light that air sends from unit directions, over the sun's outside of the air.
 ///
-/// It is what the air scatters once, summed over `steps` points along each direction, three times as many in the dusk; and
-/// `again`, the mean light from all around, as far as the air scatters that. Below the horizon it is the horizon's light,
-/// darker downwards.
+/// It is what the air scatters once, summed over `steps` points along each direction, three times as many in the dusk;
+/// and `again`, the mean light from all around, as far as the air scatters that. Below the horizon it is the horizon's
+/// light, darker downwards.
 ///
 /// ```text
 /// path from the eye to the end of the air

@@ -1,8 +1,8 @@
 //! The dome at the corners of square cells of pixels, interpolated between, or at every pixel.
 //!
-//! It is the sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring tiles
-//! evaluate the same ones and no seam shows. Within a cell light is bilinear. With cells of one pixel the dome is evaluated
-//! at each pixel, or at a grid of samples of it: that is the limit that cells are held against.
+//! It is the sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring
+//! tiles evaluate the same ones and no seam shows. Within a cell light is bilinear. With cells of one pixel the dome is
+//! evaluated at each pixel, or at a grid of samples of it: that is the limit that cells are held against.
 
 use super::dome::{Dome, Quantity, evaluate};
 use crate::frame::Tile;
@@ -39,8 +39,8 @@ impl Cells {
         if self.size > 1 { 1 } else { samples_per_axis(self.grid) as u32 }
     }
 
-    /// The middle of a cell's first pixel, pixels from the point whose light the cell starts with. That is its corner, but of a
-    /// cell of one pixel its middle.
+    /// How far the middle of a cell's first pixel is from where its light is taken, pixels along each axis: 1/2 from a
+    /// corner, and 0 where the cell is one pixel, whose light is taken in its middle.
     fn middle(self) -> f32 {
         if self.size > 1 { 0.5 } else { 0.0 }
     }
@@ -73,8 +73,8 @@ pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut
     }
 }
 
-/// The light of 64 pixels from the point (`left`, `top`) of the picture on: interpolated between the corners of cells that
-/// lie on this line, or the mean of each pixel's samples.
+/// The light of 64 pixels from the point (`left`, `top`) of the picture on: interpolated between the corners of cells
+/// that lie on this line, or the mean of each pixel's samples.
 #[simd]
 fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, left: f32, top: f32, out: &mut Block3) {
     let (size, grid) = (cells.size, cells.samples());
@@ -108,8 +108,8 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, left: f32, top
 
 /// Adds light to what solids have left of vector `i` of a row of pixels.
 ///
-/// With `hides`, the share of the sky behind it that it hides, the light is drawn onto the sky, and adds the less the more
-/// light is there already.
+/// With `hides`, the share of the sky behind it that it hides, the light is drawn onto the sky, and adds the less the
+/// more light is there already.
 #[simd]
 pub fn put<S: Simd>(simd: S, light: V3<S>, hides: Option<F<S>>, row: usize, i: usize, tile: &mut Tile) {
     let one = F::<S>::splat(simd, 1.0);

@@ -1,7 +1,7 @@
 //! The discs of sun and moon, and the glare around the sun.
 //!
-//! Both go through the dome's shoulder. The moon is a sphere of dust (Lommel and Seeliger's law) with seas of noise, lit from
-//! where the sun is, so its phase follows.
+//! Both go through the dome's shoulder. The moon is a sphere of dust (Lommel and Seeliger's law) with seas of noise,
+//! lit from where the sun is, so its phase follows.
 
 use super::cells::put;
 use super::dome::Dome;
@@ -27,7 +27,8 @@ pub struct Disc {
     reach: f32,
     /// Its light before the shoulder.
     color: Vec3,
-    /// The share of that which is seen on the disc: all of the moon's, and so much of the sun's that its colour can be told.
+    /// The share of that which is seen on the disc: all of the moon's, and so much of the sun's that its colour can be
+    /// told.
     seen: f32,
     /// The glare at its rim over its light; 0 for the moon.
     glare: f32,
@@ -44,8 +45,8 @@ fn axes(d: Vec3, pole: Vec3) -> [Vec3; 3] {
 }
 
 impl Dome {
-    /// The sun's disc. Near the horizon it is up to 1.6 times as large, as it seems there. `gaze`, a unit vector, is where the
-    /// eye looks: into the sun the glare is strongest.
+    /// The sun's disc. Near the horizon it is up to 1.6 times as large, as it seems there. `gaze`, a unit vector, is
+    /// where the eye looks: into the sun the glare is strongest.
     pub fn sun_disc(&self, gaze: Vec3) -> Disc {
         let d = self.sky.sun;
         let near = d.y * 8.0;
@@ -133,8 +134,8 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
     }
 }
 
-/// The points of a unit sphere that stands for the disc, along its right, up and towards the eye, for the pixels of a row
-/// from (`left`, `y`) on; beyond its rim the last is 0. Returns whether any pixel is within the disc's reach.
+/// The points of a unit sphere that stands for the disc, along its right, up and towards the eye, for the pixels of a
+/// row from (`left`, `y`) on; beyond its rim the last is 0. Returns whether any pixel is within the disc's reach.
 #[inline(always)]
 fn offsets<S: Simd>(simd: S, disc: &Disc, view: &View, left: f32, y: f32, points: &mut Block3) -> bool {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
@@ -176,8 +177,8 @@ fn moonlit<S: Simd>(simd: S, disc: &Disc, p: V3<S>, noise: F<S>, light: F<S>) ->
 fn glare<S: Simd>(simd: S, disc: &Disc, p: V3<S>, squared: F<S>, distance: F<S>) -> F<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let end = (one - squared * (1.0 / (disc.reach * disc.reach))).max(zero);
-    // Rays are four waves around the sun, each with twice as many crests as the one before. (x, y) is their cosine and sine;
-    // a square of that number doubles the angle.
+    // Rays are four waves around the sun, each with twice as many crests as the one before. (x, y) is their cosine and
+    // sine; a square of that number doubles the angle.
     let (mut x, mut y) = (p.x / distance, p.y / distance);
     let mut rays = one;
     let mut k = 0;

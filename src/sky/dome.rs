@@ -1,7 +1,7 @@
 //! The light of the sky at a time and place, as an eye sees it that has adapted to it.
 //!
-//! The exposure is a power of the light of four directions, so it changes as smoothly as that light does. A shoulder instead
-//! of a clamp turns what dazzles white. Nights are lighter than true ones, as one remembers them.
+//! The exposure is a power of the light of four directions, so it changes as smoothly as that light does. A shoulder
+//! instead of a clamp turns what dazzles white. Nights are lighter than true ones, as one remembers them.
 
 use super::air::{self, Air, DistantLight, scattered};
 use super::moon::Moon;
@@ -19,7 +19,8 @@ use glam::{Mat3, Vec3, vec3};
 const MOONLIGHT: f32 = 4e-5;
 /// Light of the night itself over that of the sun, into which the dusk fades: a hundred times the airglow.
 const NIGHT: Vec3 = vec3(1.5e-7, 2.2e-7, 4.5e-7);
-/// The exposure for a sky of a level `l` is `KEY / l^(ADAPTION / 256)`, so what is shown falls as `l^((256 - ADAPTION) / 256)`.
+/// The exposure for a sky of a level `l` is `KEY / l^(ADAPTION / 256)`, so what is shown falls as `l^((256 - ADAPTION)
+/// / 256)`.
 const KEY: f32 = 0.95;
 const ADAPTION: u32 = 189;
 
@@ -43,8 +44,8 @@ pub struct Sky {
 }
 
 impl Sky {
-    /// The sky at a time, days since J2000, and a place, with the season's air. Times and angles that are not finite count as
-    /// 0.
+    /// The sky at a time, days since J2000, and a place, with the season's air. Times and angles that are not finite
+    /// count as 0.
     pub fn new(days: f64, place: &Place) -> Sky {
         let moon = Moon::new(days, place);
         let turn = place.turn(days);
@@ -124,12 +125,14 @@ impl Dome {
     }
 
     /// The same dome with sun and moon drawn at these multiples of their true diameters.
+    #[inline(always)] // A call would copy the dome once more.
     pub fn with_sizes(self, sun: f32, moon: f32) -> Dome {
         Dome { sun_size: sun, moon_size: moon, ..self }
     }
 
-    /// The same dome with stars that twinkle, as they do at a time in seconds. It is the film's time: the sky's own may run
-    /// faster.
+    /// The same dome with stars that twinkle, as they do at a time in seconds. It is the film's time: the sky's own may
+    /// run faster.
+    #[inline(always)] // A call would copy the dome once more.
     pub fn with_shimmer(self, seconds: f64) -> Dome {
         Dome { shimmer: seconds, ..self }
     }
@@ -145,8 +148,8 @@ impl Dome {
         self.ask(d, Quantity::Light)
     }
 
-    /// The light of the sky from a unit direction as it is shown, linear light of 0 to 1: for fog, and for what mirrors the
-    /// sky.
+    /// The light of the sky from a unit direction as it is shown, linear light of 0 to 1: for fog, and for what mirrors
+    /// the sky.
     pub fn radiance(&self, d: Vec3) -> Vec3 {
         self.ask(d, Quantity::Shown)
     }

@@ -31,6 +31,7 @@ impl SkyLayer {
     }
 
     /// The same sky behind what was drawn before it: it fills what solids have left of each pixel.
+    #[inline(always)] // A call would copy the layer once more.
     pub fn behind(self) -> SkyLayer {
         SkyLayer { behind: true, ..self }
     }

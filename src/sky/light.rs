@@ -12,8 +12,8 @@ use std::f32::consts::FRAC_1_PI;
 pub struct Lighting {
     /// Unit vector towards the sun or the moon, whichever gives more light.
     pub direction: Vec3,
-    /// What a white matt surface that faces it reflects. It falls to nothing where sun and moon give the same, so that no
-    /// shadow jumps.
+    /// What a white matt surface that faces it reflects. It falls to nothing where sun and moon give the same, so that
+    /// no shadow jumps.
     pub color: Vec3,
     /// What a white matt surface that lies under the open sky reflects of it, without sun and moon.
     pub sky: Vec3,

@@ -8,8 +8,8 @@
 //! Dome -> Lighting: what lights the ground, for the other renderers
 //! ```
 //!
-//! World axes are x east, y up, z south. Light is linear, relative to the sun's outside of the air where it is physical, and
-//! 0 to 1 where it is shown. What is approximated is in [`SkySettings`](crate::settings::SkySettings).
+//! World axes are x east, y up, z south. Light is linear, relative to the sun's outside of the air where it is
+//! physical, and 0 to 1 where it is shown. What is approximated is in [`SkySettings`](crate::settings::SkySettings).
 //!
 //! - [`time`]: the calendar. [`place`]: a place's horizon, and refraction.
 //! - [`sun`], [`moon`]: where they are, rise and set, phases.

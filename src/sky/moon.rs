@@ -18,8 +18,8 @@ pub struct Moon {
     pub radius: f64,
     /// Unit vector from the moon to the sun: which side is lit.
     pub to_sun: DVec3,
-    /// Share of the disc that is lit, 0 to 1, seen from the earth's centre as almanacs have it. From a place it may be 0.008
-    /// more or less.
+    /// Share of the disc that is lit, 0 to 1, seen from the earth's centre as almanacs have it. From a place it may be
+    /// 0.008 more or less.
     pub lit: f64,
 }
 
@@ -29,12 +29,12 @@ const EARTH: f64 = 6371.0;
 /// The sun's mean distance, km.
 const SUN: f64 = 149_597_870.7;
 
-/// Arguments of the series, degrees at J2000 and degrees per century: the moon's elongation, the sun's anomaly, the moon's
-/// anomaly, and its distance from the node. Rounded to about 0.1.
+/// Arguments of the series, degrees at J2000 and degrees per century: the moon's elongation, the sun's anomaly, the
+/// moon's anomaly, and its distance from the node. Rounded to about 0.1.
 const ARGUMENTS: [(f64, f64); 4] = [(297.875, 445_267.0), (357.5, 35_999.0), (135.0, 477_199.0), (93.25, 483_202.0)];
 
-/// One term of the series: whole multiples of the four arguments, whose sum is its angle; the factor of its sine, in units of
-/// 0.05 degrees; and that of its cosine, in units of 165 km.
+/// One term of the series: whole multiples of the four arguments, whose sum is its angle; the factor of its sine, in
+/// units of 0.05 degrees; and that of its cosine, in units of 165 km.
 type Term = [i8; 6];
 
 /// Terms of longitude and distance, and from number [`LATITUDE`] on terms of latitude.

@@ -1,7 +1,7 @@
 //! From equatorial axes to a place's horizon, and refraction.
 //!
-//! World axes are x east, y up, z south. Equatorial axes are x to the mean equinox of date, z to the celestial north pole. Both
-//! are right-handed.
+//! World axes are x east, y up, z south. Equatorial axes are x to the mean equinox of date, z to the celestial north
+//! pole. Both are right-handed.
 
 use super::time::{sane, turned};
 use glam::{DMat3, DVec3, dvec3};
@@ -26,8 +26,8 @@ impl Place {
 
     /// The rotation from equatorial axes to the world's at a time, days since J2000. Its z axis is the celestial pole.
     ///
-    /// At a pole, where there is no east, the longitude says which way is south. Angles and times beyond 10^9 and NaN count
-    /// as 0.
+    /// At a pole, where there is no east, the longitude says which way is south. Angles and times beyond 10^9 and NaN
+    /// count as 0.
     #[inline(never)] // Called in a few places, never in a hot loop.
     pub fn turn(&self, days: f64) -> DMat3 {
         let (s, c) = turned(sidereal(days, self.longitude));
@@ -43,8 +43,8 @@ fn sidereal(days: f64, longitude: f64) -> f64 {
     280.460_618_37 + 360.985_647_366_29 * sane(days) + sane(longitude).to_degrees()
 }
 
-/// Altitude and azimuth of a unit direction on world axes, radians. The azimuth is 0 to 2 pi, from north over east; that of
-/// the zenith is 0.
+/// Altitude and azimuth of a unit direction on world axes, radians. The azimuth is 0 to 2 pi, from north over east;
+/// that of the zenith is 0.
 pub fn angles(d: DVec3) -> (f64, f64) {
     let azimuth = d.x.atan2(-d.z);
     let turn = if azimuth < 0.0 { std::f64::consts::TAU } else { 0.0 };
@@ -55,8 +55,8 @@ pub fn angles(d: DVec3) -> (f64, f64) {
 /// The unit direction in which the air shows what is in the true unit direction `d`: on the horizon, at 1010 hPa and 10
 /// degrees Celsius, it lifts by 0.0084 radians (29').
 ///
-/// It is the formula of `[Saemundsson86]`, rewritten as a fraction of the altitude's sine, within 0.1", down to -1 degree, to
-/// where it is sound. From there refraction fades to nothing at -6 degrees.
+/// It is the formula of `[Saemundsson86]`, rewritten as a fraction of the altitude's sine, within 0.1", down to -1
+/// degree, to where it is sound. From there refraction fades to nothing at -6 degrees.
 pub fn refracted(d: DVec3) -> DVec3 {
     let low = d.y.max(-0.017_45);
     let lift = 2.964_67e-4 / (low + 0.003_134_79 / (low + 0.089_147));

@@ -1,8 +1,8 @@
 //! Stars: a made catalogue, from a hash, that turns with the true sky.
 //!
-//! Star `n` of N is the n-th brightest, of magnitude `6 + 2 log10(n / N)`, so there are as many of each magnitude as in the
-//! true sky. The light of the sky says which magnitude is still seen, so stars come out one after another, and dusk is where
-//! the loop over them ends.
+//! Star `n` of N is the n-th brightest, of magnitude `6 + 2 log10(n / N)`, so there are as many of each magnitude as in
+//! the true sky. The light of the sky says which magnitude is still seen, so stars come out one after another, and dusk
+//! is where the loop over them ends.
 //!
 //! Stars are drawn as small soft spots rather than looked for in each pixel: a few hundred are in view, and they glide.
 

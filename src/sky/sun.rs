@@ -24,8 +24,8 @@ pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
 
 /// The sun's apparent unit direction on equatorial axes, seen from the earth's centre, at a time in days since J2000.
 ///
-/// The pull of the planets is left out: 0.01 degrees. The Astronomical Almanac's shorter series drifts away by 0.02 degrees
-/// towards 1900 and 2100.
+/// The pull of the planets is left out: 0.01 degrees. The Astronomical Almanac's shorter series drifts away by 0.02
+/// degrees towards 1900 and 2100.
 pub fn equator(days: f64) -> DVec3 {
     let t = centuries(days);
     let (s, c) = turned(357.529_11 + 35_999.050_29 * t);
@@ -34,8 +34,8 @@ pub fn equator(days: f64) -> DVec3 {
     equatorial(280.460_77 + t * 36_000.769_83 + center, 0.0, days)
 }
 
-/// The sun's true unit direction on world axes, without refraction (see [`super::place::refracted`]), at a time in days since
-/// J2000.
+/// The sun's true unit direction on world axes, without refraction (see [`super::place::refracted`]), at a time in days
+/// since J2000.
 ///
 /// Within 0.01 degrees in 1900 to 2100. Times beyond 10^9 days and NaN count as 0.
 pub fn direction(days: f64, place: &Place) -> DVec3 {
@@ -70,8 +70,8 @@ pub struct Day {
 impl Day {
     /// The passages of the sun's centre through an altitude in the 24 hours from `start`, days since J2000, at a place.
     ///
-    /// `altitude` is a true one, without refraction, in radians: such as [`RISE`], or that of civil twilight, -6 degrees.
-    /// Times are within a minute, and within two and a half where the sun all but stays up or down.
+    /// `altitude` is a true one, without refraction, in radians: such as [`RISE`], or that of civil twilight, -6
+    /// degrees. Times are within a minute, and within two and a half where the sun all but stays up or down.
     pub fn new(start: f64, place: &Place, altitude: f64) -> Day {
         let start = sane(start);
         let height = |time: f64| angles(direction(start + time, place)).0 - altitude;

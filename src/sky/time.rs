@@ -1,11 +1,11 @@
 //! The calendar: civil dates and days since J2000.
 //!
-//! A time is an `f64` of days since J2000 (2000-01-01 12:00 UT) everywhere in the sky. Its rounding is 0.1 ms in 1900 to
-//! 2100, where an `f32` would be off by minutes. The sky is a function of that number alone, so any speed, direction or
-//! jump through time is one addition: an hour is 1/24, a day is 1.
+//! A time is an `f64` of days since J2000 (2000-01-01 12:00 UT) everywhere in the sky. Its rounding is 0.1 ms in 1900
+//! to 2100, where an `f32` would be off by minutes. The sky is a function of that number alone, so any speed, direction
+//! or jump through time is one addition: an hour is 1/24, a day is 1.
 //!
-//! The time is UT. The ephemerides want terrestrial time, which was 64 s ahead in 2000 and may be 200 s ahead in 2100. The
-//! difference is left out: in it the sun moves by 0.001 (0.0025) degrees, the moon by 0.01 (0.03).
+//! The time is UT. The ephemerides want terrestrial time, which was 64 s ahead in 2000 and may be 200 s ahead in 2100.
+//! The difference is left out: in it the sun moves by 0.001 (0.0025) degrees, the moon by 0.01 (0.03).
 
 /// A date of the Gregorian calendar, extended to before its adoption.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,11 +50,11 @@ impl Date {
 /// The day on which J2000's noon lies, 2000-01-01, counted from 1 March of year 0.
 const MARCH_0: i64 = 730_425;
 
-/// Midnight UT at the start of a date, in days since J2000: `days(2026, 6, 25)` is 9671.5. Months out of 1 to 12 run on into
-/// other years, days out of their month into other months.
+/// Midnight UT at the start of a date, in days since J2000: `days(2026, 6, 25)` is 9671.5. Months out of 1 to 12 run on
+/// into other years, days out of their month into other months.
 ///
-/// By `[Hinnant13]`: years begin in March, so that the leap day is a year's last. The years' absolute value is to be below
-/// 10^9.
+/// By `[Hinnant13]`: years begin in March, so that the leap day is a year's last. The years' absolute value is to be
+/// below 10^9.
 pub const fn days(year: i64, month: i64, day: i64) -> f64 {
     let months = year * 12 + month - 3;
     let (year, month) = (months.div_euclid(12), months.rem_euclid(12));

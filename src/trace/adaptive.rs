@@ -26,6 +26,7 @@ use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, h
 use crate::frame::Tile;
 use crate::settings::samples_per_axis;
 use crate::simd::lanes::F;
+use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -65,12 +66,12 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
     scratch.deferred.begin(job.context.world.objects.len(), job.settings.subpixel > 0);
     tile.clear();
     let across = samples_per_axis(job.settings.grid);
-    let step = 1.0 / across as u32 as f32;
+    let step = 1.0 / to_f32(across);
     let mut count = 0;
     for n in 0..across * across {
         // Lattice points are centres of pixels, or corners of them.
         let middle = if job.settings.subpixel > 0 { 0.0 } else { 0.5 };
-        let [dx, dy] = [n % across, n / across].map(|n| (n as u32 as f32 + middle) * step);
+        let [dx, dy] = [n % across, n / across].map(|n| (to_f32(n) + middle) * step);
         scratch.grid.begin(job, tile, dx, dy);
         subdivide(simd, job, tile, scratch);
         paint(simd, job, tile, step * step, scratch);
@@ -292,7 +293,7 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
         let (hit, guess) = (&hits(found)[n], &hits(foretold)[n]);
         let shift = distance(&hit_point(hit), &hit_point(guess));
         let (first, last) = (hit_point(&hits(&c[0].numbers)[n]), hit_point(&hits(&c[3].numbers)[n]));
-        let pixel = distance(&first, &last) / size as u32 as f32;
+        let pixel = distance(&first, &last) / to_f32(size);
         let Variation { contrast, slope } = job.variation[centre.object[n] as usize];
         // A texture finer than pixels may be displaced by a part of one.
         let texture = (slope * shift).min(contrast * SUBPIXEL * shift / pixel.max(1e-20)).min(contrast);

@@ -6,9 +6,9 @@
 use super::sample::{GAIN, REMEMBERED, Sample, hit_point};
 use super::world::World;
 use crate::frame::Tile;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::F;
-use crate::texture::{self, Block3};
+use crate::texture;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 

@@ -7,9 +7,10 @@ use super::sample::{
     self, GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits,
 };
 use crate::frame::Tile;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
-use crate::texture::{self, Block3, Texture};
+use crate::simd::math::to_f32;
+use crate::texture::{self, Texture};
 use fearless_simd::{f32x8, prelude::*};
 use fearless_simd_macros::simd;
 
@@ -100,12 +101,12 @@ impl Ramps {
             let count = BLOCK.min(size * size);
             ramps.clear();
             for first in (0..size * size).step_by(count) {
-                let step = 1.0 / size as u32 as f32;
+                let step = 1.0 / to_f32(size);
                 let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, step };
                 for i in 0..count {
                     let (x, y) = ((first + i) % size, (first + i) / size);
-                    ramp.u[i] = (x as u32 as f32 + offset) / size as u32 as f32;
-                    ramp.v[i] = (y as u32 as f32 + offset) / size as u32 as f32;
+                    ramp.u[i] = (to_f32(x) + offset) / to_f32(size);
+                    ramp.v[i] = (to_f32(y) + offset) / to_f32(size);
                     ramp.pixel[i] = (y * Tile::SIZE + x) as u16;
                 }
                 ramps.push(ramp);

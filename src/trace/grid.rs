@@ -4,6 +4,7 @@ use super::job::Job;
 use super::packet;
 use super::sample::Sample;
 use crate::frame::Tile;
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 
 /// Most lattice points along a tile's edge: at quarter pixels, with both ends.
@@ -50,8 +51,8 @@ pub struct Grid {
 impl Grid {
     /// Forgets all samples, for another tile. The lattice begins `dx` and `dy` pixels from the tile's top left.
     pub fn begin(&mut self, job: &Job, tile: &Tile, dx: f32, dy: f32) {
-        self.first = (tile.x as u32 as f32 + dx, tile.y as u32 as f32 + dy);
-        self.step = 1.0 / job.unit() as u32 as f32;
+        self.first = (to_f32(tile.x) + dx, to_f32(tile.y) + dy);
+        self.step = 1.0 / to_f32(job.unit());
         if self.lattice.is_empty() {
             self.lattice = vec![(0, 0); LATTICE * LATTICE];
         }
@@ -72,8 +73,8 @@ impl Grid {
 
     fn add(&mut self, x: usize, y: usize) {
         self.lattice[y * LATTICE + x] = (self.generation, self.xs.len() as u32);
-        self.xs.push(self.first.0 + x as u32 as f32 * self.step);
-        self.ys.push(self.first.1 + y as u32 as f32 * self.step);
+        self.xs.push(self.first.0 + to_f32(x) * self.step);
+        self.ys.push(self.first.1 + to_f32(y) * self.step);
     }
 
     /// The number of samples that have been traced.

@@ -6,13 +6,13 @@ use super::job::Job;
 use super::packet::{Limits, TraceContext};
 use super::surface::{self, SurfaceNumbers};
 use super::world::World;
-use crate::frame::cache::lock;
+use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::TraceSettings;
+use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
-use std::sync::{Arc, Mutex};
 
 /// A world as a view shows it. The layer fills every pixel and writes inverse depth and coverage, so it comes first.
 pub struct TraceLayer {
@@ -25,13 +25,15 @@ pub struct TraceLayer {
     guard: Guard,
     limits: Limits,
     settings: TraceSettings,
-    memory: Arc<Mutex<Memory>>,
+    /// What the renderer keeps; none until the layer is prepared.
+    memory: Option<Kept<Memory>>,
 }
 
 /// Memory that tiles leave to later ones, as many pieces as threads have drawn tiles at the same time. It is not kept per
 /// thread, because setting up and freeing such memory would take 3 kB of code.
 #[derive(Default)]
-struct Memory(Vec<Scratch>);
+#[expect(clippy::vec_box)] // Scratch memory is passed on by its pointer: moving all of it takes 1.4 kB of code.
+struct Memory(Vec<Box<Scratch>>);
 
 impl TraceLayer {
     /// The layer of a world. Its picture has the size of the view.
@@ -46,14 +48,13 @@ impl TraceLayer {
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
         let TraceSettings { min_weight, min_detail, light_samples, .. } = *settings;
         let limits = Limits { min_weight: min_weight / brightest, min_detail: min_detail / brightest, light_samples };
-        let memory = Arc::default();
-        TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory }
+        TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory: None }
     }
 
     /// Lists the objects that eye rays through a tile may meet: those whose bounds touch the cone around the tile.
     fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
         let eye = self.view.camera().eye;
-        let (x, y) = (tile.x as u32 as f32, tile.y as u32 as f32);
+        let (x, y) = (to_f32(tile.x), to_f32(tile.y));
         let half = Tile::SIZE as f32 * 0.5;
         // Corners of the grid reach one pixel beyond the tile.
         let cone = Cone::new(&self.view, (x + half, y + half), half + 1.0);
@@ -66,35 +67,37 @@ impl TraceLayer {
         }
     }
 
-    /// Draws a tile; returns the number of eye rays and the memory that was used.
-    fn draw_in(&self, level: Level, tile: &mut Tile) -> (u64, Scratch) {
-        let TraceLayer { world, surfaces, all, variation, view, guard, limits, settings, memory } = self;
-        // Bound, so that other threads can have theirs while this tile is drawn.
-        let spare = lock(memory).0.pop();
-        let mut scratch = spare.unwrap_or_default();
+    /// Draws a tile; returns the number of eye rays.
+    fn draw_in(&self, level: Level, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
+        let TraceLayer { world, surfaces, all, variation, view, guard, limits, settings, .. } = self;
         let mut visible = std::mem::take(&mut scratch.visible);
         self.visible(tile, &mut visible);
         let context = TraceContext { world, surfaces, view, visible: &visible, all, limits: *limits };
         let job = Job { context, variation, guard, settings };
-        let samples = dispatch!(level, simd => adaptive::draw(simd, &job, tile, &mut scratch));
+        let samples = dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch));
         scratch.visible = visible;
-        (samples, scratch)
+        samples
     }
 }
 
 impl Layer for TraceLayer {
     fn prepare(&mut self, _workers: &Workers, cache: &Cache) {
-        self.memory = cache.get();
+        self.memory = Some(cache.get());
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let (samples, scratch) = self.draw_in(level, tile);
-        lock(&self.memory).0.push(scratch);
+        let mut scratch = self.memory.as_ref().and_then(|memory| memory.lock().0.pop()).unwrap_or_default();
+        let samples = self.draw_in(level, tile, &mut scratch);
+        if let Some(memory) = &self.memory {
+            memory.lock().0.push(scratch);
+        }
         Stats { samples }
     }
 
     #[cfg(feature = "full")]
     fn positions(&self, level: Level, tile: &mut Tile) -> Vec<(f32, f32)> {
-        self.draw_in(level, tile).1.positions().collect()
+        let mut scratch = Scratch::default();
+        self.draw_in(level, tile, &mut scratch);
+        scratch.positions().collect()
     }
 }

@@ -30,14 +30,13 @@
 //! let ball = Shape::Sphere { center: Vec3::Y, radius: 1.0 };
 //! let floor = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
 //! let world = World {
-//!     objects: vec![
-//!         Object::new(ball, Material::plain(vec3(0.8, 0.1, 0.1)).polished(0.2, 0.5, 50.0)),
-//!         Object::new(floor, Material::plain(Vec3::splat(0.5))).without_shadow(),
-//!     ],
 //!     lights: vec![Light::point(vec3(3.0, 5.0, 4.0), Vec3::ONE)],
 //!     ambient: Vec3::splat(0.1),
 //!     background: Background::gradient(vec3(0.7, 0.8, 0.9), vec3(0.2, 0.4, 0.7)),
-//!     ..World::default()
+//!     ..World::new(vec![
+//!         Object::new(ball, Material::plain(vec3(0.8, 0.1, 0.1)).polished(0.2, 0.5, 50.0)),
+//!         Object::new(floor, Material::plain(Vec3::splat(0.5))).without_shadow(),
+//!     ])
 //! };
 //! let camera = Camera::look_at(vec3(0.0, 1.5, 6.0), Vec3::Y, 0.8, 0.0);
 //! let layer = TraceLayer::new(world, &View::new(camera, 64, 64), &Quality::DEFAULT.trace);

@@ -203,6 +203,11 @@ impl World {
         background: Background::even(Vec3::ZERO),
         max_level: 5,
     };
+
+    /// Bodies under a black sky, without lights, for paths of up to five rays.
+    pub fn new(objects: Vec<Object>) -> World {
+        World { objects, ..World::EMPTY }
+    }
 }
 
 impl Default for World {

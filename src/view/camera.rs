@@ -7,8 +7,8 @@ use glam::Vec3;
 
 /// A pinhole camera.
 ///
-/// The ray through the screen's point (`px`, `py`) leaves `eye` along `forward + (px + shift) * right + py * up`. The screen
-/// is two units high; (0, 0) is its middle.
+/// The ray through the screen's point (`px`, `py`) leaves `eye` along `forward + (px + shift) * right + py * up`. The
+/// screen is two units high; (0, 0) is its middle.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     /// Where rays start, metres.
@@ -19,8 +19,8 @@ pub struct Camera {
     pub right: Vec3,
     /// Direction to the top of the picture, as long as `right`.
     pub up: Vec3,
-    /// How far the picture is shifted to the right of the view axis, halves of its height: 0 but for the two eyes of a stereo
-    /// pair.
+    /// How far the picture is shifted to the right of the view axis, halves of its height: 0 but for the two eyes of a
+    /// stereo pair.
     pub shift: f32,
 }
 
@@ -29,7 +29,8 @@ pub struct Camera {
 pub struct Eye {
     /// Metres to the right of the camera.
     pub offset: f32,
-    /// Metres along the view axis at which both eyes of a pair see a thing at the same place of their pictures. Above 0.
+    /// Metres along the view axis at which both eyes of a pair see a thing at the same place of their pictures. Above
+    /// 0.
     pub convergence: f32,
 }
 
@@ -55,10 +56,11 @@ impl Stereo {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`, with a vertical field of view of `fov` radians and rolled by `roll` radians.
+    /// A camera at `eye` that looks at `target`, with a vertical field of view of `fov` radians and rolled by `roll`
+    /// radians.
     ///
-    /// The axes are never degenerate: where `eye` equals `target` the camera looks along -z, and where it looks straight down
-    /// (up) the top of its picture is towards -z (+z).
+    /// The axes are never degenerate: where `eye` equals `target` the camera looks along -z, and where it looks
+    /// straight down (up) the top of its picture is towards -z (+z).
     pub fn look_at(eye: Vec3, target: Vec3, fov: f32, roll: f32) -> Camera {
         let forward = (target - eye).try_normalize().unwrap_or(Vec3::NEG_Z);
         let side = forward.cross(Vec3::Y);
@@ -77,8 +79,8 @@ impl Camera {
 
     /// The camera moved to an eye. [`Eye::MIDDLE`] leaves it as it is.
     ///
-    /// The axes of a pair stay parallel and their pictures are shifted. Were the axes turned to meet instead, the two eyes would
-    /// see most points at different heights.
+    /// The axes of a pair stay parallel and their pictures are shifted. Were the axes turned to meet instead, the two
+    /// eyes would see most points at different heights.
     pub fn at(self, eye: Eye) -> Camera {
         if !cuts::STEREO {
             return self;

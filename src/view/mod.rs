@@ -81,6 +81,12 @@ impl View {
         V3::splat(simd, c.forward) + V3::splat(simd, c.right) * Lane(px) + V3::splat(simd, c.up) * Lane(py)
     }
 
+    /// The unit direction of the eye ray through one point of the picture.
+    #[inline(never)] // Five calls make a cone: 0.2 kB packed.
+    pub fn direction(&self, x: f32, y: f32) -> Vec3 {
+        self.ray(x, y).normalize()
+    }
+
     /// The unnormalised eye ray through one point of the picture.
     pub fn ray(&self, x: f32, y: f32) -> Vec3 {
         let c = &self.camera;

@@ -4,6 +4,7 @@ use fearless_simd::Level;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::settings::{CloudSettings, Quality};
+use testkit::metrics::Difference;
 
 const SIZE: (usize, usize) = (320, 180);
 
@@ -47,28 +48,33 @@ fn levels_give_the_same_bytes() {
     }
 }
 
-#[test]
-fn frames_are_near_to_those_of_rays_and_do_not_pop() {
+fn stay_near(count: u32) {
     // Texels are fewer than pixels: smaller pictures, whose pixels have more in them, are off by more.
     const SIZE: (usize, usize) = (1280, 720);
     let mut renderer = Renderer::new(2).expect("threads");
-    let square = |a: &Frame, b: &Frame| {
-        let off = |a: &u32, b: &u32, shift: u32| f64::from((a >> shift & 255).abs_diff(b >> shift & 255)).powi(2);
-        let sum: f64 = a.pixels.iter().zip(&b.pixels).map(|(a, b)| off(a, b, 0) + off(a, b, 8) + off(a, b, 16)).sum();
-        sum / (3 * a.pixels.len()) as f64
-    };
     let mut last: Option<[Frame; 2]> = None;
     let mut changes = [0.0f64; 2];
-    for i in 0..24 {
+    for i in 0..count {
         let frames = [0.0, 1.0].map(|bound| render(&mut renderer, 2.0 + f64::from(i) / 60.0, bound, SIZE));
-        let psnr = 10.0 * (255.0 * 255.0 / square(&frames[0], &frames[1])).log10();
+        let psnr = Difference::between(&frames[0], &frames[1]).psnr();
         assert!(psnr > 35.0, "{psnr} dB in frame {i}");
         if let Some(last) = last {
             for (change, (a, b)) in changes.iter_mut().zip(last.iter().zip(&frames)) {
-                *change = change.max(square(a, b).sqrt());
+                *change = change.max(Difference::between(a, b).rmse());
             }
         }
         last = Some(frames);
     }
     assert!(changes[1] < 2.0 * changes[0], "{changes:?}");
+}
+
+#[test]
+fn frames_are_near_to_those_of_rays_and_do_not_pop() {
+    stay_near(3);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn frames_do_not_pop_for_some_tenths_of_a_second() {
+    stay_near(24);
 }

@@ -39,14 +39,13 @@ fn differences(a: &Frame, b: &Frame) -> Option<String> {
     Some(format!("{} pixels, ({x}, {y}): {:06x} {:06x}", off.len(), a.pixels[first], b.pixels[first]))
 }
 
-#[test]
-fn every_level_gives_the_same_frame() {
+fn levels_agree(qualities: &[&str], times: &[f64]) {
     let mut failed = vec![];
-    for quality in Quality::NAMES {
+    for &quality in qualities {
         // The reference takes 64 samples a pixel.
         let size = if quality == "reference" { (70, 40) } else { (200, 113) };
         for name in BENCH {
-            for time in [2.0, 9.4] {
+            for &time in times {
                 let mut first: Option<Frame> = None;
                 for (level_name, level) in testkit::levels() {
                     let mut renderer = Renderer::new(2).unwrap().at_level(level);
@@ -64,12 +63,22 @@ fn every_level_gives_the_same_frame() {
 }
 
 #[test]
-fn threads_do_not_matter() {
-    for quality in ["fast", "default", "exact"] {
+fn every_level_gives_the_same_frame() {
+    levels_agree(&["default"], &[9.4]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn every_level_gives_the_same_frame_at_every_quality() {
+    levels_agree(&Quality::NAMES, &[2.0, 9.4]);
+}
+
+fn threads_agree(qualities: &[&str], counts: &[usize]) {
+    for quality in qualities {
         for name in BENCH {
             let quality = Quality::named(quality).unwrap();
             let one = frame(&mut Renderer::new(1).unwrap(), name, 3.1, &quality, (300, 200));
-            for threads in [2, 3, 8] {
+            for &threads in counts {
                 let many = frame(&mut Renderer::new(threads).unwrap(), name, 3.1, &quality, (300, 200));
                 assert_eq!(differences(&one, &many), None, "{name} on {threads} threads");
             }
@@ -78,8 +87,18 @@ fn threads_do_not_matter() {
 }
 
 #[test]
-fn history_does_not_matter() {
-    for quality in ["fast", "default", "exact"] {
+fn threads_do_not_matter() {
+    threads_agree(&["default"], &[3]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn threads_do_not_matter_at_any_quality() {
+    threads_agree(&["fast", "default", "exact"], &[2, 3, 8]);
+}
+
+fn history_is_forgotten(qualities: &[&str]) {
+    for quality in qualities {
         let quality = Quality::named(quality).unwrap();
         // One renderer through scenes, sizes, qualities and time, onto a frame that is never cleared.
         let mut old = Renderer::new(2).unwrap();
@@ -96,8 +115,18 @@ fn history_does_not_matter() {
 }
 
 #[test]
-fn odd_sizes_are_filled() {
-    for quality in Quality::NAMES {
+fn history_does_not_matter() {
+    history_is_forgotten(&["default"]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn history_does_not_matter_at_any_quality() {
+    history_is_forgotten(&["fast", "default", "exact"]);
+}
+
+fn sizes_are_filled(qualities: &[&str]) {
+    for &quality in qualities {
         for size in [(1, 1), (7, 3), (63, 65), (130, 1), (1, 130), (65, 64), (0, 5), (5, 0), (0, 0)] {
             if quality == "reference" && size.0 * size.1 > 1000 {
                 continue;
@@ -117,6 +146,17 @@ fn odd_sizes_are_filled() {
             }
         }
     }
+}
+
+#[test]
+fn odd_sizes_are_filled() {
+    sizes_are_filled(&["default"]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn odd_sizes_are_filled_at_every_quality() {
+    sizes_are_filled(&Quality::NAMES);
 }
 
 #[test]

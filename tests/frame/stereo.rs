@@ -42,12 +42,11 @@ fn eyes(stereo: Stereo) -> [Eye; 2] {
     [-0.5, 0.5].map(|side| stereo.eye(side))
 }
 
-#[test]
-fn eyes_in_one_place_see_the_picture_of_one_eye_twice() {
+fn eyes_in_one_place_agree(qualities: &[&str]) {
     let mut renderer = Renderer::new(2).unwrap();
     let stereo = Some(Stereo { eye_distance: 0.0, ..BOTH });
     for scene in scenes::all() {
-        for name in Quality::NAMES {
+        for &name in qualities {
             let quality = Quality::named(name).unwrap();
             // The reference takes 64 samples a pixel.
             let (half, height) = if name == "reference" { (16, 9) } else { (133, 70) };
@@ -60,6 +59,17 @@ fn eyes_in_one_place_see_the_picture_of_one_eye_twice() {
             }
         }
     }
+}
+
+#[test]
+fn eyes_in_one_place_see_the_picture_of_one_eye_twice() {
+    eyes_in_one_place_agree(&["fast"]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn eyes_in_one_place_see_it_twice_at_every_quality() {
+    eyes_in_one_place_agree(&Quality::NAMES);
 }
 
 #[test]
@@ -138,7 +148,7 @@ fn one_eye_in_the_middle_is_the_camera() {
 /// The middle of the light in the picture of a glowing ball, pixels.
 fn middle(ball: Vec3, radius: f32, camera: Camera) -> (f64, f64) {
     let ball = Object::new(Shape::Sphere { center: ball, radius }, Material::plain(Vec3::ONE));
-    let world = World { objects: vec![ball], ambient: Vec3::ONE, max_level: 1, ..World::EMPTY };
+    let world = World { ambient: Vec3::ONE, max_level: 1, ..World::new(vec![ball]) };
     let light = traced(&world, camera, (200, 150), Quality::REFERENCE, fearless_simd::Level::new());
     let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
     for (i, pixel) in light.pixels.iter().enumerate() {

@@ -84,7 +84,7 @@ impl Layer for Black {
 }
 
 fn draw(renderer: &mut Renderer, fire: Fire, view: &View) -> Vec<u32> {
-    let particles = ParticleLayer::new([fire], view, &Quality::EXACT.particles);
+    let particles = ParticleLayer::new(vec![fire.into()], view, &Quality::EXACT.particles);
     let mut frame = Frame::new(SIZE.0, SIZE.1);
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(Black), Box::new(particles)];
     renderer.draw(Picture { layers, transfer: Transfer::Linear }, &mut frame);

@@ -5,7 +5,7 @@ use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
-use paprsek::particles::{Fire, ParticleLayer, Snow};
+use paprsek::particles::{Emitter, Fire, ParticleLayer, Snow};
 use paprsek::scenes::bench::particles::fires;
 use paprsek::settings::Quality;
 use paprsek::view;
@@ -79,8 +79,12 @@ fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer
 
 /// The same for fires seen along `forward` from `eye`, on two threads.
 pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<Vec3> {
-    let particles =
-        ParticleLayer::new(fires.to_vec(), &view(eye, forward, size), &Quality::EXACT.particles).exposed(exposure);
+    let particles = ParticleLayer::new(
+        fires.iter().copied().map(Emitter::Fire).collect(),
+        &view(eye, forward, size),
+        &Quality::EXACT.particles,
+    )
+    .exposed(exposure);
     draw(&mut Renderer::new(2).unwrap(), particles, size, behind)
 }
 
@@ -97,7 +101,7 @@ pub fn snow(field: Snow, eye: Vec3, forward: Vec3, size: Size) -> Vec<Vec3> {
             Stats::default()
         }
     }
-    let layer = ParticleLayer::new([field], &view(eye, forward, size), &Quality::EXACT.particles)
+    let layer = ParticleLayer::new(vec![field.into()], &view(eye, forward, size), &Quality::EXACT.particles)
         .colored(vec3(0.95, 0.97, 1.0));
     over(&mut Renderer::new(2).unwrap(), Box::new(Gradient(size.1 as f32)), layer, size)
 }

@@ -4,7 +4,7 @@ use super::layer::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth
 use super::oracle::{FLAKES, random, snow_beside};
 use glam::{DVec3, Vec3, vec3};
 use paprsek::frame::Renderer;
-use paprsek::particles::{Fire, Flakes, Lens, ParticleLayer};
+use paprsek::particles::{Emitter, Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, fires, flakes};
 use paprsek::settings::Quality;
 use testkit::levels;
@@ -239,7 +239,11 @@ fn every_level_and_thread_count_gives_the_same_light() {
     for (name, level) in levels() {
         for threads in [1, 2, 3] {
             let view = view(Vec3::ZERO, Vec3::NEG_Z, SIZE);
-            let particles = ParticleLayer::new(colours(150), &view, &Quality::EXACT.particles);
+            let particles = ParticleLayer::new(
+                colours(150).into_iter().map(Emitter::Fire).collect(),
+                &view,
+                &Quality::EXACT.particles,
+            );
             let mut renderer = Renderer::new(threads).unwrap().at_level(level);
             let found = draw(&mut renderer, particles, SIZE, solids);
             assert!(same(first.get_or_insert(found.clone()), &found), "{name}, {threads} threads");

@@ -14,8 +14,8 @@ const SIZE: Size = (300, 240);
 fn passes(field: &Flakes, time: f64, forward: Vec3, streak: Vec3) -> Vec<f64> {
     let mut snow = flakes(field, time, Vec3::ZERO);
     snow.streak = streak;
-    let layer =
-        ParticleLayer::new([snow], &view(Vec3::ZERO, forward, SIZE), &Quality::EXACT.particles).colored(Vec3::ZERO);
+    let layer = ParticleLayer::new(vec![snow.into()], &view(Vec3::ZERO, forward, SIZE), &Quality::EXACT.particles)
+        .colored(Vec3::ZERO);
     let light = draw(&mut Renderer::new(2).unwrap(), layer, SIZE, |_, _| (Vec3::ONE, None));
     light.iter().map(|c| f64::from(c.x)).collect()
 }

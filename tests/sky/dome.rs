@@ -236,9 +236,8 @@ fn skies() -> [Sky; 3] {
     [sky(15.0), sky(-8.0), night]
 }
 
-#[test]
-fn the_same_bytes_at_every_level_and_on_any_threads() {
-    for sky in skies() {
+fn levels_and_threads_agree(skies: &[Sky]) {
+    for &sky in skies {
         for quality in [Quality::FAST, Quality::EXACT].map(|q| q.sky) {
             for size in [(200, 130), (67, 3), (1, 1)] {
                 let truth = frame(&mut Renderer::new(1).unwrap(), sky, &quality, 12.0, size);
@@ -251,6 +250,18 @@ fn the_same_bytes_at_every_level_and_on_any_threads() {
             }
         }
     }
+}
+
+/// At dusk.
+#[test]
+fn the_same_bytes_at_every_level_and_on_any_threads() {
+    levels_and_threads_agree(&skies()[1..2]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn the_same_bytes_of_day_dusk_and_night() {
+    levels_and_threads_agree(&skies());
 }
 
 #[test]

@@ -541,12 +541,7 @@ fn normals_are_unit_outward_and_right() {
 
 /// One body alone under a sky of light 1.
 fn alone(shape: Shape, material: Material, max_level: u32) -> World {
-    World {
-        objects: vec![Object::new(shape, material)],
-        background: Background::even(Vec3::ONE),
-        max_level,
-        ..World::EMPTY
-    }
+    World { background: Background::even(Vec3::ONE), max_level, ..World::new(vec![Object::new(shape, material)]) }
 }
 
 /// Rays that meet one of `bodies` from outside, at all scales and up to grazing.

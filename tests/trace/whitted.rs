@@ -19,10 +19,9 @@ const LIGHT: f64 = 2e-6;
 fn furnace(objects: Vec<(Shape, Material)>, max_level: u32) -> World {
     let object = |(shape, material)| Object::new(shape, material);
     World {
-        objects: objects.into_iter().map(object).collect(),
         background: Background::even(Vec3::ONE),
         max_level,
-        ..World::EMPTY
+        ..World::new(objects.into_iter().map(object).collect())
     }
 }
 

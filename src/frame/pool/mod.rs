@@ -1,8 +1,8 @@
 //! Threads that work on a frame together.
 //!
-//! There are two pools with the same interface: rayon's threads, which stay and wait for the next frame, and the 64 kB build's,
-//! which live for one piece of work. Either runs the same function on several threads at once and sums what they return;
-//! [`crate::frame::Workers`] makes of that a queue of jobs.
+//! There are two pools with the same interface: rayon's threads, which stay and wait for the next frame, and the 64 kB
+//! build's, which live for one piece of work. Either runs the same function on several threads at once and sums what
+//! they return; [`crate::frame::Workers`] makes of that a queue of jobs.
 
 #[cfg(feature = "rayon")]
 mod rayon;

@@ -8,7 +8,8 @@ use std::thread::available_parallelism;
 pub struct Pool(ThreadPool);
 
 impl Pool {
-    /// A pool of `threads` threads (0: one per core). The calling thread is one of them unless it belongs to a pool already.
+    /// A pool of `threads` threads (0: one per core). The calling thread is one of them unless it belongs to a pool
+    /// already.
     ///
     /// Fails where the threads cannot be started.
     pub fn new(threads: usize) -> Result<Pool, String> {

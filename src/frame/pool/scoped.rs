@@ -1,4 +1,5 @@
-//! A pool whose threads live for one piece of work: starting one takes some 30 microseconds. rayon would take 6 kB packed.
+//! A pool whose threads live for one piece of work: starting one takes some 30 microseconds. rayon would take 6 kB
+//! packed.
 
 use super::start::STACK;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,8 +40,8 @@ impl Pool {
     }
 }
 
-/// The number of cores that this process may run on. The standard library's answer minds a container's quota too, for 4 kB
-/// packed.
+/// The number of cores that this process may run on. The standard library's answer minds a container's quota too, for 4
+/// kB packed.
 #[cfg(target_os = "linux")]
 pub fn cores() -> usize {
     rustix::thread::sched_getaffinity(None).map_or(1, |cores| cores.count() as usize)

@@ -4,7 +4,7 @@
 
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile};
-use crate::particles::{Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
+use crate::particles::{Emitter, Fire, Flakes, Flame, Lens, ParticleLayer, Snow};
 use crate::scenes::flakes;
 use crate::settings::Quality;
 use crate::view::{Camera, View};
@@ -111,7 +111,7 @@ pub fn snowfall(spec: &FrameSpec, of: &Flakes) -> ParticleLayer {
     let view = View::new(camera, spec.width, spec.height);
     let wind = [spec.get(&EAST), spec.get(&SOUTH)];
     let snow = blown(of, t, camera.eye, wind, spec.get(&SHARE) as f32);
-    ParticleLayer::new([snow], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
+    ParticleLayer::new(vec![snow.into()], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
 }
 
 /// The torches at `time` seconds, as specified.
@@ -150,7 +150,8 @@ fn fire(spec: &FrameSpec) -> Picture {
     let camera = spec.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
     // All particles that are specified, whatever the quality.
-    let particles = ParticleLayer::new(torches, &view, &Quality::EXACT.particles);
+    let particles =
+        ParticleLayer::new(torches.into_iter().map(Emitter::Fire).collect(), &view, &Quality::EXACT.particles);
     over(spec, FIRE_SKY, particles)
 }
 

@@ -72,7 +72,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let drops = flakes::altered(&DROPS, height, radius, count, faster, larger);
     let mut rain = Snow::new(&drops, t, view.camera().eye.as_dvec3(), way, share);
     rain.streak = (wind.as_vec3() - Vec3::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
-    let rain = ParticleLayer::new([rain], &view, &spec.quality.particles).colored(sky * 1.6);
+    let rain = ParticleLayer::new(vec![rain.into()], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));
     picture

@@ -4,9 +4,8 @@
 //! evaluate the same ones and no seam shows.
 
 use crate::frame::Tile;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
-use crate::texture::Block3;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;

@@ -6,6 +6,7 @@
 use super::paint::{self, PAINTS};
 use crate::noise::octaves;
 use crate::raster::Mesh;
+use crate::simd::math::smooth1;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
 
@@ -28,8 +29,7 @@ pub fn height(x: f32, z: f32) -> f32 {
     // The ground is even where the chapel stands.
     let calm = r2 / (r2 + 3000.0);
     let rolling = octaves(p * 0.003, 4, false) * (30.0 + 0.06 * r) * calm;
-    let rise = ((r - 700.0) / 4200.0).clamp(0.0, 1.0);
-    let rise = rise * rise * (3.0 - 2.0 * rise) * (1.0 - 0.85 * valley(700.0));
+    let rise = smooth1((r - 700.0) / 4200.0) * (1.0 - 0.85 * valley(700.0));
     let ridges = 1.0 - 2.2 * octaves(p * 0.00035 + 7.7, 6, true);
     hill + rolling - 13.0 * valley(45.0) + rise * (250.0 + 1000.0 * ridges)
 }

@@ -113,18 +113,17 @@ fn damage_is_reported() {
     }
 }
 
-/// Bits all over the second stage, as it is coded.
-#[test]
-fn damage_of_the_unpacker_is_reported() {
+/// So many bits all over the second stage, as it is coded.
+fn damages_the_unpacker(bits: usize) {
     let whole = small();
     let packed = packer::pack(&fs::read(work().join("subject")).expect("small() made it"), unpacker());
     let packed = packed.expect("an ordinary program");
     let [one, _] = packer::stages(unpacker()).expect("it is linked well");
     let coded = packed.headers + one.len()..packed.headers + packed.stub;
-    for i in 0..202 {
+    for i in 0..bits {
         let mut bytes = whole.to_vec();
         // The last bits coded may be any.
-        let at = coded.start + (coded.len() - 3) * i / 201;
+        let at = coded.start + (coded.len() - 3) * i / (bits - 1);
         bytes[at] ^= 1 << (i % 8);
         let path = executable("damaged_unpacker", &bytes);
         let began = Instant::now();
@@ -133,6 +132,17 @@ fn damage_of_the_unpacker_is_reported() {
         assert_eq!(output.status.code(), CANNOT);
         assert!(began.elapsed() < Duration::from_secs(5), "byte {at} took {:?}", began.elapsed());
     }
+}
+
+#[test]
+fn damage_of_the_unpacker_is_reported() {
+    damages_the_unpacker(22);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn damage_all_over_the_unpacker_is_reported() {
+    damages_the_unpacker(202);
 }
 
 #[test]
@@ -150,14 +160,24 @@ fn where_there_is_no_memory_it_says_so() {
 }
 
 /// What lies beyond the last page of a file cannot be read at all.
-#[test]
-fn a_part_of_a_file_is_reported() {
-    let packed = subject("subject_static", &["-static"]);
-    for part in [packed.len() - 1, packed.len() / 2, 12_000] {
+fn parts_are_reported(packed: &[u8], parts: &[usize]) {
+    for &part in parts {
         let output = Command::new(executable("part", &packed[..part])).output().expect("it starts");
         assert_eq!(text(&output.stderr), "paprsek: this file is damaged\n", "{part} of {} bytes", packed.len());
         assert_eq!(output.status.code(), CANNOT);
     }
+}
+
+#[test]
+fn a_part_of_a_file_is_reported() {
+    parts_are_reported(small(), &[small().len() - 1]);
+}
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn a_part_of_a_large_file_is_reported() {
+    let packed = subject("subject_static", &["-static"]);
+    parts_are_reported(&packed, &[packed.len() - 1, packed.len() / 2, 12_000]);
 }
 
 #[test]

@@ -6,7 +6,6 @@
 
 use crate::options::Result;
 use image::{GrayImage, Luma, imageops};
-use paprsek::frame::cache::lock;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::raster::RasterMemory;
 use paprsek::raster::depth_map::{DepthMap, EMPTY};
@@ -51,7 +50,7 @@ pub fn run(Options { shots, out }: &Options) -> Result {
         let mut renderer = Renderer::new(0)?;
         renderer.render(&scene, shot[1].parse()?, &Quality::FAST, &mut Frame::new(SIZE.0, SIZE.1));
         let memory = renderer.cache().get::<RasterMemory>();
-        let memory = lock(&memory);
+        let memory = memory.lock();
         let mut maps: Vec<_> = memory.maps.iter().collect();
         maps.sort_by_key(|(key, _)| key.slot);
         for (key, map) in maps {

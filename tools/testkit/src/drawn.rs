@@ -2,7 +2,6 @@
 
 use fearless_simd::Level;
 use glam::{Affine3A, DVec3, Mat3, Vec3};
-use paprsek::frame::cache::lock;
 use paprsek::frame::{Cache, Layer, Renderer, Tile};
 use paprsek::raster::{Body, Face, Mesh, Paint, RasterLayer, RasterMemory, World};
 use paprsek::settings::Quality;
@@ -166,5 +165,5 @@ impl Count {
 /// Has the next frame draw the first light's map, as if that light had moved, as sun and torch do in every frame of a show:
 /// maps are kept while a light rests, which would spare whoever comes second in a comparison his own.
 pub fn forget_maps(renderer: &Renderer) {
-    lock(&renderer.cache().get::<RasterMemory>()).maps.forget(0);
+    renderer.cache().get::<RasterMemory>().lock().maps.forget(0);
 }

@@ -1,15 +1,14 @@
 //! What Paprsek's tests, benches and report share: oracles, pictures and metrics, and running the program.
 
 pub mod drawn;
-mod levels;
 pub mod metrics;
 mod needs;
 pub mod picture;
 pub mod random;
 pub mod run;
 
-pub use levels::levels;
 pub use needs::{Tool, left_out, needs};
+pub use paprsek::simd::level::all as levels;
 
 /// Rounding of one f32 operation, relative: 2^-24.
 pub const ULP: f64 = 1.0 / 16_777_216.0;

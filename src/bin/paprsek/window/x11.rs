@@ -57,6 +57,16 @@ const EVENTS: u32 = 1 | 1 << 1 | 1 << 17;
 /// Width and height of one pixel.
 const ONE_PIXEL: u32 = 1 | 1 << 16;
 
+// What is added to the window's number for what belongs to it.
+/// The graphics context that frames are put with.
+const CONTEXT: u32 = 1;
+/// The picture and the mask of the cursor.
+const PIXMAP: u32 = 2;
+/// The cursor.
+const CURSOR: u32 = 3;
+/// The graphics context that draws the cursor's picture.
+const PEN: u32 = 4;
+
 /// Words of a PutImage request before its pixels.
 const PUT_IMAGE_HEAD: usize = 6;
 /// Largest side of what is drawn, pixels: that of a frame. In a larger window the picture is in the upper left corner,
@@ -108,7 +118,7 @@ impl Window {
         let keyboard = server.receive(PACKET)?;
         let symbols = (server.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
         let [left, top, width, height] = server.place(size);
-        let [context, pixmap, cursor, pen] = [id | 1, id | 2, id | 3, id | 4];
+        let [context, pixmap, cursor, pen] = [id | CONTEXT, id | PIXMAP, id | CURSOR, id | PEN];
         let [name, end] = TITLE_WORDS;
         server.send(&[
             // A cursor that shows nothing: its picture and its mask are one black pixel of one bit.
@@ -209,7 +219,7 @@ impl Window {
             let mut band = bytes(&[
                 request(PUT_IMAGE, Z_PIXMAP, (PUT_IMAGE_HEAD + rows.len() * columns) as u32),
                 id,
-                id | 1,
+                id | CONTEXT,
                 columns as u32 | (rows.len() as u32) << 16,
                 left as u32 | ((top + first) as u32) << 16,
                 self.depth << 8,

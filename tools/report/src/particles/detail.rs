@@ -6,7 +6,7 @@ use crate::metrics::Error as Off;
 use crate::plot::{self, Axis, Curve};
 use glam::{Vec3, vec3};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
-use paprsek::particles::{Fire, ParticleLayer};
+use paprsek::particles::{Emitter, Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::{FIRE_SKY, over};
 use paprsek::settings::Quality;
 use paprsek::view::View;
@@ -37,7 +37,7 @@ fn burning(time: f64, away: f32, detail: f32) -> Fire {
 }
 
 fn particles(fires: Vec<Fire>, away: f32) -> ParticleLayer {
-    ParticleLayer::new(fires, &view(away), &Quality::EXACT.particles)
+    ParticleLayer::new(fires.into_iter().map(Emitter::Fire).collect(), &view(away), &Quality::EXACT.particles)
 }
 
 /// The median milliseconds in which a fire is moved, listed and drawn alone on one thread, for each level of detail; and

@@ -4,7 +4,7 @@ use super::{SIZE, Stage, camera};
 use glam::{Vec3, vec3};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::Layer;
-use paprsek::particles::{Fire, ParticleLayer};
+use paprsek::particles::{Emitter, Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::{FIRE_SKY, fires, over};
 use paprsek::settings::{ParticleSettings, Quality};
 use paprsek::view::View;
@@ -45,7 +45,11 @@ fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
         let place = vec3(*right, 0.0, -before);
         Fire { place, first: 2000 * number as u32, ..torch(shot.time) }
     };
-    ParticleLayer::new(case.places.iter().enumerate().map(fire), &view, &ParticleSettings { detail })
+    ParticleLayer::new(
+        case.places.iter().enumerate().map(fire).map(Emitter::Fire).collect(),
+        &view,
+        &ParticleSettings { detail },
+    )
 }
 
 /// Appends the table.

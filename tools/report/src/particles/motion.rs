@@ -34,11 +34,11 @@ fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
-        ParticleLayer::new([flakes(&of, time, Vec3::ZERO)], &view, &Quality::EXACT.particles)
+        ParticleLayer::new(vec![flakes(&of, time, Vec3::ZERO).into()], &view, &Quality::EXACT.particles)
     } else {
         let fire = fires(time)[0];
         let fire = Fire { place: Vec3::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
-        ParticleLayer::new([fire], &view, &Quality::EXACT.particles)
+        ParticleLayer::new(vec![fire.into()], &view, &Quality::EXACT.particles)
     }
 }
 
