@@ -5,7 +5,6 @@
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
 use crate::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels};
-use crate::frame::cache::lock;
 use crate::frame::encode::Transfer;
 use crate::frame::{Cache, FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile, Workers};
 use crate::simd::block::{BLOCK, load, store};
@@ -70,7 +69,7 @@ fn shape(spec: &FrameSpec, seed: u32) -> Arc<Voxels> {
         return set::shape(seed as usize);
     }
     let shapes = spec.cache.get::<Shapes>();
-    let mut shapes = lock(&shapes);
+    let mut shapes = shapes.lock();
     if let Some((_, voxels)) = shapes.0.iter().find(|shape| shape.0 == [kind, seed]) {
         return voxels.clone();
     }

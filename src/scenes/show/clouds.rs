@@ -6,7 +6,6 @@
 use super::valley::{self, LATITUDE, LONGITUDE};
 use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
 use crate::cuts;
-use crate::frame::cache::lock;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
 use crate::timeline;
@@ -203,7 +202,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let dome = valley::sky(spec, valley::date(spec, &DATE) + (hour - 1.0) / 24.0);
     let now = dome.lighting();
     let field = if cuts::PARAMETERS { altered(spec) } else { FIELD };
-    let shapes = lock(&spec.cache.get::<Shapes>()).lit(spec, now.direction, field.extinction);
+    let shapes = spec.cache.get::<Shapes>().lock().lit(spec, now.direction, field.extinction);
     let clouds =
         if cuts::PARAMETERS { blown(spec, &field, eye, &shapes) } else { field.around(eye, spec.time as f32, &shapes) };
     let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
