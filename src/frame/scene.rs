@@ -42,7 +42,8 @@ impl Scene {
 pub struct Parameter {
     /// Name on the command line.
     pub name: &'static str,
-    /// Unit of its values: `m`, `m/s`, `s`, `degrees`, `1` for a plain number, `count` for a whole one: others are rounded.
+    /// Unit of its values: `m`, `m/s`, `s`, `degrees`, `1` for a plain number, `count` for a whole one: others are
+    /// rounded.
     pub unit: &'static str,
     /// The least and the largest value.
     pub range: (f64, f64),

@@ -1,8 +1,8 @@
 //! Sets and models as byte code: a number in a table takes fewer bytes in the 64 kB build than one in code.
 //!
 //! A script is a row of instructions for a stack machine. A number is pushed, an operation takes its operands from the
-//! stack. Arithmetic, loops and variables are carried out here by [`Script::next`]; any other operation is returned to the
-//! caller, which reads its operands from [`Script::stack`] and leaves the stack empty. Beside the stack there are
+//! stack. Arithmetic, loops and variables are carried out here by [`Script::next`]; any other operation is returned to
+//! the caller, which reads its operands from [`Script::stack`] and leaves the stack empty. Beside the stack there are
 //! [`VARIABLES`] registers that keep their values from operation to operation.
 //!
 //! [`script!`] compiles a readable form into the bytes, at compile time:
@@ -69,7 +69,7 @@ macro_rules! operations {
     ($($(#[$about:meta])* $name:ident = $byte:expr;)+) => {
         /// The operations of scripts.
         #[allow(non_upper_case_globals)]
-        pub mod op {
+        pub(crate) mod op {
             $($(#[$about])* pub const $name: u8 = $byte;)+
         }
     };
@@ -89,16 +89,26 @@ operations! {
     abs = 36;
     /// `pick(rows..., index, width)`: of rows of `width` numbers leaves the one at `index`, modulo their count.
     pick = 37;
-    /// `repeat(count) { ... }`: runs the block so often; [`COUNT`] is the number of the run, from 0. Blocks do not nest.
+    /// `repeat(count) { ... }`: runs the block so often; [`COUNT`] is the number of the run, from 0. Blocks do not
+    /// nest.
     repeat = 38;
     /// The end of that block. Operations from 40 on belong to the machines of scenes and models.
     again = 39;
 }
+// Those of expressions as instructions.
+pub const ADD: Word = instruction(op::add);
+pub const MUL: Word = instruction(op::mul);
+pub const SIN: Word = instruction(op::sin);
+pub const COS: Word = instruction(op::cos);
+pub const ABS: Word = instruction(op::abs);
+
 /// The variable that counts the runs of a block.
 pub const COUNT: Word = variable(3);
 
-/// Compiles statements to a `&'static [u8]`, see the module. A statement is `operation(operands);` with an operation of the
-/// caller's module `op`, `push(operands);`, `VARIABLE = (expression);`, `..array_of_words;` or `repeat(count) { ... }`.
+/// Compiles statements to a `&'static [u8]`; see the module.
+///
+/// A statement is `operation(operands);` with an operation of the caller's module `op`, `push(operands);`,
+/// `VARIABLE = (expression);`, `..array_of_words;` or `repeat(count) { ... }`.
 macro_rules! script {
     (@bytes [$($part:expr,)*]) => {{
         const SCRIPT_PARTS: &[&[$crate::scenes::script::Word]] = &[$($part),*];
@@ -181,43 +191,46 @@ macro_rules! words {
         $crate::scenes::script::words!(@operand $words [] [] $($inner)+ => [] $mul $add $($rest)*)
     };
     (@operand $words:tt $mul:tt $add:tt sin($($inner:tt)+) $($rest:tt)*) => {
-        $crate::scenes::script::words!(@operand $words [] [] $($inner)+ => [sin] $mul $add $($rest)*)
+        $crate::scenes::script::words!(
+            @operand $words [] [] $($inner)+ => [$crate::scenes::script::SIN,] $mul $add $($rest)*)
     };
     (@operand $words:tt $mul:tt $add:tt cos($($inner:tt)+) $($rest:tt)*) => {
-        $crate::scenes::script::words!(@operand $words [] [] $($inner)+ => [cos] $mul $add $($rest)*)
+        $crate::scenes::script::words!(
+            @operand $words [] [] $($inner)+ => [$crate::scenes::script::COS,] $mul $add $($rest)*)
     };
     (@operand $words:tt $mul:tt $add:tt abs($($inner:tt)+) $($rest:tt)*) => {
-        $crate::scenes::script::words!(@operand $words [] [] $($inner)+ => [abs] $mul $add $($rest)*)
+        $crate::scenes::script::words!(
+            @operand $words [] [] $($inner)+ => [$crate::scenes::script::ABS,] $mul $add $($rest)*)
     };
     (@operand [$($words:tt)*] $mul:tt $add:tt $number:literal $($rest:tt)*) => {
         $crate::scenes::script::words!(@operator [$($words)* $number,] $mul $add $($rest)*)
     };
-    (@operand [$($words:tt)*] $mul:tt $add:tt $variable:ident $($rest:tt)*) => {
-        $crate::scenes::script::words!(@operator [$($words)* $variable as $crate::scenes::script::Word,] $mul $add $($rest)*)
+    (@operand [$($words:tt)*] $mul:tt $add:tt $name:ident $($rest:tt)*) => {
+        $crate::scenes::script::words!(
+            @operator [$($words)* $name as $crate::scenes::script::Word,] $mul $add $($rest)*)
     };
     // What follows an operand.
-    (@operator [$($words:tt)*] [$($mul:ident)?] $add:tt * $($rest:tt)+) => {
-        $crate::scenes::script::words!(@operand [$($words)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)?] [mul] $add $($rest)+)
-    };
-    (@operator [$($words:tt)*] [$($mul:ident)?] [$($add:ident)?] + $($rest:tt)+) => {
-        $crate::scenes::script::words!(@operand [$($words)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)?] [] [add] $($rest)+)
-    };
-    (@operator [$($words:tt)*] [$($mul:ident)?] [$($add:ident)?], $($rest:tt)+) => {
-        $crate::scenes::script::words!(@operand [$($words)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)?] [] [] $($rest)+)
-    };
-    (@operator [$($words:tt)*] [$($mul:ident)?] [$($add:ident)?]
-        => [$($function:ident)?] $outer_mul:tt $outer_add:tt $($rest:tt)*) => {
+    (@operator [$($words:tt)*] [$($mul:tt)*] $add:tt * $($rest:tt)+) => {
         $crate::scenes::script::words!(
-            @operator [$($words)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$function),)?] $outer_mul $outer_add $($rest)*)
+            @operand [$($words)* $($mul)*] [$crate::scenes::script::MUL,] $add $($rest)+)
     };
-    (@operator [$($word:expr,)*] [$($mul:ident)?] [$($add:ident)?]) => {
-        [$($word,)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)?]
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*] + $($rest:tt)+) => {
+        $crate::scenes::script::words!(
+            @operand [$($words)* $($mul)* $($add)*] [] [$crate::scenes::script::ADD,] $($rest)+)
     };
-    (@operator [$($word:expr,)*] [$($mul:ident)?] [$($add:ident)?]; = $variable:ident) => {
-        [$($word,)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)? $crate::scenes::script::assign($variable)]
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*], $($rest:tt)+) => {
+        $crate::scenes::script::words!(@operand [$($words)* $($mul)* $($add)*] [] [] $($rest)+)
     };
-    (@operator [$($word:expr,)*] [$($mul:ident)?] [$($add:ident)?]; $operation:path) => {
-        [$($word,)* $($crate::scenes::script::instruction($crate::scenes::script::op::$mul),)? $($crate::scenes::script::instruction($crate::scenes::script::op::$add),)? $crate::scenes::script::instruction($operation)]
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*] => [$($function:tt)*] $outer:tt $sum:tt $($rest:tt)*) => {
+        $crate::scenes::script::words!(@operator [$($words)* $($mul)* $($add)* $($function)*] $outer $sum $($rest)*)
+    };
+    // The end.
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*]) => { [$($words)* $($mul)* $($add)*] };
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*]; = $variable:ident) => {
+        [$($words)* $($mul)* $($add)* $crate::scenes::script::assign($variable)]
+    };
+    (@operator [$($words:tt)*] [$($mul:tt)*] [$($add:tt)*]; $operation:path) => {
+        [$($words)* $($mul)* $($add)* $crate::scenes::script::instruction($operation)]
     };
     ($($expressions:tt)+) => { $crate::scenes::script::words!(@operand [] [] [] $($expressions)+) };
 }
@@ -295,7 +308,8 @@ impl Script {
         loop {
             let word = self.bytes[self.at];
             self.at += 1;
-            // The last two numbers, and the place for the result: that of the first operand, unless an arm says otherwise.
+            // The last two numbers, and the place for the result: that of the first operand, unless an arm says
+            // otherwise.
             let mut at = top - 2;
             let [a, b] = [at, at + 1].map(|i| self.numbers[i as usize]);
             let number = match word {
@@ -379,13 +393,13 @@ pub mod kind {
     pub const VEINS: u8 = 5;
     /// Rings around y. The last year's wood is as dark as the next one's.
     pub const WOOD: u8 = 6;
-    /// Layers of four colours one above the other. Beside the numbers that other kinds have, this one takes the scale of the
-    /// noise, the third and the fourth colour, and the height of a layer's middle, hundreds of metres.
+    /// Layers of four colours one above the other. Beside the numbers that other kinds have, this one takes the scale
+    /// of the noise, the third and the fourth colour, and the height of a layer's middle, hundreds of metres.
     pub const LAYERS: u8 = 7;
 }
 
-/// The operands of a scene's `texture`, for most kinds: two linear colours; `scale`, pattern units per metre; and `warp`, how
-/// far noise bends the pattern, or for noise itself the number of octaves.
+/// The operands of a scene's `texture`, for most kinds: two linear colours; `scale`, pattern units per metre; and
+/// `warp`, how far noise bends the pattern, or for noise itself the number of octaves.
 pub const fn pattern(kind: u8, [r, g, b]: [Word; 3], [x, y, z]: [Word; 3], scale: Word, warp: Word) -> [Word; 9] {
     [r, g, b, x, y, z, scale, warp, kind as Word]
 }

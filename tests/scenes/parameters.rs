@@ -1,5 +1,5 @@
-//! The parameters of all scenes: tables that make sense, defaults that change nothing, others that do, and ends of ranges that
-//! still give a picture.
+//! The parameters of all scenes: tables that make sense, defaults that change nothing, others that do, and ends of
+//! ranges that still give a picture.
 
 use paprsek::frame::{Frame, Options, Parameter, Renderer, Scene};
 use paprsek::scenes;
@@ -80,8 +80,8 @@ fn each_parameter_changes_the_picture() {
     }
 }
 
-/// What is not a number becomes black. None of the scenes is all black by default, and at the end of a range no more pixels may
-/// be than the parameter explains: bodies, particles or light that are gone leave a sky.
+/// What is not a number becomes black. None of the scenes is all black by default, and at the end of a range no more
+/// pixels may be than the parameter explains: bodies, particles or light that are gone leave a sky.
 #[test]
 fn ends_of_ranges_give_a_picture() {
     /// Without its lights and in the dark a scene may be black, but not all of it.

@@ -1,5 +1,5 @@
-//! The voxels and clouds of the bench scenes `cumulus`, `cumulus-inside` and `sky-of-clouds`, as specified for every renderer that
-//! is compared.
+//! The voxels and clouds of the bench scenes `cumulus`, `cumulus-inside` and `sky-of-clouds`, as specified for every
+//! renderer that is compared.
 
 use crate::cloud::{Cloud, CloudKind, Voxels};
 use crate::simd::hash::rnd;

@@ -83,8 +83,8 @@ pub const FLAME: Flame = Flame {
     light: [vec3(1.0 * 0.008, 0.62 * 0.008, 0.20 * 0.008), vec3(0.80 * 0.008, 0.10 * 0.008, 0.02 * 0.008)],
 };
 
-/// Flakes of a field at `time` seconds, in the wind that is specified, around an eye that walks as specified but is moved by
-/// `beside` metres.
+/// Flakes of a field at `time` seconds, in the wind that is specified, around an eye that walks as specified but is
+/// moved by `beside` metres.
 pub fn flakes(flakes: &Flakes, time: f64, beside: Vec3) -> Snow {
     blown(flakes, time, beside, [EAST.default, SOUTH.default], 1.0)
 }

@@ -1,7 +1,7 @@
 //! The scene `rain`: a shower over the valley in autumn.
 //!
-//! Thesis C leaves rain open, since its drops are sprites that lie down where one looks up. Here drops are the flakes' own code:
-//! what they cover while the shutter is open is drawn as a streak, which is right in every direction of view.
+//! Thesis C leaves rain open, since its drops are sprites that lie down where one looks up. Here drops are the flakes'
+//! own code: what they cover while the shutter is open is drawn as a streak, which is right in every direction of view.
 
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::particles::{Flakes, Lens, ParticleLayer, Snow};

@@ -1,7 +1,7 @@
 //! The set of the bench scenes `shadow` and `shadow-cube`, as specified for every renderer that is compared.
 //!
-//! 9984 triangles: a smooth field of snow from noise, 64 boxes and 64 pines at random places; and how the eye and the two
-//! lights move.
+//! 9984 triangles: a smooth field of snow from noise, 64 boxes and 64 pines at random places; and how the eye and the
+//! two lights move.
 
 use crate::noise::{fbm, noise};
 use crate::raster::form::Rings;
@@ -38,8 +38,8 @@ pub fn torch(time: f64) -> DVec3 {
     torch_at(0.5 * time, 5.0, 2.6)
 }
 
-/// Where a torch is by its azimuth, radians from east towards south, its distance from the middle, and its height above the
-/// ground, metres.
+/// Where a torch is by its azimuth, radians from east towards south, its distance from the middle, and its height above
+/// the ground, metres.
 pub fn torch_at(azimuth: f64, radius: f64, above: f64) -> DVec3 {
     let (sin, cos) = azimuth.sin_cos();
     let (x, z) = (radius * cos, radius * sin);
@@ -101,7 +101,8 @@ fn turn(i: u32) -> Mat3 {
     Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
 }
 
-/// Adds box `i`. Its sides are halved along the diagonals that the specification says, which [`Mesh::block`] does not do.
+/// Adds box `i`. Its sides are halved along the diagonals that the specification says, which [`Mesh::block`] does not
+/// do.
 fn add_box(mesh: &mut Mesh, i: u32) {
     let half = vec3(0.3 + 0.6 * random(i, 2), 0.3 + 1.1 * random(i, 3), 0.3 + 0.6 * random(i, 4));
     let middle = place(i) + Vec3::Y * (half.y - 0.2);

@@ -174,7 +174,8 @@ impl Layer for Cycle {
     }
 }
 
-/// The point and the strength of every star that the sphere of 120 cells meets. They do not depend on time and are made once.
+/// The point and the strength of every star that the sphere of 120 cells meets. They do not depend on time and are made
+/// once.
 fn catalogue() -> &'static [(Vec3, f32)] {
     static STARS: OnceLock<Vec<(Vec3, f32)>> = OnceLock::new();
     STARS.get_or_init(|| {

@@ -1,7 +1,7 @@
 //! Light that varies slowly, evaluated at the corners of square cells of pixels and interpolated between.
 //!
-//! The bench sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring tiles
-//! evaluate the same ones and no seam shows.
+//! The bench sky's counterpart of the tracer's corner grid. Corners lie on whole pixels of the picture, so neighbouring
+//! tiles evaluate the same ones and no seam shows.
 
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, Block3, load, store};
@@ -15,23 +15,23 @@ pub trait Field: Sync {
     /// Linear light from unit directions. To be `#[inline(always)]`, as every leaf of a kernel.
     fn light<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S>;
 
-    /// Has it an edge on the horizon? Cells on it are evaluated at each pixel then.
+    /// Whether the light has an edge on the horizon. If so, every pixel of a cell on the horizon is evaluated.
     const HORIZON: bool;
 }
 
-/// How a field is drawn.
+/// How densely a field is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Cells {
     /// Edge of a cell, pixels: a power of two from 8 to 64, or 1 for every pixel.
     pub size: usize,
-    /// Samples of a pixel along each axis, where every pixel is evaluated.
+    /// Samples per pixel along each axis, where every pixel is evaluated.
     pub grid: usize,
 }
 
-/// Most corners of a tile, in blocks.
+/// The most corners of a tile, in blocks.
 const CORNERS: usize = 2;
 
-/// Fills a tile.
+/// Fills a tile with the light of a field.
 #[simd]
 pub fn fill<S: Simd, G: Field>(simd: S, field: &G, view: &View, cells: Cells, tile: &mut Tile) {
     let (left, top) = (tile.x as u32 as f32, tile.y as u32 as f32);
@@ -55,7 +55,8 @@ pub fn fill<S: Simd, G: Field>(simd: S, field: &G, view: &View, cells: Cells, ti
     for y in 0..tile.height {
         let within = y % size;
         if size > 1 && within == 0 {
-            // Which side of the horizon a ray is on is linear over the picture: corners of the band tell.
+            // How far a ray points above the horizon is linear over the picture, so the corners of the band tell
+            // whether the horizon crosses it.
             let at = top + y as u32 as f32;
             let (mut low, mut high) = (f32::MAX, f32::MIN);
             for (x, y) in [(0.0, 0.0), (64.0, 0.0), (0.0, size as u32 as f32), (64.0, size as u32 as f32)] {

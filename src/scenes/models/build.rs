@@ -10,15 +10,15 @@ use glam::{Mat3, Vec3, vec3};
 operations! {
     /// The columns of a matrix that turns and scales the next bodies.
     turn = 40;
-    /// `rotate(y, x, out)`: instead, the next bodies are turned around x and then around y, and stand `out` units away along
-    /// their own z axis.
+    /// `rotate(y, x, out)`: instead, the next bodies are turned around x and then around y, and stand `out` units away
+    /// along their own z axis.
     rotate = 41;
     /// The foot of the next bodies is on the ground where they stand.
     ground = 42;
     /// `random(number)`: [`CHANCE`] becomes that random number of the model, from 0 to 1.
     random = 43;
-    /// `body(x, y, z, a, b, c, index)`: a body in the paint [`PAINT`], at a place in units, scaled along its axes by tenths of
-    /// a unit.
+    /// `body(x, y, z, a, b, c, index)`: a body in the paint [`PAINT`], at a place in units, scaled along its axes by
+    /// tenths of a unit.
     body = 44;
     /// The last operation.
     end = 45;
@@ -33,8 +33,8 @@ const CHANCE_AT: usize = 4;
 /// The stream of random numbers that models draw from.
 pub const STREAM: u32 = 5;
 
-/// Adds to a mesh what a script builds of `bodies` on a `foot`, metres. A unit of the script is `unit` metres; random numbers
-/// are those of `seed`.
+/// Adds to a mesh what a script builds of `bodies` on a `foot`, metres. A unit of the script is `unit` metres; random
+/// numbers are those of `seed`.
 #[inline(never)]
 pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: Vec3, unit: f32, seed: u32) {
     let (mut turn, mut out) = (Mat3::IDENTITY, Vec3::ZERO);

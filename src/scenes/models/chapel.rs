@@ -1,7 +1,8 @@
 //! The chapel on the hill, half a ruin: an open arcade, rafters without tiles, a bell tower, broken walls.
 //!
-//! Some 60 boxes, a gable, a spire and four pillars, all flat-shaded: its walls stand around the origin, the altar to the
-//! north, the door to the south. Noise moves the corners by some centimetres, so that no edge looks drawn with a ruler.
+//! Some 60 boxes, a gable, a spire and four pillars, all flat-shaded: its walls stand around the origin, the altar to
+//! the north, the door to the south. Noise moves the corners by some centimetres, so that no edge looks drawn with a
+//! ruler.
 
 use super::build::{PAINT, build, op};
 use super::paint::{BARK, PAINTS, ROOF, STONE};

@@ -1,7 +1,7 @@
 //! The land: a hill with a chapel in a valley with a lake, woods, and mountains all around.
 //!
-//! A height field of noise ([`height`]), sampled on rings around the middle. Rings and their points are the farther apart the
-//! farther out they are, as only the middle is seen from close by.
+//! A height field of noise ([`height`]), sampled on rings around the middle. Rings and their points are the farther
+//! apart the farther out they are, as only the middle is seen from close by.
 
 use super::paint::{self, PAINTS};
 use crate::noise::octaves;
@@ -59,9 +59,9 @@ pub const SECTORS: usize = 16;
 
 /// The ground in patches: smooth, about 24,000 triangles.
 ///
-/// The radius of ring i is `(i / 4)^3` metres, so the strips between rings grow from 1 m to 250 m. Inner rings have fewer
-/// points: all have 256, but several of them lie in one place, and the triangles between those vanish. So there are no gaps
-/// where the number of points changes.
+/// The radius of ring i is `(i / 4)^3` metres, so the strips between rings grow from 1 m to 250 m. Inner rings have
+/// fewer points: all have 256, but several of them lie in one place, and the triangles between those vanish. So there
+/// are no gaps where the number of points changes.
 pub fn ground() -> Vec<Mesh> {
     let mut patches = Vec::new();
     for (from, to) in [(0, DETAILED), (DETAILED, 58), (58, RINGS)] {

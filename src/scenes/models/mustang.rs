@@ -1,8 +1,8 @@
 //! An aeroplane, the North American P-51D Mustang of thesis B: 9.8 m long and 11.3 m wide, its nose along -z.
 //!
-//! Its right half is eight kinds of lofted bodies, each a row of cross sections between two ends: fuselage, canopy, radiator
-//! scoop, wing, stabiliser, fin, and boxes for exhausts and guns. The left half is the mirror image, and normals are
-//! averaged over faces, so that the skin is smooth. The propeller is a mesh of its own, since it turns.
+//! Its right half is eight kinds of lofted bodies, each a row of cross sections between two ends: fuselage, canopy,
+//! radiator scoop, wing, stabiliser, fin, and boxes for exhausts and guns. The left half is the mirror image, and
+//! normals are averaged over faces, so that the skin is smooth. The propeller is a mesh of its own, since it turns.
 
 use super::build::{build, op};
 use crate::raster::form::{Rings, SQUARE};
@@ -99,7 +99,8 @@ const SCOOP: Rings = Rings {
     taper: 0.0,
 };
 
-/// The right wing from root to tip: units of 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm in thickness.
+/// The right wing from root to tip: units of 5 cm along, 1.25 cm from the leading to the trailing edge, 4 mm in
+/// thickness.
 const WING: Rings = Rings {
     rows: &[
         [6, 11, 0, 0, 0],
@@ -195,8 +196,8 @@ const RUDDER: Word = 5.0;
 const BOX: Word = 6.0;
 const PROPELLER: Word = 7.0;
 
-/// The right half of the airframe, decimetres. A body's axes are its rows, its thickness and its width; each matrix turns
-/// them into right, up and back.
+/// The right half of the airframe, decimetres. A body's axes are its rows, its thickness and its width; each matrix
+/// turns them into right, up and back.
 const PARTS: &[u8] = script! {
     // Along -z.
     turn(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
@@ -219,7 +220,8 @@ const PARTS: &[u8] = script! {
     end();
 };
 
-/// The aeroplane without its propeller: about 2,000 triangles, smooth. The origin is the centre of mass, on the thrust line.
+/// The aeroplane without its propeller: about 2,000 triangles, smooth. The origin is the centre of mass, on the thrust
+/// line.
 pub fn airframe() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
     build(&mut mesh, &mut Script::new(PARTS, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);

@@ -1,8 +1,8 @@
 //! Firs and broadleaves, and where they stand.
 //!
-//! A fir is one body of rings whose skirts overlap; a broadleaf is a stem and four balls of leaves at random angles. Far
-//! away each is a single body of some twenty triangles. Noise moves the points, so that no two trees are alike. They stand
-//! where a hash and the noise of [`wooded`] say, more densely near the middle of the valley.
+//! A fir is one body of rings whose skirts overlap; a broadleaf is a stem and four balls of leaves at random angles.
+//! Far away each is a single body of some twenty triangles. Noise moves the points, so that no two trees are alike.
+//! They stand where a hash and the noise of [`wooded`] say, more densely near the middle of the valley.
 
 use super::build::{CHANCE, STREAM, build, op};
 use super::land::{self, height, wooded};
@@ -114,7 +114,8 @@ static KINDS: [&[u8]; 4] = [
 /// A third of a turn, radians.
 const THIRD: Word = 2.095;
 
-/// The next body is turned by an angle and by random number `number`, and stands `out` radii of a crown away from the stem.
+/// The next body is turned by an angle and by random number `number`, and stands `out` radii of a crown away from the
+/// stem.
 const fn part(number: Word, angle: Word, out: Word) -> [Word; 10] {
     fragment! {
         random(number);

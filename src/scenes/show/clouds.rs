@@ -1,7 +1,7 @@
 //! The scene `clouds`, a part of the show: by aeroplane through a morning's clouds, from dawn to noon.
 //!
-//! The subject of thesis B: an aeroplane in a field of cumulus clouds, which the wind carries and the sun lights anew as it
-//! rises. Clouds shade each other and the land.
+//! The subject of thesis B: an aeroplane in a field of cumulus clouds, which the wind carries and the sun lights anew
+//! as it rises. Clouds shade each other and the land.
 
 use super::valley::{self, LATITUDE, LONGITUDE};
 use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
@@ -173,8 +173,8 @@ fn altered(spec: &FrameSpec) -> CloudField {
     }
 }
 
-/// The clouds of a field around the eye, carried by the wind that the parameters say: what it differs by from the field's own
-/// moves both the clouds and the eye that they are looked for around.
+/// The clouds of a field around the eye, carried by the wind that the parameters say: what it differs by from the
+/// field's own moves both the clouds and the eye that they are looked for around.
 fn blown(spec: &FrameSpec, field: &CloudField, eye: Vec3, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
     let time = spec.time as f32;
     let [east, south] = [&EAST, &SOUTH].map(|wind| (spec.get(wind) - wind.default) as f32);

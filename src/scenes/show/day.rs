@@ -1,7 +1,7 @@
 //! The scene `day`, two parts of the show: days on a hill by a lake from dawn to the stars, one of each season.
 //!
-//! The subject of thesis E, modelling the sun's cycle: a clock runs sixty times and more faster than life, and sun, moon,
-//! stars, light and shadows follow from it. The camera's keys are hours of the day.
+//! The subject of thesis E, modelling the sun's cycle: a clock runs sixty times and more faster than life, and sun,
+//! moon, stars, light and shadows follow from it. The camera's keys are hours of the day.
 
 use super::valley;
 use super::valley::{HOUR, LATITUDE, LONGITUDE};
@@ -70,7 +70,8 @@ const COURSE: &[u8] = script! {
     end();
 };
 
-/// A key of the camera: the hour; eye and target, metres; the vertical field of view, degrees. Tens of each fit a script.
+/// A key of the camera: the hour; eye and target, metres; the vertical field of view, degrees. Tens of each fit a
+/// script.
 const fn key(hour: Word, eye: [Word; 3], target: [Word; 3], fov: Word) -> [Word; 8] {
     let [x, y, z, tx, ty, tz, fov] = view(eye, target, fov);
     [hour / 10.0, x, y, z, tx, ty, tz, fov]

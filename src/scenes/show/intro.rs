@@ -1,5 +1,5 @@
-//! The show: parts one after another, each a scene of its own, with a fade through black between them, and writing made of
-//! sparks over the first and the last.
+//! The show: parts one after another, each a scene of its own, with a fade through black between them, and writing made
+//! of sparks over the first and the last.
 
 use super::{clouds, day, letters, lumen, snowfall, torches};
 use crate::effects::Fade;
@@ -55,8 +55,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     picture
 }
 
-/// The writing: each line of text with the second of the show at which it begins to come together, where it starts and how
-/// large it is.
+/// The writing: each line of text with the second of the show at which it begins to come together, where it starts and
+/// how large it is.
 pub const WRITING: &[([f32; 4], &str)] = &[
     line(1.0, [-12.0, -1.6], 1.2, "PAPRSEK"),
     line(144.5, [6.0, 5.0], 0.45, "FIVE THESES"),
@@ -64,8 +64,8 @@ pub const WRITING: &[([f32; 4], &str)] = &[
     line(146.5, [6.0, -3.0], 0.45, "64 KB"),
 ];
 
-/// A line of text from second `start` on. The left end of its foot and a quarter of its height are in sixteenths of a metre,
-/// on a plane two metres before the eye.
+/// A line of text from second `start` on. The left end of its foot and a quarter of its height are in sixteenths of a
+/// metre, on a plane two metres before the eye.
 const fn line(start: f32, [x, y]: [f32; 2], size: f32, text: &'static str) -> ([f32; 4], &'static str) {
     ([start, x, y, size], text)
 }
@@ -103,8 +103,8 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
     }
 }
 
-/// The share of light at `time` seconds in a show of these parts: 0 at cuts and from the `end` on, 1 away from them. The show
-/// itself starts without a fade, since its first frame should show something.
+/// The share of light at `time` seconds in a show of these parts: 0 at cuts and from the `end` on, 1 away from them.
+/// The show itself starts without a fade, since its first frame should show something.
 pub fn brightness<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
     let cuts = parts[1..].iter().map(|&(start, _)| ease(0.0, FADE, (time - start).abs()));
     let light = cuts.fold(ease(0.0, FADE, end - time), f32::min);

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-/// A line per letter or digit: its name, then the points that a stroke joins, with a blank where the pen is lifted. Points are
-/// small letters, three in a row, from `a` to `c` at the foot up to `m` to `o` at the top.
+/// A line per letter or digit: its name, then the points that a stroke joins, with a blank where the pen is lifted.
+/// Points are small letters, three in a row, from `a` to `c` at the foot up to `m` to `o` at the top.
 const GLYPHS: &str = "\
 4mgi oc
 6omacig
@@ -24,8 +24,8 @@ Tbn mo
 Vmbo
 Wmaeco";
 
-/// The strokes of a text, each from one point to another. The foot of the first letter is at `corner`; `right` is half of a
-/// letter's width, `up` a quarter of its height.
+/// The strokes of a text, each from one point to another. The foot of the first letter is at `corner`; `right` is half
+/// of a letter's width, `up` a quarter of its height.
 pub fn write(text: &str, mut corner: Vec3, right: Vec3, up: Vec3) -> Vec<[Vec3; 2]> {
     let mut lines = Vec::new();
     for letter in text.bytes() {

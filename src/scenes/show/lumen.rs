@@ -1,13 +1,12 @@
 //! The scene `lumen`, first and last part of the show: a ray of light finds a ball of glass, and they see a day out.
 //!
-//! Ray traced as in thesis A: spheres, boxes, cylinders and planes with noise textures, mirrors and glass. Five shots, each
-//! with its own set, its own light and one camera move, and each written as a [script](crate::scenes::script).
+//! Ray traced as in thesis A: spheres, boxes, cylinders and planes with noise textures, mirrors and glass. Five shots,
+//! each with its own set, its own light and one camera move, and each written as a script (`script.rs`).
 
 use crate::cuts;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::scenes::script::kind::{self, CLOUDS, VEINS, WOOD};
-use crate::scenes::script::op::{cos, sin};
 use crate::scenes::script::{
     COUNT, Script, VARIABLES, Word, assign, assign_all, fragment, instruction, operations, pattern, script, texture,
     variable, words,
@@ -76,14 +75,16 @@ operations! {
     block = 48;
     /// `column(height, radius)`: an upright cylinder whose foot is on the place, metres.
     column = 49;
-    /// `plane(up, offset)`: a level plane that faces up for 1 and down for -1, at that distance from the origin, metres.
+    /// `plane(up, offset)`: a level plane that faces up for 1 and down for -1, at that distance from the origin,
+    /// metres.
     plane = 50;
-    /// `sun(r, g, b, radius)`: light from the direction of the place. The radius is the sine of the disc's angular radius.
+    /// `sun(r, g, b, radius)`: light from the direction of the place. The radius is the sine of the disc's angular
+    /// radius.
     sun = 51;
     /// `lamp(r, g, b, radius)`: light from a ball at the place, metres.
     lamp = 52;
-    /// `world(...)`, the last operation: the ambient light; the sky's colours at the horizon, at the zenith, and of a glow
-    /// towards the place; a tenth of the glow's exponent; the greatest number of rays in a path.
+    /// `world(...)`, the last operation: the ambient light; the sky's colours at the horizon, at the zenith, and of a
+    /// glow towards the place; a tenth of the glow's exponent; the greatest number of rays in a path.
     world = 53;
 }
 
@@ -222,8 +223,8 @@ const fn key(time: Word, [x, y, z]: [Word; 3], [tx, ty, tz]: [Word; 3], fov: Wor
     [time, x, y, z, tx, ty, tz, fov / 10.0, number]
 }
 
-/// A surface: the share of light that it mirrors, in all colours; the weight and the exponent of its highlight; what Fresnel
-/// adds to the mirror at grazing angles; and whether bodies of it cast shadows.
+/// A surface: the share of light that it mirrors, in all colours; the weight and the exponent of its highlight; what
+/// Fresnel adds to the mirror at grazing angles; and whether bodies of it cast shadows.
 const fn surface(mirror: Word, specular: Word, exponent: Word, fresnel: Word, shadow: bool) -> [Word; 8] {
     let shadow = if shadow { 1.0 } else { 0.0 };
     [mirror, mirror, mirror, specular, exponent / 10.0, fresnel, shadow, instruction(op::surface)]
@@ -271,14 +272,14 @@ const VEINED: [Word; 25] = fragment! {
 };
 
 /// The angle on the stack leaves its cosine in COS and its sine in SIN.
-const ANGLE: [Word; 7] = [assign(SIN), SIN, instruction(cos), assign(COS), SIN, instruction(sin), assign(SIN)];
+const ANGLE: [Word; 7] = fragment! { ..[assign(SIN)]; COS = (cos(SIN)); SIN = (sin(SIN)); };
 // The next texture is turned by that angle around x, y or z.
 const PITCH: [Word; 12] = words!(1.0, 0.0, 0.0, 0.0, COS, SIN, 0.0, SIN * -1.0, COS; op::turn);
 const YAW: [Word; 12] = words!(COS, 0.0, SIN * -1.0, 0.0, 1.0, 0.0, SIN, 0.0, COS; op::turn);
 const ROLL: [Word; 12] = words!(COS, SIN, 0.0, SIN * -1.0, COS, 0.0, 0.0, 0.0, 1.0; op::turn);
 
-/// Dawn: two doors open, and the first ray falls across a dark hall. The keys' number is half of the gap between the doors,
-/// metres.
+/// Dawn: two doors open, and the first ray falls across a dark hall. The keys' number is half of the gap between the
+/// doors, metres.
 const DOOR: &[u8] = script! {
     ..key(0.0, [2.7, 0.8, 9.6], [0.3, 1.7, 0.0], 42.0, 0.08);
     ..key(5.25, [2.1, 0.9, 8.9], [0.3, 1.7, 0.0], 42.0, 0.5);
@@ -340,8 +341,8 @@ const TABLE: &[u8] = script! {
     world(0.13, 0.16, 0.19, 0.2, 0.36, 0.4, 0.02, 0.06, 0.12, 0.5, 0.4, 0.2, 0.8, 5.0);
 };
 
-/// A ball on the table that rolls along x, from `start` at `speed`, metres per second; leaves on the stack the angle by which
-/// it has turned. `curvature` is 1 over the radius.
+/// A ball on the table that rolls along x, from `start` at `speed`, metres per second; leaves on the stack the angle by
+/// which it has turned. `curvature` is 1 over the radius.
 const fn rolling(radius: Word, z: Word, start: Word, speed: Word, curvature: Word) -> [Word; 13] {
     fragment! {
         ROLLED = (speed * TIME + start);
@@ -393,8 +394,10 @@ const DANCE: &[u8] = script! {
     // The floor turns: discs of marble, of wood and of squares, one on the other.
     push(0.12 * TIME); ..ANGLE; at(0.0, 0.0, 0.0);
     ..YAW; ..marble([0.03, 0.05, 0.06], [0.2, 0.26, 0.28], 7.0); texture(); ..inlay(0.0, -0.44, 5.4);
-    ..YAW; ..pattern(kind::WOOD, [0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3); texture(); ..inlay(0.14, -0.42, 4.0);
-    ..YAW; ..pattern(kind::CHECKER, [0.06, 0.06, 0.07], [0.46, 0.42, 0.35], 1.4, 0.0); texture(); ..inlay(0.14, -0.4, 2.6);
+    ..YAW; ..pattern(kind::WOOD, [0.12, 0.045, 0.015], [0.4, 0.19, 0.075], 2.5, 0.3); texture();
+    ..inlay(0.14, -0.42, 4.0);
+    ..YAW; ..pattern(kind::CHECKER, [0.06, 0.06, 0.07], [0.46, 0.42, 0.35], 1.4, 0.0); texture();
+    ..inlay(0.14, -0.4, 2.6);
     glass(); at(0.0, sin(1.1 * TIME) * 0.12 + 1.5, 0.0); ball(0.9);
     // The moon.
     at(0.0, 0.0, 0.0); ..pattern(kind::CLOUDS, [0.1, 0.15, 0.25], [0.75, 0.85, 1.0], 0.25, 4.0); texture(); ..LUMINOUS;
@@ -437,8 +440,8 @@ const SUNSET: &[u8] = script! {
     // The sea.
     ..pattern(kind::CLOUDS, [0.0, 0.01, 0.03], [0.05, 0.1, 0.14], 0.4, 4.0); texture();
     ..surface(0.05, 0.0, 1.0, 1.0, false); at(0.0, -1.0, 0.0); column(1.0, 5.0 * 11.0);
-    // The clouds, a ceiling that drifts. They have no light but the ambient, so theirs is painted on. Towards the horizon
-    // they mirror the sky.
+    // The clouds, a ceiling that drifts. They have no light but the ambient, so theirs is painted on. Towards the
+    // horizon they mirror the sky.
     at(0.0, 0.0, 1.5 * TIME);
     push(0.6 * DAY, 0.18 * DAY, 0.15 * DAY, 11.0 * DAY + 0.6, 4.545 * DAY + 0.545, 0.8 * DAY + 0.7);
     texture(0.05, 4.0, CLOUDS); ..surface(0.0, 0.0, 1.0, 1.0, false); plane(-1.0, -25.0);

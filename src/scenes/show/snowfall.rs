@@ -1,7 +1,8 @@
-//! The scene `snowfall`, a part of the show: a walk to the chapel at the end of November. It begins to snow, and it gets dark.
+//! The scene `snowfall`, a part of the show: a walk to the chapel at the end of November. It begins to snow, and it
+//! gets dark.
 //!
-//! Two fields of flakes around the eye, as in thesis C, a near one of crystals and a far one of tufts; fog that thickens with
-//! the shower; and snow that settles on what the sky sees.
+//! Two fields of flakes around the eye, as in thesis C, a near one of crystals and a far one of tufts; fog that
+//! thickens with the shower; and snow that settles on what the sky sees.
 
 use super::valley;
 use crate::cuts;

@@ -1,8 +1,8 @@
-//! The scene `torches`, a part of the show: fires in the ruin on the hill, on a night in spring. A ring of them before the
-//! altar, bowls, torches on the walls, a beacon in the tower, and outside the moon over the lake.
+//! The scene `torches`, a part of the show: fires in the ruin on the hill, on a night in spring. A ring of them before
+//! the altar, bowls, torches on the walls, a beacon in the tower, and outside the moon over the lake.
 //!
-//! The subject of thesis D: particles that live and die by closed forms of time, and a flickering point light per fire, whose
-//! falloff is the thesis's. All lights are applied in one pass, each with a cube of depth maps.
+//! The subject of thesis D: particles that live and die by closed forms of time, and a flickering point light per fire,
+//! whose falloff is the thesis's. All lights are applied in one pass, each with a cube of depth maps.
 
 use super::valley::{self, HOUR, LATITUDE, LONGITUDE};
 use crate::cuts;
@@ -56,8 +56,8 @@ pub const LENGTH: f64 = 30.0;
 /// The time of the scene, days since J2000: 0:30 Central European Time. The moon, a day past full, stands in the south.
 pub const NIGHT: f64 = days(2027, 3, 24) + (0.5 - 1.0) * HOUR;
 
-/// A fire: where it is, metres; the inner and the outer radius of the ring that burns, metres; and its size. A torch has the
-/// size 1/2.
+/// A fire: where it is, metres; the inner and the outer radius of the ring that burns, metres; and its size. A torch
+/// has the size 1/2.
 const fn fire([x, y, z]: [f32; 3], [inner, outer]: [f32; 2], size: f32) -> [f32; 6] {
     [x, y, z, inner, outer, size]
 }
@@ -87,7 +87,8 @@ const BOWL: form::Rings = form::Rings {
     taper: 0.0,
 };
 
-/// A key of the camera: seconds since the start of the shot; eye and target, metres; the vertical field of view, degrees.
+/// A key of the camera: seconds since the start of the shot; eye and target, metres; the vertical field of view,
+/// degrees.
 const fn key(time: f32, [x, y, z]: [f32; 3], [tx, ty, tz]: [f32; 3], fov: f32) -> Key<8> {
     [time, x, y, z, tx, ty, tz, fov]
 }

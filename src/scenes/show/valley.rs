@@ -1,9 +1,9 @@
-//! The valley that half of the show plays in: the land and what stands on it through the seasons, under the sky of a time
-//! and a place.
+//! The valley that half of the show plays in: the land and what stands on it through the seasons, under the sky of a
+//! time and a place.
 //!
-//! What scenes share is here: the date and the textures of a [`season`], the [`sky`], the [`world`] of triangles lit by sun or moon, their
-//! shadow [`cascades`], the [`lamp`] in the chapel, and the picture of it all ([`show`]). Axes: x east, y up, z south, metres;
-//! the chapel is at the origin.
+//! What scenes share is here: the date and the textures of a [`season`], the [`sky`], the [`world`] of triangles lit by
+//! sun or moon, their shadow [`cascades`], the [`lamp`] in the chapel, and the picture of it all ([`show`]). Axes: x
+//! east, y up, z south, metres; the chapel is at the origin.
 
 use crate::cuts;
 use crate::frame::encode::Transfer;
@@ -122,8 +122,8 @@ const SEASONS: &[u8] = script! {
     end();
 };
 
-/// A row of the table: a season's date in days since J2000; what the colours of meadows and of leaves are multiplied by; the share of the land
-/// that is white.
+/// A row of the table: a season's date in days since J2000; what the colours of meadows and of leaves are multiplied
+/// by; the share of the land that is white.
 const fn row(date: f64, [r, g, b]: [Word; 3], [x, y, z]: [Word; 3], white: Word) -> [Word; 8] {
     [((date - SUMMER) / 20.0) as Word, r, g, b, x, y, z, white]
 }
@@ -138,8 +138,8 @@ const fn far(color: Word) -> [Word; 5] {
     words!(color * FAR_BARE + FAR_SNOW)
 }
 
-/// The bodies, made at the first call: the land, the woods, the lake, the chapel; last the aeroplane and its propeller, which
-/// [`world`] moves.
+/// The bodies, made at the first call: the land, the woods, the lake, the chapel; last the aeroplane and its propeller,
+/// which [`world`] moves.
 fn bodies() -> Vec<Body> {
     static BODIES: Mutex<Vec<Body>> = Mutex::new(Vec::new());
     let mut bodies = BODIES.lock().unwrap();
@@ -190,8 +190,8 @@ pub fn show(spec: &FrameSpec, dome: Dome, world: World, view: View, between: Opt
     Picture { layers, transfer: Transfer::Srgb }
 }
 
-/// The land under a sky, lit by sun or moon, without shadows. The aeroplane is turned by `turn` and stands at `place`; its
-/// propeller turns by `time`, seconds.
+/// The land under a sky, lit by sun or moon, without shadows. The aeroplane is turned by `turn` and stands at `place`;
+/// its propeller turns by `time`, seconds.
 #[inline(never)]
 pub fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
     let now = dome.lighting();
@@ -242,8 +242,8 @@ pub fn lamp(world: &mut World, dark: f32) {
     }
 }
 
-/// A lamp whose shadows are a cube of depth maps of `texels` along an edge, or traced. It reaches `reach` metres; bodies before
-/// number `from` cast no shadow of it.
+/// A lamp whose shadows are a cube of depth maps of `texels` along an edge, or traced. It reaches `reach` metres;
+/// bodies before number `from` cast no shadow of it.
 #[inline(never)]
 pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, from]: [u32; 2], traced: bool) -> Light {
     let bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
@@ -252,8 +252,8 @@ pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, fr
     Light::lamp(position, color, falloff, reach).with_shadow(shadow)
 }
 
-/// The shadows of the sun or the moon, which stands in direction `towards`, over what a camera sees: one depth map up to each of
-/// the distances `ends`, metres.
+/// The shadows of the sun or the moon, which stands in direction `towards`, over what a camera sees: one depth map up
+/// to each of the distances `ends`, metres.
 #[inline(never)]
 pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
