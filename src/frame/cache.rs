@@ -33,6 +33,8 @@ impl<T> Clone for Kept<T> {
 
 impl<T> Kept<T> {
     /// The value, for this thread alone.
+    // An `Arc` in one build, a reference already in the other.
+    #[cfg_attr(not(feature = "full"), allow(clippy::needless_borrow))]
     pub fn lock(&self) -> MutexGuard<'_, T> {
         lock(&self.0)
     }

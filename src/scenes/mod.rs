@@ -1,10 +1,10 @@
 //! The scenes, one file each: what is shown at an instant, from where, and by which renderers.
 //!
-//! A scene is a function from a [`FrameSpec`] to a [`Picture`], and a table of the [`Parameter`](crate::frame::Parameter)s that
-//! it can be changed by. Only scenes know more than one renderer.
+//! A scene is a function from a [`FrameSpec`](crate::frame::FrameSpec) to a [`Picture`](crate::frame::Picture), and a table
+//! of the [`Parameter`](crate::frame::Parameter)s that it can be changed by. Only scenes know more than one renderer.
 //!
 //! - [`show`] is what the intro plays: [`show::intro`], and the parts that it is made of.
-//! - [`bench`] are scenes that other renderers are compared by. Each follows a specification.
+//! - [`mod@bench`] are scenes that other renderers are compared by. Each follows a specification.
 //! - [`models`] are the meshes that scenes share.
 //! - `script` is the byte code that sets and models are written in.
 

@@ -8,7 +8,7 @@
 //! | [`mustang`] | a P-51D | cross sections along fuselage, wing and tail, mirrored |
 //!
 //! A body is a stack of rings ([`Rings`](crate::raster::form::Rings)); how bodies are put together is written as a
-//! [script](super::script), which `build` runs.
+//! script, which `build` runs.
 
 mod build;
 pub mod chapel;

@@ -1,7 +1,7 @@
 //! The scene `lumen`, first and last part of the show: a ray of light finds a ball of glass, and they see a day out.
 //!
 //! Ray traced as in thesis A: spheres, boxes, cylinders and planes with noise textures, mirrors and glass. Five shots, each
-//! with its own set, its own light and one camera move, and each written as a [script](crate::scenes::script).
+//! with its own set, its own light and one camera move, and each written as a script.
 
 use crate::cuts;
 use crate::frame::encode::Transfer;
@@ -56,7 +56,7 @@ pub const CUTS: &[(f64, &[u8])] = &[(0.0, DOOR), (11.0, TABLE), (21.0, MIDDLE[0]
 const MIDDLE: [&[u8]; 2] = if cuts::SCENES { [COLUMNS, DANCE] } else { [TABLE, TABLE] };
 
 operations! {
-    /// The camera's keys, of nine numbers each: see [`key`].
+    /// The camera's keys, of nine numbers each: see `key`.
     camera = 40;
     /// `at(x, y, z)`, metres: the origin of the next texture, the middle of the next bodies.
     at = 41;
@@ -64,7 +64,7 @@ operations! {
     away = 42;
     /// `turn(...)`, the columns of a matrix: how the next texture is turned, from the world's axes to the texture's.
     turn = 43;
-    /// The texture of the next bodies, with the operands of [`pattern`].
+    /// The texture of the next bodies, with the operands of `pattern`.
     texture = 44;
     /// The rest of the next bodies' material: see [`surface`].
     surface = 45;
@@ -143,7 +143,7 @@ struct Set {
     object: Object,
     at: Vec3,
     turn: Mat3,
-    /// The camera: a [`key`].
+    /// The camera: a `key`.
     key: [f32; 9],
 }
 
