@@ -143,7 +143,7 @@ struct Set {
     object: Object,
     at: Vec3,
     turn: Mat3,
-    /// The camera: a [`key`].
+    /// The camera: a `key`.
     key: [f32; 9],
 }
 
