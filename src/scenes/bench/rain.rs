@@ -63,15 +63,15 @@ fn picture(spec: &FrameSpec) -> Picture {
     let mut world = valley::world(&dome, valley::season(1).1, Mat3::IDENTITY, Vec3::new(0.0, -900.0, 0.0), t);
     let sky = dome.lighting().sky;
     world.lights.clear();
-    let wind = DVec3::new(spec.get(&EAST), 0.0, spec.get(&SOUTH));
+    let wind = vec3(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32);
     // In gusts, from drizzle to a shower and back.
-    let way = wind * t + DVec3::X * (1.5 * (t / 1.5).sin());
+    let way = wind.as_dvec3() * t + DVec3::X * (1.5 * (t / 1.5).sin());
     let share = (0.3 + 0.7 * ease(0.0, 6.0, t)) * spec.get(&SHARE) as f32;
     let [faster, larger] = [&FALL, &SIZE].map(|parameter| spec.get(parameter) / parameter.default);
     let (height, radius, count) = (spec.get(&HEIGHT), spec.get(&RADIUS), spec.get(&COUNT));
     let drops = flakes::altered(&DROPS, height, radius, count, faster, larger);
     let mut rain = Snow::new(&drops, t, view.camera().eye.as_dvec3(), way, share);
-    rain.streak = (wind.as_vec3() - Vec3::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
+    rain.streak = (wind - Vec3::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
     let rain = ParticleLayer::new(vec![rain.into()], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));

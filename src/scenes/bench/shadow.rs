@@ -30,8 +30,13 @@ pub const SHADOW_CUBE: Scene = Scene {
 
 const SPEED: Parameter = Parameter::new("speed", "rad/s", (-10.0, 10.0), 0.15, "speed at which the sun goes round");
 const SLOPE: Parameter = Parameter::new("slope", "1", (0.05, 20.0), 0.62, "tangent of the sun's altitude");
-const TEXELS: Parameter =
-    Parameter::new("texels", "count", (16.0, 4096.0), 1024.0, "texels along an edge of the depth map");
+const TEXELS: Parameter = Parameter::new(
+    "texels",
+    "count",
+    (64.0, 4096.0),
+    1024.0,
+    "texels along an edge of the depth map, rounded up to a multiple of 64",
+);
 const TORCH_SPEED: Parameter =
     Parameter::new("speed", "rad/s", (-10.0, 10.0), 0.5, "speed at which the torch goes round");
 const RADIUS: Parameter = Parameter::new("radius", "m", (0.0, 24.0), 5.0, "radius of the torch's circle");
@@ -43,12 +48,17 @@ const FALLOFF: Parameter = Parameter::new(
     0.06,
     "how fast its light fades: 1 / (1 + falloff D^2) at D metres",
 );
-const FACE_TEXELS: Parameter =
-    Parameter::new("texels", "count", (16.0, 2048.0), 512.0, "texels along an edge of each of the six depth maps");
+const FACE_TEXELS: Parameter = Parameter::new(
+    "texels",
+    "count",
+    (64.0, 2048.0),
+    512.0,
+    "texels along an edge of each of the six depth maps, rounded up to a multiple of 64",
+);
 
 fn sun(spec: &FrameSpec) -> Picture {
     let towards = shadow_set::sun_at(spec.get(&SPEED) * spec.time, spec.get(&SLOPE)).as_vec3();
-    let texels = spec.get(&TEXELS) as u32;
+    let texels = (spec.get(&TEXELS) as u32).next_multiple_of(64);
     const WIDTH: f32 = 72.0;
     let views = vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, texels)];
     // In texels; the specification has metres.
@@ -61,7 +71,7 @@ fn sun(spec: &FrameSpec) -> Picture {
 fn torch(spec: &FrameSpec) -> Picture {
     let position =
         shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3();
-    let texels = spec.get(&FACE_TEXELS) as u32;
+    let texels = (spec.get(&FACE_TEXELS) as u32).next_multiple_of(64);
     let bias = Bias { constant: 0.03, slope: 2.12, normal: 0.0 };
     let shadow = ShadowViews { smooth: false, ..ShadowViews::new(fit::cube(position, texels), bias) };
     let falloff = Vec2::new(0.0, spec.get(&FALLOFF) as f32);

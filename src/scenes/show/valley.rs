@@ -38,15 +38,15 @@ pub const LONGITUDE: Parameter = Parameter::new(
 );
 
 /// Days per hour.
-pub(in crate::scenes) const HOUR: f64 = 1.0 / 24.0;
+pub const HOUR: f64 = 1.0 / 24.0;
 /// Degrees per radian.
 const DEGREES: f64 = 57.295_779_513_082_32;
 
 // The days of the show, midnight UT.
 /// In June, when the days are longest.
-pub(in crate::scenes) const SUMMER: f64 = days(2026, 6, 25);
+const SUMMER: f64 = days(2026, 6, 25);
 /// In September.
-pub(in crate::scenes) const AUTUMN: f64 = days(2026, 9, 19);
+const AUTUMN: f64 = days(2026, 9, 19);
 /// In December, when the days are shortest.
 const WINTER: f64 = days(2026, 12, 22);
 /// In March.
@@ -54,7 +54,7 @@ const SPRING: f64 = days(2027, 3, 10);
 
 /// The midnight that a scene's parameter asks for: a day of the year 2026, of which 1 is New Year's Day.
 #[inline(always)]
-pub(in crate::scenes) fn date(spec: &FrameSpec, parameter: &Parameter) -> f64 {
+pub fn date(spec: &FrameSpec, parameter: &Parameter) -> f64 {
     days(2026, 1, 1) + (spec.get(parameter) - 1.0)
 }
 
@@ -158,7 +158,7 @@ fn bodies() -> Vec<Body> {
 }
 
 /// The date of a season, days after that of summer, and its textures. They are numbered from summer, 0, to spring, 3.
-pub(in crate::scenes) fn season(number: usize) -> (f32, Vec<Texture>) {
+pub fn season(number: usize) -> (f32, Vec<Texture>) {
     let mut seasons = Script::new(SEASONS, [number as u32 as f32, 0.0]);
     let (mut days, mut textures) = (0.0, Vec::new());
     loop {
@@ -175,20 +175,14 @@ pub(in crate::scenes) fn season(number: usize) -> (f32, Vec<Texture>) {
 
 /// The sky over the valley at a time, in days since J2000.
 #[inline(never)]
-pub(in crate::scenes) fn sky(spec: &FrameSpec, time: f64) -> Dome {
+pub fn sky(spec: &FrameSpec, time: f64) -> Dome {
     let place = Place { latitude: spec.get(&LATITUDE) / DEGREES, longitude: spec.get(&LONGITUDE) / DEGREES };
     Dome::new(Sky::new(time, &place), &spec.quality.sky)
 }
 
 /// The picture of a world under a sky, with a layer that lies between them, such as clouds.
 #[inline(never)]
-pub(in crate::scenes) fn show(
-    spec: &FrameSpec,
-    dome: Dome,
-    world: World,
-    view: View,
-    between: Option<Box<dyn Layer>>,
-) -> Picture {
+pub fn show(spec: &FrameSpec, dome: Dome, world: World, view: View, between: Option<Box<dyn Layer>>) -> Picture {
     let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(RasterLayer::new(world, &view, &spec.quality.raster))];
     layers.extend(between);
@@ -199,7 +193,7 @@ pub(in crate::scenes) fn show(
 /// The land under a sky, lit by sun or moon, without shadows. The aeroplane is turned by `turn` and stands at `place`; its
 /// propeller turns by `time`, seconds.
 #[inline(never)]
-pub(in crate::scenes) fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
+pub fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
     let now = dome.lighting();
     let mut bodies = bodies();
     // Five turns per second.
@@ -237,7 +231,7 @@ fn level(d: Vec3) -> Vec3 {
 
 /// Lights a lamp in the chapel as it gets `dark`, 0 to 1.
 #[inline(never)]
-pub(in crate::scenes) fn lamp(world: &mut World, dark: f32) {
+pub fn lamp(world: &mut World, dark: f32) {
     if dark > 0.0 {
         let color = vec3(3.2, 1.5, 0.5) * dark;
         world.lights.push(point(vec3(0.0, 14.5, 1.0), color, Vec2::new(0.05, 0.06), 30.0, [512, 0], false));
@@ -247,14 +241,7 @@ pub(in crate::scenes) fn lamp(world: &mut World, dark: f32) {
 /// A lamp whose shadows are a cube of depth maps of `texels` along an edge, or traced. It reaches `reach` metres; bodies before
 /// number `from` cast no shadow of it.
 #[inline(never)]
-pub(in crate::scenes) fn point(
-    position: Vec3,
-    color: Vec3,
-    falloff: Vec2,
-    reach: f32,
-    [texels, from]: [u32; 2],
-    traced: bool,
-) -> Light {
+pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, from]: [u32; 2], traced: bool) -> Light {
     let bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
     let shadow = ShadowViews::new(fit::cube(position, texels), bias);
     let shadow = ShadowViews { traced, first_caster: from as usize, ..shadow };
@@ -264,12 +251,7 @@ pub(in crate::scenes) fn point(
 /// The shadows of the sun or the moon, which stands in direction `towards`, over what a camera sees: one depth map up to each of
 /// the distances `ends`, metres.
 #[inline(never)]
-pub(in crate::scenes) fn cascades(
-    spec: &FrameSpec,
-    camera: &Camera,
-    towards: Vec3,
-    ends: &[f32],
-) -> Option<ShadowViews> {
+pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
     let size = if spec.quality.raster.shadow_map == 0 { 1024 } else { spec.quality.raster.shadow_map };
     // The curve of docs/report/shadows.md has its knee here.
