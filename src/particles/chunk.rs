@@ -26,9 +26,8 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    /// All particles of emitters, in chunks that are still empty.
-    pub fn all(emitters: &[Emitter]) -> Vec<Chunk> {
-        let mut chunks = Vec::new();
+    /// Adds all particles of emitters, in chunks that are still empty.
+    pub fn add_all(emitters: &[Emitter], chunks: &mut Vec<Chunk>) {
         for (emitter, from) in emitters.iter().enumerate() {
             let mut first = 0;
             while first < from.count() {
@@ -36,7 +35,6 @@ impl Chunk {
                 first += CHUNK;
             }
         }
-        chunks
     }
 
     /// Makes the sprites, and lists them by the tiles that they touch.

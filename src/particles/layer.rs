@@ -95,7 +95,7 @@ impl ParticleLayer {
 
 impl Layer for ParticleLayer {
     fn prepare(&mut self, workers: &Workers, _: &Cache) {
-        self.chunks = Chunk::all(&self.emitters);
+        Chunk::add_all(&self.emitters, &mut self.chunks);
         let (emitters, screen, level) = (&self.emitters, &self.screen, workers.level());
         workers.each(self.chunks.iter_mut(), |chunk| chunk.fill(level, emitters, screen));
     }

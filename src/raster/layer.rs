@@ -6,11 +6,11 @@ use super::depth_map::DepthMap;
 use super::fill::{SubPixel, fill};
 use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
-use super::rasters::{Raster, draw_map, set_up};
+use super::rasters::{self, Raster, draw_map, set_up};
 use super::shade::flush;
 use super::shadow_maps::MapKey;
 use super::shadow_views::ShadowViews;
-use super::triangle::{SUB, TriangleSetup};
+use super::triangle::SUB;
 use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;
@@ -70,8 +70,7 @@ impl RasterLayer {
                     Ok(map) => lookup.map = Some(map),
                     Err(map) => {
                         for projection in views {
-                            let setup = TriangleSetup { projection: *projection, back_faces, shaded: false };
-                            rasters.push(Raster::new(setup, first_caster, bodies.len()));
+                            rasters::add(rasters, projection, [back_faces, false], first_caster, bodies.len());
                         }
                         if !traced {
                             missing.push((key, map));
@@ -164,9 +163,8 @@ fn cell(at: [u32; 2], n: u32) -> SubPixel {
 impl Layer for RasterLayer {
     fn prepare(&mut self, workers: &Workers, cache: &Cache) {
         let memory = cache.get();
-        let projection = Projection::of_view(&self.view);
-        let setup = TriangleSetup { projection, back_faces: false, shaded: true };
-        self.rasters.push(Raster::new(setup, 0, self.world.bodies.len()));
+        let (projection, bodies) = (Projection::of_view(&self.view), self.world.bodies.len());
+        rasters::add(&mut self.rasters, &projection, [false, true], 0, bodies);
         let mut missing = self.look_up_shadows(&memory);
         let RasterLayer { world, rasters, lookups, .. } = self;
         set_up(workers, rasters, &world.bodies);

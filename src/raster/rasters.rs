@@ -3,6 +3,7 @@
 use super::bins::Bins;
 use super::depth_map::{DepthMap, EMPTY};
 use super::fill::{CENTER, Visible, fill};
+use super::project::Projection;
 use super::triangle::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
@@ -20,12 +21,18 @@ pub struct Raster {
     pub bins: Bins,
 }
 
-impl Raster {
-    /// A raster for `bodies` bodies, of which those before `first` are left out. It is empty until [`set_up`].
-    pub fn new(setup: TriangleSetup, first: usize, bodies: usize) -> Raster {
-        let meshes = (0..bodies).map(|_| SetupMesh::default()).collect();
-        Raster { setup, first, meshes, bins: Bins::default() }
-    }
+/// Adds a raster of a projection for `bodies` bodies, of which those before `first` are left out. `shaded` triangles have
+/// what shading needs, others only their depth. The raster is empty until [`set_up`].
+pub fn add(
+    rasters: &mut Vec<Raster>,
+    projection: &Projection,
+    [back_faces, shaded]: [bool; 2],
+    first: usize,
+    bodies: usize,
+) {
+    let setup = TriangleSetup { projection: *projection, back_faces, shaded };
+    let meshes = (0..bodies).map(|_| SetupMesh::default()).collect();
+    rasters.push(Raster { setup, first, meshes, bins: Bins::default() });
 }
 
 /// Sets up every body in every raster that may show it, and sorts its triangles into tiles.
