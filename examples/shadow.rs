@@ -7,33 +7,34 @@
 use glam::{Affine3A, Mat3, Vec3, vec3};
 use paprsek::frame::{Frame, Picture, Renderer, encode::Transfer};
 use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, RasterLayer, ShadowViews, World, fit};
-use paprsek::settings::Quality;
-use paprsek::view::Camera;
+use paprsek::sky::{Dome, Place, Sky, SkyLayer, time};
+use paprsek::texture::{Palette, Pattern, Texture};
+use paprsek::{settings::Quality, view::Camera};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (mut renderer, mut frame) = (Renderer::new(0)?, Frame::new(1280, 720));
-    let spec = renderer.spec(0.0, &Quality::REFERENCE, (1280, 720));
-    let paint = |albedo| Paint { albedo, texture: None, gloss: 0.0 };
-    let mut mesh = Mesh::painted(&[paint(vec3(0.30, 0.36, 0.12)), paint(vec3(0.52, 0.47, 0.42))]);
-    mesh.block(&Mat3::from_diagonal(vec3(400.0, 1.0, 400.0)), Vec3::NEG_Y, 0);
-    let first = mesh.points.len();
+    let spec = renderer.spec(0.0, &Quality::DEFAULT, (1280, 720));
+    let paints = [vec3(0.13, 0.17, 0.05), vec3(0.34, 0.31, 0.28)];
+    let mut mesh = Mesh::painted(&paints.map(|albedo| Paint { albedo, texture: Some(0), gloss: 0.0 }));
+    mesh.block(&Mat3::from_diagonal(vec3(900.0, 1.0, 900.0)), Vec3::NEG_Y, 0);
     for i in 0..24 {
         let turn = Mat3::from_rotation_y(i as f32 / 24.0 * std::f32::consts::TAU);
-        let (half, y) = if i % 2 == 0 { (vec3(0.9, 2.1, 0.5), 2.1) } else { (vec3(2.6, 0.4, 0.55), 4.6) };
+        let (half, y) = if i % 2 == 0 { (vec3(0.9, 2.1, 0.5), 2.1) } else { (vec3(2.6, 0.4, 0.55), 4.5) };
         mesh.block(&(turn * Mat3::from_diagonal(half)), turn * vec3(0.0, y, 10.0), 1);
     }
-    mesh.weather(first, 0.25, 0.7);
-    let sun = vec3(-0.55, 0.22, -0.8).normalize();
-    let camera = Camera::look_at(vec3(3.0, 2.4, 21.0), vec3(-0.5, 2.3, 0.0), 42f32.to_radians(), 0.0);
-    let maps = fit::cascades(&camera, 16.0 / 9.0, sun, &[14.0, 24.0, 45.0, 400.0], 2048);
+    mesh.weather(8, 0.25, 0.7);
+    let dome = Dome::new(Sky::new(time::days(2026, 6, 21) + 4.3 / 24.0, &Place::PLZEN), &spec.quality.sky);
+    let (now, bodies) = (dome.lighting(), vec![Body::new(mesh.into(), Affine3A::IDENTITY)]);
+    let camera = Camera::look_at(vec3(-21.0, 3.2, 4.0), vec3(0.0, 2.6, 1.0), 44f32.to_radians(), 0.0);
+    let maps = fit::cascades(&camera, 16.0 / 9.0, now.direction, &[16.0, 28.0, 50.0, 400.0], 2048);
     let shadow = ShadowViews::new(maps, Bias { constant: 0.02, slope: 1.0, normal: 1.0 });
-    let lights = vec![Light::sun(sun, vec3(2.6, 1.7, 0.95)).with_shadow(shadow)];
-    let ambient = [vec3(0.20, 0.24, 0.36), vec3(0.06, 0.08, 0.14)];
-    let haze = Haze { glow: (sun, vec3(0.45, 0.2, 0.02)), ..Haze::even(vec3(0.5, 0.45, 0.45), 0.012) };
-    let bodies = vec![Body::new(mesh.into(), Affine3A::IDENTITY)];
-    let world = World { lights, ambient, haze, film: true, background: Some(haze.color), ..World::new(bodies) };
-    let layer = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
-    renderer.draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
+    let lights = vec![Light::sun(now.direction, now.color).with_shadow(shadow)];
+    let haze = Haze::even(dome.radiance(camera.forward.with_y(0.05).normalize()), 0.004);
+    let textures = vec![Texture::new(Pattern::Clouds { octaves: 5 }, Palette::Mix(Vec3::ZERO, Vec3::splat(2.0)), 4.0)];
+    let world = World { lights, ambient: [now.sky * 0.5; 2], haze, textures, film: true, ..World::new(bodies) };
+    let stones = RasterLayer::new(world, &spec.view(camera), &spec.quality.raster);
+    let sky = SkyLayer::new(dome, &spec.view(camera), &spec.quality.sky).behind();
+    renderer.draw(Picture { layers: vec![Box::new(stones), Box::new(sky)], transfer: Transfer::Srgb }, &mut frame);
     let path = std::env::args().nth(1).unwrap_or("target/shadow.png".into());
     Ok(image::save_buffer(path, &frame.to_rgb(), 1280, 720, image::ColorType::Rgb8)?)
 }

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lamp = Light::point(vec3(-3.0, 3.4, 3.0), vec3(1.0, 0.66, 0.36)).with_radius(0.3);
     let dusk = vec3(0.20, 0.26, 0.40);
     let (lights, background) = (vec![lamp], Background::gradient(dusk, dusk * 0.4));
-    let world = World { objects, lights, ambient: dusk * 0.8, background, ..World::EMPTY };
+    let world = World { objects, lights, ambient: dusk * 0.95, background, ..World::EMPTY };
     let camera = Camera::look_at(vec3(1.2, 1.5, 6.2), vec3(0.8, 1.45, 0.0), 34f32.to_radians(), 0.0);
     let lens = Lens { aperture: 0.012, focus: 6.0, crystals: true, ..FLAKES.lens };
     let flakes = Flakes { radius: [0.009, 0.016], lens, ..FLAKES };

@@ -5,7 +5,7 @@
 //! renderer.
 //!
 //! - [`show`] is what the intro plays: [`show::intro`], and the parts that it is made of.
-//! - `bench` are scenes that other renderers are compared by. Each follows a specification.
+//! - [`mod@bench`] are scenes that other renderers are compared by. Each follows a specification.
 //! - [`models`] are the meshes that scenes share.
 //! - `script` is the byte code that sets and models are written in.
 

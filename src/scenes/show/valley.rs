@@ -59,9 +59,9 @@ pub fn date(spec: &FrameSpec, parameter: &Parameter) -> f64 {
 }
 
 operations! {
-    /// The days from [`SUMMER`] to the season's date, in twenties.
+    /// The days from `SUMMER` to the season's date, in twenties.
     date = 41;
-    /// The land's next texture, with the operands of [`pattern`].
+    /// The land's next texture, with the operands of `pattern`.
     texture = 42;
     /// The last operation.
     end = 43;
