@@ -131,13 +131,16 @@ struct Shape {
 
 /// The shapes that clouds have, kept from frame to frame.
 #[derive(Default)]
-struct Shapes([Shape; 6]);
+struct Shapes(Vec<Shape>);
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some half of a degree.
     fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
+        while self.0.len() < 6 {
+            self.0.push(Shape::default());
+        }
         spec.workers.each(self.0.iter_mut().enumerate(), |(number, shape)| {
             // Each shape at a time of its own, lest one frame has to light all of them.
             let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
