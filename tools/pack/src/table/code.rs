@@ -157,7 +157,12 @@ impl Names {
     pub fn symbol(&mut self, raw: &str) -> Site {
         let function = self.function(raw);
         let module = name::paths(&function).next().and_then(|path| self.module(path));
-        let (module, ours) = module.unwrap_or_else(|| ("linking".into(), false));
+        let (mut module, ours) = module.unwrap_or_else(|| ("linking".into(), false));
+        // A module that has tables and no code of its own is known by their paths alone.
+        if ours && *module == *self.home.name {
+            let parent = name::paths(&function).next().and_then(|path| path.rsplit_once("::"));
+            module = parent.map_or(module, |(parent, _)| parent.into());
+        }
         Site { file: function.clone(), module, function, line: 0, ours }
     }
 
