@@ -5,7 +5,7 @@
 /// Whether everything is built: single scenes, the benchmark, qualities without shortcuts. The feature `full`.
 pub const FULL: bool = cfg!(feature = "full");
 
-/// The bench scenes and what they alone ask for.
+/// Whether scenes can be timed by the benchmark of the command line.
 pub const BENCH: bool = FULL;
 
 /// Whether scenes have names, so that the parts of the show can be played alone.
