@@ -65,7 +65,7 @@ mod tests {
             ("/home/me/paprsek/src/trace/mod.rs", "paprsek::trace", true),
             ("/home/me/paprsek/src/lib.rs", "paprsek", true),
             ("/home/me/paprsek/src/main.rs", "paprsek::main", true),
-            ("src/tile.rs", "paprsek::frame", true),
+            ("src/frame/tile.rs", "paprsek::frame::tile", true),
             ("/home/me/paprsek/third/x11-dl/src/link.rs", "x11_dl", false),
             ("/home/me/paprsek/third/x11-dl-2.21/src/link.rs", "x11_dl", false),
             (&format!("{cargo}/rayon-core-1.13.0/src/job.rs"), "rayon_core", false),
@@ -87,7 +87,7 @@ mod tests {
     fn files_have_short_names() {
         let home = Home { root: "/home/me/paprsek".into(), name: "paprsek".into() };
         for (file, short) in [
-            ("/home/me/paprsek/src/tile.rs", "src/tile.rs"),
+            ("/home/me/paprsek/src/frame/tile.rs", "src/frame/tile.rs"),
             ("/c/registry/src/index.crates.io-19/glam-0.34.2/src/lib.rs", "glam-0.34.2/src/lib.rs"),
             ("/usr/lib/rustlib/src/rust/library/core/src/option.rs", "core/src/option.rs"),
         ] {
