@@ -5,5 +5,6 @@ mod color;
 mod fog;
 mod levels;
 mod noise;
+mod renderers;
 mod stereo;
 mod timeline;
