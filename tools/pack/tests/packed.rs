@@ -125,7 +125,7 @@ fn damages_the_unpacker(bits: usize) {
         // The last bits coded may be any.
         let at = coded.start + (coded.len() - 3) * i / (bits - 1);
         bytes[at] ^= 1 << (i % 8);
-        let path = executable("damaged_unpacker", &bytes);
+        let path = executable(&format!("damaged_unpacker_{bits}"), &bytes);
         let began = Instant::now();
         let output = Command::new(path).output().expect("it starts");
         assert_eq!(text(&output.stderr), "paprsek: damaged, or no memory\n", "byte {at}");
