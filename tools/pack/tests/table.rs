@@ -128,6 +128,6 @@ fn rounded_rows_add_up() {
 #[test]
 fn a_stripped_program_is_an_error() {
     assert!(Profile::read(b"no program").is_err());
-    let error = Profile::read(&compiled("stripped", &["-Cdebuginfo=0", "-Cstrip=symbols"])).err();
+    let error = Profile::read(&compiled("without_symbols", &["-Cdebuginfo=0", "-Cstrip=symbols"])).err();
     assert!(error.is_some_and(|e| e.contains("debuginfo")));
 }
