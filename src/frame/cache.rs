@@ -8,28 +8,16 @@ use std::any::{Any, TypeId};
 use std::sync::Arc;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A handle on a value of a [`Cache`], which a layer holds while it is drawn.
+/// What handles are made of.
 #[cfg(feature = "full")]
-#[derive(Default)]
-pub struct Kept<T: 'static>(Arc<Mutex<T>>);
-
-/// A handle on a value of a [`Cache`], which a layer holds while it is drawn. The 64 kB build has one renderer, for as long
-/// as it runs, so it counts no handles and never gives a value back: 0.3 kB packed.
+type Shared<T> = Arc<T>;
+/// What handles are made of. The 64 kB build has one renderer, for as long as it runs, so it counts no handles and never
+/// gives a value back: 0.3 kB packed.
 #[cfg(not(feature = "full"))]
-pub struct Kept<T: 'static>(&'static Mutex<T>);
+type Shared<T> = &'static T;
 
-#[cfg(not(feature = "full"))]
-impl<T: Default> Default for Kept<T> {
-    fn default() -> Kept<T> {
-        Kept(Box::leak(Box::default()))
-    }
-}
-
-impl<T> Clone for Kept<T> {
-    fn clone(&self) -> Kept<T> {
-        Kept(Clone::clone(&self.0))
-    }
-}
+/// A handle on a value of a [`Cache`], which a layer holds while it is drawn.
+pub struct Kept<T: 'static>(Shared<Mutex<T>>);
 
 impl<T> Kept<T> {
     /// The value, for this thread alone. A panic of another thread has left it intact, as values are only ever replaced as
@@ -39,8 +27,16 @@ impl<T> Kept<T> {
     }
 }
 
-/// A handle of any type.
-type Handle = Box<dyn Any + Send>;
+/// A handle on a value of any type.
+type Handle = Shared<dyn Any + Send + Sync>;
+
+/// A new value of a type.
+fn new<T: Default + Send + 'static>() -> Handle {
+    #[cfg(feature = "full")]
+    return Arc::<Mutex<T>>::default();
+    #[cfg(not(feature = "full"))]
+    return Box::leak(Box::<Mutex<T>>::default());
+}
 
 /// One value of each type that asks for a place here.
 #[derive(Default)]
@@ -49,23 +45,27 @@ pub struct Cache(Mutex<Vec<Handle>>);
 impl Cache {
     /// This cache's value of type `T`, which starts as the default. Every later call gives the same one.
     pub fn get<T: Default + Send + 'static>(&self) -> Kept<T> {
-        let (handles, at) = self.find(TypeId::of::<Kept<T>>(), || Box::new(Kept::<T>::default()));
-        handles[at].downcast_ref::<Kept<T>>().expect("a handle of that type").clone()
+        let handle = self.find(TypeId::of::<Mutex<T>>(), new::<T>);
+        #[cfg(feature = "full")]
+        let value = handle.downcast().ok();
+        #[cfg(not(feature = "full"))]
+        let value = handle.downcast_ref();
+        Kept(value.expect("a value of that type"))
     }
 
-    /// Where the handle of a type is, which is made if there is none. Apart from [`Cache::get`], which is compiled for each
-    /// type: 0.2 kB packed.
+    /// The handle on the value of a type, which is made if there is none. Apart from [`Cache::get`], which is compiled for
+    /// each type: 0.2 kB packed.
     #[inline(never)]
-    fn find(&self, id: TypeId, make: fn() -> Handle) -> (MutexGuard<'_, Vec<Handle>>, usize) {
+    fn find(&self, id: TypeId, make: fn() -> Handle) -> Handle {
         let mut handles = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut at = 0;
-        while at < handles.len() && (*handles[at]).type_id() != id {
-            at += 1;
+        for handle in &*handles {
+            if (**handle).type_id() == id {
+                return Shared::clone(handle);
+            }
         }
-        if at == handles.len() {
-            handles.push(make());
-        }
-        (handles, at)
+        let handle = make();
+        handles.push(Shared::clone(&handle));
+        handle
     }
 }
 

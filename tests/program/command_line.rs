@@ -7,6 +7,8 @@ use paprsek::scenes;
 use paprsek::scenes::show::intro::INTRO;
 use paprsek::settings::Quality;
 #[cfg(feature = "full")]
+use paprsek::simd::level;
+#[cfg(feature = "full")]
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::io::Read;
@@ -164,6 +166,21 @@ fn an_unknown_name_is_answered_with_the_known_ones() {
     assert!(Quality::NAMES.iter().all(|name| said.contains(name)), "{said}");
 }
 
+/// Every level of the machine gives the same bytes; other names are refused.
+#[cfg(feature = "full")]
+#[test]
+fn kernels_run_at_the_level_that_is_asked_for() {
+    let still = ["spheres", "--at", "2", "--size", "64x36", "--capture", "-"];
+    let usual = succeeds(run(&still));
+    for (name, _) in level::all() {
+        assert_eq!(succeeds(run(&[&still[..], &["--simd", name]].concat())), usual, "{name}");
+        let json = succeeds(run(&["spheres", "--at", "2", "--size", "8x8", "--bench", "--json", "--simd", name]));
+        assert!(String::from_utf8(json).unwrap().contains(&format!("\"simd\":\"{name}\"")), "{name}");
+    }
+    fails(&run(&["spheres", "--simd", "avx3"]), 2);
+    fails(&run(&["spheres", "--simd"]), 2);
+}
+
 #[test]
 fn help_and_version_are_answered() {
     let help = String::from_utf8(succeeds(run(&["--help"]))).unwrap();
@@ -178,6 +195,7 @@ fn help_and_version_are_answered() {
         "--version",
         "--parameters",
         "--set",
+        "--simd",
     ];
     assert!(options.iter().all(|option| help.contains(option)), "{help}");
     assert!(more.iter().all(|option| help.contains(option) == MEASURES), "{help}");

@@ -8,11 +8,15 @@ use crate::io::contents;
 #[cfg(feature = "full")]
 use crate::parameters;
 use crate::text::{decimal, fill, whole};
+#[cfg(feature = "full")]
+use fearless_simd::Level;
 use paprsek::cuts;
 use paprsek::frame::pool::cores;
 use paprsek::frame::{Options, Scene, Values};
 use paprsek::scenes;
 use paprsek::settings::Quality;
+#[cfg(feature = "full")]
+use paprsek::simd::level;
 use paprsek::view::Stereo;
 use std::ops::Range;
 
@@ -26,19 +30,19 @@ macro_rules! help {
   --at SECONDS                show one instant, up to 10^12
   --from SECONDS              start at this time, up to 10^12
   --to SECONDS                end at this time, up to 10^12
-  --fps N                     frames per second of a capture, or to hold while playing: up to 1000; default 30
-  --threads N                 1 to 1024, but no more than there are cores; default: all cores
-  --size WxH                  pixels: 1 to 16384 each, 67108864 in all; default 1280x720, or less if that plays too slowly
+  --fps N                     frames per second, captured or held: up to 1000; default 30
+  --threads N                 1 to 1024; at most, and by default, one per core
+  --size WxH                  pixels: 1 to 16384 each, 67108864 in all; default 1280x720, less if that is too slow
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
             "
-  --capture DIR               write frames to DIR/frame-N.ppm, N = seconds x fps; if DIR is -, stream them to stdout
+  --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; for DIR -, a stream to stdout
   --fullscreen                fill the screen
   --help                      print this help
 ",
             $own,
             "\
-keys: Esc quits, Space pauses, Left and Right seek 5 s, 1 to 9 jump to a part, S saves a still, F toggles full screen
+keys: Esc quit, Space pause, Left and Right 5 s, 1 to 9 parts, S still, F full screen
 "
         )
     };
@@ -58,6 +62,7 @@ pub const HELP: &str = help!(
   --json                      with --bench or --parameters: print JSON lines
   --parameters                print the parameters of SCENE, or of every scene
   --set NAME=VALUE            set a parameter of SCENE; may be given several times
+  --simd LEVEL                avx512, avx2, sse4.2, sse2, as this machine has them; default: the best
 "
 );
 /// The help of the 64 kB build, which plays and captures only.
@@ -66,7 +71,7 @@ pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "",
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
 /// The number of options where none is left out.
-const ALL_OPTIONS: usize = 19;
+const ALL_OPTIONS: usize = 20;
 /// The number of options in [`HELP`].
 const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS } else { 10 };
 
@@ -82,6 +87,8 @@ const CAPTURE: usize = 7;
 const EYE_DISTANCE: usize = 11;
 const CONVERGENCE: usize = 12;
 const SET: usize = 18;
+#[cfg(feature = "full")]
+const SIMD: usize = 19;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -165,6 +172,9 @@ pub struct Args {
     pub fullscreen: bool,
     /// Quality, eyes and parameters.
     pub options: Options<'static>,
+    /// The SIMD level of the kernels.
+    #[cfg(feature = "full")]
+    pub level: Level,
     /// The name of the quality.
     #[cfg(feature = "full")]
     pub quality_name: &'static str,
@@ -249,6 +259,7 @@ impl Args {
             json,
             parameters,
             set,
+            _,
         ] = is;
         let (two, bench, json) = (cuts::STEREO && two, cuts::BENCH && bench, cuts::BENCH && json);
         let target = values[CAPTURE];
@@ -278,6 +289,8 @@ impl Args {
             fps,
             fullscreen,
             options: Options { quality, stereo, values: set_values(scene, settings)? },
+            #[cfg(feature = "full")]
+            level: simd_level(values[SIMD]).ok_or_else(|| refused(SIMD))?,
             #[cfg(feature = "full")]
             quality_name: _quality_name,
             governed,
@@ -348,6 +361,13 @@ fn set_values(scene: Option<&'static Scene>, settings: &[&[u8]]) -> Result<Value
 #[cfg(not(feature = "full"))]
 fn set_values(_: Option<&'static Scene>, _: &[&[u8]]) -> Result<Values<'static>, Vec<u8>> {
     Ok(&[])
+}
+
+/// The SIMD level of that name, or the best one without a name; none where this machine lacks it.
+#[cfg(feature = "full")]
+fn simd_level(name: Option<&[u8]>) -> Option<Level> {
+    let mut levels = level::all().into_iter();
+    levels.find(|level| name.is_none_or(|name| name == level.0.as_bytes())).map(|level| level.1)
 }
 
 /// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads,

@@ -14,10 +14,19 @@ const PIECE: usize = 1 << 14;
 /// Added to the number of a frame, whose six digits then follow a 1 and keep their leading zeros.
 const SIX_DIGITS: usize = 1_000_000;
 
+/// The renderer that `args` ask for.
+#[inline(always)]
+pub fn renderer(args: &Args) -> Result<Renderer, String> {
+    let renderer = Renderer::new(args.threads)?;
+    #[cfg(feature = "full")]
+    let renderer = renderer.at_level(args.level);
+    Ok(renderer)
+}
+
 /// The renderer and the black frame that `args` ask for.
 #[inline(never)]
 pub fn open(args: &Args) -> Result<(Renderer, Frame), Vec<u8>> {
-    Ok((Renderer::new(args.threads)?, black_frame(args.size)?))
+    Ok((renderer(args)?, black_frame(args.size)?))
 }
 
 /// A black frame of `size`, width and height in pixels. Not [`Frame::new`], which ends the process where there is no

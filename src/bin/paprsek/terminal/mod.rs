@@ -8,7 +8,7 @@ mod signals;
 use crate::args::Args;
 use crate::capture;
 use crate::clock::{Clock, SEEK};
-use paprsek::frame::{Frame, Renderer};
+use paprsek::frame::Frame;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcgetwinsize, tcsetattr,
@@ -53,7 +53,7 @@ pub fn shows_colour() -> bool {
 
 /// Plays until Esc, q or Ctrl-C, or until the end of the scene.
 pub fn play(args: &Args) -> Result<(), String> {
-    let mut renderer = Renderer::new(args.threads)?;
+    let mut renderer = capture::renderer(args)?;
     let mut clock = Clock::new(args).once();
     let mut keyboard = Keyboard::open();
     let mut frame = capture::black_frame((1, 1))?;
