@@ -10,6 +10,7 @@
 //!
 //! Not guarded are images in the sides of blocks and cylinders, and images of images.
 
+use super::bounds::{Bounds, Shaft};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::{FAR, Shape};
 use super::world::{Emitter, Light, Object, World};
@@ -45,8 +46,8 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard of a `world` as a view shows it. `all` lists every object.
-    pub fn new(world: &World, all: &[u32], view: &View) -> Guard {
+    /// The guard of a `world` as a view shows it. `bounds` has boxes around all objects.
+    pub fn new(world: &World, bounds: &Bounds, view: &View) -> Guard {
         let (columns, rows) = (view.width().div_ceil(BLOCK), view.height().div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
         let eye = view.camera().eye;
@@ -66,7 +67,7 @@ impl Guard {
                 }
                 if body.casts_shadow {
                     for light in &world.lights {
-                        guard.shadow(world, all, view, index, light, center, radius);
+                        guard.shadow(world, bounds, view, index, light, center, radius);
                     }
                 }
             }
@@ -85,7 +86,7 @@ impl Guard {
     fn shadow(
         &mut self,
         world: &World,
-        all: &[u32],
+        bounds: &Bounds,
         view: &View,
         caster: usize,
         light: &Light,
@@ -107,7 +108,7 @@ impl Guard {
             }
             let through = center + offset * radius;
             let direction = toward(through);
-            let landing = dispatch!(level::best(), simd => landing(simd, world, all, caster, through, direction));
+            let landing = dispatch!(level::best(), simd => landing(simd, world, bounds, caster, through, direction));
             let Some((point, normal)) = landing else { continue };
             let grown = point.distance(source) / through.distance(source).max(1e-6);
             // The shadow is longer than wide by 1 / slope; at most 8 of it counts.
@@ -163,14 +164,16 @@ impl Guard {
 fn landing<S: Simd>(
     simd: S,
     world: &World,
-    all: &[u32],
+    bounds: &Bounds,
     from: usize,
     origin: Vec3,
     direction: Vec3,
 ) -> Option<(Vec3, Vec3)> {
     let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
     let ray = RayPacket { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
-    let (object, t) = nearest(simd, world, all, &ray, !inward, F::<S>::splat(simd, FAR), Search::Nearest);
+    let shaft = Shaft::new((origin, origin), (direction, direction), FAR);
+    let far = F::<S>::splat(simd, FAR);
+    let (object, t) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;
     let point = ray.origin + ray.direction * Lane(t);
     Some((point.first(), body.shape.normal(simd, point).first()))

@@ -1,6 +1,7 @@
 //! The ray tracer as a layer of a picture.
 
 use super::adaptive::{self, Scratch};
+use super::bounds::{Bounds, WORD};
 use super::guard::Guard;
 use super::job::Job;
 use super::packet::{Limits, TraceContext};
@@ -18,8 +19,7 @@ use fearless_simd::{Level, dispatch};
 pub struct TraceLayer {
     world: World,
     surfaces: Vec<SurfaceNumbers>,
-    /// The index of every object.
-    all: Vec<u32>,
+    bounds: Bounds,
     variation: Vec<Variation>,
     view: View,
     guard: Guard,
@@ -40,39 +40,41 @@ impl TraceLayer {
     ///
     /// The world is taken as it is: see [`world`](super::world) for what it must keep to.
     pub fn new(world: World, view: &View, settings: &TraceSettings) -> TraceLayer {
-        let all: Vec<u32> = (0..world.objects.len() as u32).collect();
-        let guard = Guard::new(&world, &all, view);
+        let bounds = Bounds::new(&world);
+        let guard = Guard::new(&world, &bounds, view);
         let surfaces = world.objects.iter().map(|o| surface::numbers(&o.material)).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
         let TraceSettings { min_weight, min_detail, light_samples, .. } = *settings;
         let limits = Limits { min_weight: min_weight / brightest, min_detail: min_detail / brightest, light_samples };
-        TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory: None }
+        TraceLayer { world, surfaces, bounds, variation, view: *view, guard, limits, settings: *settings, memory: None }
     }
 
     /// Lists the objects that eye rays through a tile may meet: those whose bounds touch the cone around the tile.
-    fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
+    fn visible(&self, tile: &Tile, visible: &mut Vec<u64>) {
         let eye = self.view.camera().eye;
         let (x, y) = (to_f32(tile.x), to_f32(tile.y));
         let half = Tile::SIZE as f32 * 0.5;
         // Corners of the grid reach one pixel beyond the tile.
         let cone = Cone::new(&self.view, (x + half, y + half), half + 1.0);
         visible.clear();
-        for (index, body) in self.world.objects.iter().enumerate() {
-            let (center, radius) = body.shape.bound();
-            if cone.may_meet(center - eye, radius) {
-                visible.push(index as u32);
+        for bodies in self.world.objects.chunks(WORD) {
+            let mut bits = 0;
+            for (bit, body) in bodies.iter().enumerate() {
+                let (center, radius) = body.shape.bound();
+                bits |= (cone.may_meet(center - eye, radius) as u64) << bit;
             }
+            visible.push(bits);
         }
     }
 
     /// Draws a tile; returns the number of eye rays.
     fn draw_in(&self, level: Level, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let TraceLayer { world, surfaces, all, variation, view, guard, limits, settings, .. } = self;
+        let TraceLayer { world, surfaces, bounds, variation, view, guard, limits, settings, .. } = self;
         let mut visible = std::mem::take(&mut scratch.visible);
         self.visible(tile, &mut visible);
-        let context = TraceContext { world, surfaces, view, visible: &visible, all, limits: *limits };
+        let context = TraceContext { world, surfaces, view, bounds, visible: &visible, limits: *limits };
         let job = Job { context, variation, guard, settings };
         let samples = dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch));
         scratch.visible = visible;

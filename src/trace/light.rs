@@ -1,5 +1,6 @@
 //! What a point sees of the lights, and what a ray sees of the background.
 
+use super::bounds::{Bounds, Shaft, extent};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::shape::FAR;
 use super::world::{Background, Emitter, Light, World};
@@ -40,7 +41,7 @@ pub fn aim<S: Simd>(simd: S, light: &Light, point: V3<S>) -> Aim<S> {
 pub fn visibility<S: Simd>(
     simd: S,
     world: &World,
-    all: &[u32],
+    bounds: &Bounds,
     samples: u32,
     light: &Light,
     point: V3<S>,
@@ -75,7 +76,9 @@ pub fn visibility<S: Simd>(
         }
         // A lit point of a convex body is never in that body's own shadow.
         let ray = RayPacket { origin: point, direction, from, inward: M::<S>::splat(simd, false) };
-        let (object, _) = nearest(simd, world, all, &ray, wanted, distance, Search::Shadow);
+        let shaft = Shaft::new(extent(simd, point, wanted), extent(simd, direction, wanted), FAR);
+        let (object, _) =
+            nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);
         seen += (wanted & object.simd_eq(U::<S>::splat(simd, NOWHERE))).select(one, zero);
     }
     seen * (1.0 / samples as f32)

@@ -15,6 +15,7 @@
 //! carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time. Approximations are the two
 //! thresholds of [`Limits`] and the points on soft lights; [`super::reference`] is the recursion without any.
 
+use super::bounds::{Bounds, Shaft, extent};
 use super::light::{Aim, aim, background, visibility};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
@@ -39,10 +40,10 @@ pub struct TraceContext<'a> {
     pub surfaces: &'a [SurfaceNumbers],
     /// The view.
     pub view: &'a View,
-    /// The objects that eye rays of the tile may meet.
-    pub visible: &'a [u32],
-    /// Every object, for all other rays.
-    pub all: &'a [u32],
+    /// Boxes around the objects.
+    pub bounds: &'a Bounds,
+    /// The bits of the objects that eye rays of the tile may meet.
+    pub visible: &'a [u64],
     /// Limits of the recursion.
     pub limits: Limits,
 }
@@ -254,8 +255,13 @@ fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>
     if !node.active.any_true() {
         return (U::<S>::splat(simd, NOWHERE), far);
     }
-    let list = if node.level == 1 { context.visible } else { context.all };
-    nearest(simd, context.world, list, &node.ray, node.active, far, Search::Nearest)
+    let TraceContext { world, bounds, visible, .. } = *context;
+    let Node { ray, active, .. } = node;
+    if node.level == 1 {
+        return nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
+    }
+    let shaft = Shaft::new(extent(simd, ray.origin, *active), extent(simd, ray.direction, *active), FAR);
+    nearest(simd, world, bounds, &bounds.all, Some(&shaft), ray, *active, far, Search::Nearest)
 }
 
 impl<S: Simd> Hit<S> {
@@ -296,7 +302,7 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
             continue;
         }
         let seen =
-            visibility(simd, world, context.all, samples, source, point, Aim { direction, reach }, object, front);
+            visibility(simd, world, context.bounds, samples, source, point, Aim { direction, reach }, object, front);
         let lit = front & seen.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
