@@ -103,3 +103,20 @@ impl Layer for TraceLayer {
         scratch.positions().collect()
     }
 }
+
+#[cfg(count)]
+impl Drop for TraceLayer {
+    fn drop(&mut self) {
+        let n: Vec<f64> =
+            super::ray::COUNTS.iter().map(|c| c.load(std::sync::atomic::Ordering::Relaxed) as f64).collect();
+        for (k, name) in [(1, "shadow"), (2, "secondary"), (3, "eye")] {
+            let c = n[3 * k];
+            eprintln!(
+                "{name}: {c} packets, {:.2} of {:.2} bodies, {:.2} lanes",
+                n[3 * k + 1] / c,
+                n[3 * k + 2] / c,
+                n[12 + k] / c
+            );
+        }
+    }
+}

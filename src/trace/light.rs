@@ -76,7 +76,15 @@ pub fn visibility<S: Simd>(
         }
         // A lit point of a convex body is never in that body's own shadow.
         let ray = RayPacket { origin: point, direction, from, inward: M::<S>::splat(simd, false) };
-        let shaft = Shaft::new(extent(simd, point, wanted), extent(simd, direction, wanted), FAR);
+        let shaft = match light.emitter {
+            // From the light to the points: their origins are one.
+            Emitter::Point(position) if !soft => {
+                let reach = wanted.select(distance, zero).reduce_max();
+                Shaft::new((position, position), extent(simd, -direction, wanted), reach)
+            }
+            Emitter::Directional(towards) if !soft => Shaft::new(extent(simd, point, wanted), (towards, towards), FAR),
+            _ => Shaft::new(extent(simd, point, wanted), extent(simd, direction, wanted), FAR),
+        };
         let (object, _) =
             nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);
         seen += (wanted & object.simd_eq(U::<S>::splat(simd, NOWHERE))).select(one, zero);
