@@ -10,7 +10,8 @@
 //! ([`SLACK`]), so that roundings in [`Shape::span`](super::shape::Shape::span) do not matter. So culling changes what a
 //! frame costs, and none of its bytes.
 
-use super::shape::Shape;
+use super::ray::NOWHERE;
+use super::shape::{FAR, Shape};
 use super::world::World;
 use crate::simd::block::{BLOCK, Block3, load};
 use crate::simd::lanes::{F, M, V3};
@@ -90,16 +91,48 @@ fn around(shape: &Shape) -> (Vec3, Vec3) {
     (center - half, center + half)
 }
 
-/// Least and largest coordinates of the `active` lanes.
-#[inline(always)]
-pub fn extent<S: Simd>(simd: S, v: V3<S>, active: M<S>) -> (Vec3, Vec3) {
-    let (least, most) = (F::<S>::splat(simd, f32::INFINITY), F::<S>::splat(simd, f32::NEG_INFINITY));
-    let low: V3<S> = V3 { x: active.select(v.x, least), y: active.select(v.y, least), z: active.select(v.z, least) };
-    let high: V3<S> = V3 { x: active.select(v.x, most), y: active.select(v.y, most), z: active.select(v.z, most) };
-    (
-        Vec3::new(low.x.reduce_min(), low.y.reduce_min(), low.z.reduce_min()),
-        Vec3::new(high.x.reduce_max(), high.y.reduce_max(), high.z.reduce_max()),
-    )
+/// A box: least and largest coordinates.
+#[derive(Clone, Copy)]
+pub struct Extent {
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Extent {
+    /// A point.
+    pub const fn point(at: Vec3) -> Extent {
+        Extent { low: at, high: at }
+    }
+
+    /// The box around the `active` lanes.
+    #[inline(always)]
+    pub fn new<S: Simd>(simd: S, v: V3<S>, active: M<S>) -> Extent {
+        let (least, most) = (F::<S>::splat(simd, f32::INFINITY), F::<S>::splat(simd, f32::NEG_INFINITY));
+        let low: V3<S> =
+            V3 { x: active.select(v.x, least), y: active.select(v.y, least), z: active.select(v.z, least) };
+        let high: V3<S> = V3 { x: active.select(v.x, most), y: active.select(v.y, most), z: active.select(v.z, most) };
+        Extent {
+            low: Vec3::new(low.x.reduce_min(), low.y.reduce_min(), low.z.reduce_min()),
+            high: Vec3::new(high.x.reduce_max(), high.y.reduce_max(), high.z.reduce_max()),
+        }
+    }
+}
+
+/// Where the rays of a packet begin.
+#[derive(Clone, Copy)]
+pub struct Start {
+    /// The box around their origins.
+    pub origins: Extent,
+    /// The body that none of them can meet, because all of them leave it outwards; or [`NOWHERE`].
+    pub leaves: u32,
+}
+
+impl Start {
+    /// The same where some rays may go `inward`, into the body that they leave.
+    #[inline(always)]
+    pub fn without<S: Simd>(self, _simd: S, inward: M<S>) -> Start {
+        Start { leaves: if inward.any_true() { NOWHERE } else { self.leaves }, ..self }
+    }
 }
 
 /// One of the six conditions under which the box of all rays at a distance overlaps that of a body:
@@ -117,26 +150,41 @@ pub struct Shaft {
     /// For each axis the condition on the low side of a box, and on the high one.
     conditions: [[Condition; 2]; 3],
     reach: f32,
+    leaves: u32,
 }
 
 impl Shaft {
-    /// The shaft of rays whose origins and unit directions lie in boxes, up to the distance `reach`.
+    /// The shaft of rays whose unit directions lie in a box.
     #[inline(always)]
-    pub fn new(origins: (Vec3, Vec3), directions: (Vec3, Vec3), reach: f32) -> Shaft {
+    pub fn new(start: Start, directions: Extent) -> Shaft {
+        Shaft::between(start, directions.low - SLACK, directions.high + SLACK, FAR)
+    }
+
+    /// The shaft of rays that end at one point.
+    #[inline(always)]
+    pub fn to(start: Start, target: Vec3) -> Shaft {
+        // With its own length for the unit, each of them is there at 1.
+        let origins = start.origins;
+        let (low, high) = (target - origins.low, target - origins.high);
+        let slack = SLACK * low.abs().max(high.abs()).max_element();
+        Shaft::between(start, low - slack, high + slack, 1.0)
+    }
+
+    /// At the distance t the rays are between `origins.low + low t` and `origins.high + high t`.
+    #[inline(always)]
+    fn between(start: Start, low: Vec3, high: Vec3, reach: f32) -> Shaft {
+        let Start { origins, leaves } = start;
         let mut conditions = [[Condition { edge: 0.0, inverse: 0.0, lower: 0.0 }; 2]; 3];
         let mut axis = 0;
         while axis < 3 {
-            // At the distance t the rays reach from o0 + t d0 to o1 + t d1.
-            conditions[axis] = [
-                condition(origins.1[axis], directions.1[axis] + SLACK, 1.0),
-                condition(origins.0[axis], directions.0[axis] - SLACK, -1.0),
-            ];
+            conditions[axis] =
+                [condition(origins.high[axis], high[axis], 1.0), condition(origins.low[axis], low[axis], -1.0)];
             axis += 1;
         }
-        Shaft { conditions, reach: reach * (1.0 + SLACK) }
+        Shaft { conditions, reach, leaves }
     }
 
-    /// The bits of the first `count` bodies of a word that a ray may meet; bits beyond mean nothing.
+    /// The bits of the bodies of a word that a ray may meet; bits beyond the last body mean nothing.
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, bounds: &Bounds, word: usize) -> u64 {
         let Boxes { low, high } = &bounds.boxes[word];
@@ -155,6 +203,9 @@ impl Shaft {
             }
             bits |= from.simd_le(to).to_bitmask() << (i * F::<S>::LEN);
             i += 1;
+        }
+        if self.leaves as usize / WORD == word {
+            bits &= !(1 << (self.leaves as usize % WORD));
         }
         bits
     }

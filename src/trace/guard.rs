@@ -10,7 +10,7 @@
 //!
 //! Not guarded are images in the sides of blocks and cylinders, and images of images.
 
-use super::bounds::{Bounds, Shaft};
+use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::{FAR, Shape};
 use super::world::{Emitter, Light, Object, World};
@@ -169,9 +169,11 @@ fn landing<S: Simd>(
     origin: Vec3,
     direction: Vec3,
 ) -> Option<(Vec3, Vec3)> {
-    let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
-    let ray = RayPacket { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
-    let shaft = Shaft::new((origin, origin), (direction, direction), FAR);
+    let from = from as u32;
+    let inward = M::<S>::splat(simd, false);
+    let (start, along) = (V3::splat(simd, origin), V3::splat(simd, direction));
+    let ray = RayPacket { origin: start, direction: along, from: U::<S>::splat(simd, from), inward };
+    let shaft = Shaft::new(Start { origins: Extent::point(origin), leaves: from }, Extent::point(direction));
     let far = F::<S>::splat(simd, FAR);
     let (object, t) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;

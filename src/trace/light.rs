@@ -1,6 +1,6 @@
 //! What a point sees of the lights, and what a ray sees of the background.
 
-use super::bounds::{Bounds, Shaft, extent};
+use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::shape::FAR;
 use super::world::{Background, Emitter, Light, World};
@@ -35,7 +35,7 @@ pub fn aim<S: Simd>(simd: S, light: &Light, point: V3<S>) -> Aim<S> {
 
 /// The share of a light that each lane sees: 0 or 1 for a point, the share of `samples` points for a light with a radius.
 ///
-/// Shadow rays leave the points `point` on the bodies `from`. Lanes that are not `wanted` see nothing.
+/// Shadow rays leave the points `point` on the bodies `from`, which are what `start` says. Lanes that are not `wanted` see nothing.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub fn visibility<S: Simd>(
@@ -44,6 +44,7 @@ pub fn visibility<S: Simd>(
     bounds: &Bounds,
     samples: u32,
     light: &Light,
+    start: Start,
     point: V3<S>,
     aim: Aim<S>,
     from: U<S>,
@@ -77,13 +78,9 @@ pub fn visibility<S: Simd>(
         // A lit point of a convex body is never in that body's own shadow.
         let ray = RayPacket { origin: point, direction, from, inward: M::<S>::splat(simd, false) };
         let shaft = match light.emitter {
-            // From the light to the points: their origins are one.
-            Emitter::Point(position) if !soft => {
-                let reach = wanted.select(distance, zero).reduce_max();
-                Shaft::new((position, position), extent(simd, -direction, wanted), reach)
-            }
-            Emitter::Directional(towards) if !soft => Shaft::new(extent(simd, point, wanted), (towards, towards), FAR),
-            _ => Shaft::new(extent(simd, point, wanted), extent(simd, direction, wanted), FAR),
+            Emitter::Point(position) if !soft => Shaft::to(start, position),
+            Emitter::Directional(towards) if !soft => Shaft::new(start, Extent::point(towards)),
+            _ => Shaft::new(start, Extent::new(simd, direction, wanted)),
         };
         let (object, _) =
             nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);

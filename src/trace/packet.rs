@@ -15,7 +15,7 @@
 //! carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time. Approximations are the two
 //! thresholds of [`Limits`] and the points on soft lights; [`super::reference`] is the recursion without any.
 
-use super::bounds::{Bounds, Shaft, extent};
+use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::light::{Aim, aim, background, visibility};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
@@ -68,6 +68,7 @@ struct Node<S: Simd> {
     /// Lanes too faint to be traced. They are guessed to see the background: half the error of leaving them black.
     faint: M<S>,
     ray: RayPacket<S>,
+    start: Start,
     /// Share of the ray's light that reaches the eye.
     weight: V3<S>,
     /// Length of the path up to the ray's origin, metres.
@@ -85,6 +86,8 @@ struct Hit<S: Simd> {
     /// Those of them on glass.
     glass: M<S>,
     object: U<S>,
+    /// Of rays that leave the hits outwards.
+    start: Start,
     /// Length of the path up to here, metres.
     length: F<S>,
     point: V3<S>,
@@ -240,6 +243,7 @@ impl<S: Simd> Node<S> {
             active,
             faint: nothing,
             ray: RayPacket { origin: V3::splat(simd, eye), direction, from, inward: nothing },
+            start: Start { origins: Extent::point(eye), leaves: NOWHERE },
             weight: V3 { x: one, y: one, z: one },
             length: F::<S>::splat(simd, 0.0),
             level: 1,
@@ -257,11 +261,9 @@ fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>
     }
     let TraceContext { world, bounds, visible, .. } = *context;
     let Node { ray, active, .. } = node;
-    if node.level == 1 {
-        return nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
-    }
-    let shaft = Shaft::new(extent(simd, ray.origin, *active), extent(simd, ray.direction, *active), FAR);
-    nearest(simd, world, bounds, &bounds.all, Some(&shaft), ray, *active, far, Search::Nearest)
+    let list = if node.level == 1 { visible } else { &bounds.all };
+    let shaft = Shaft::new(node.start, Extent::new(simd, ray.direction, *active));
+    nearest(simd, world, bounds, list, Some(&shaft), ray, *active, far, Search::Nearest)
 }
 
 impl<S: Simd> Hit<S> {
@@ -269,14 +271,15 @@ impl<S: Simd> Hit<S> {
     #[inline(always)]
     fn new(simd: S, context: &TraceContext, node: &Node<S>, object: U<S>, t: F<S>, lanes: M<S>) -> Hit<S> {
         let zero = F::<S>::splat(simd, 0.0);
-        let (t, point, surface) = resolve(simd, context.world, context.surfaces, &node.ray, object, t, lanes);
+        let (t, point, surface, leaves) = resolve(simd, context.world, context.surfaces, &node.ray, object, t, lanes);
         let facing = -node.ray.direction.dot(surface.normal);
         let inside = facing.simd_lt(zero);
         let cosine = facing.abs();
         let normal = V3::select(inside, -surface.normal, surface.normal);
         let glass = lanes & surface.numbers[IOR].simd_gt(zero);
         let mirror = surface.mirror(simd, cosine);
-        Hit { lanes, glass, object, length: node.length + t, point, surface, normal, cosine, inside, mirror }
+        let start = Start { origins: Extent::new(simd, point, lanes), leaves };
+        Hit { lanes, glass, object, start, length: node.length + t, point, surface, normal, cosine, inside, mirror }
     }
 }
 
@@ -301,8 +304,18 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         if !front.any_true() {
             continue;
         }
-        let seen =
-            visibility(simd, world, context.bounds, samples, source, point, Aim { direction, reach }, object, front);
+        let seen = visibility(
+            simd,
+            world,
+            context.bounds,
+            samples,
+            source,
+            hit.start,
+            point,
+            Aim { direction, reach },
+            object,
+            front,
+        );
         let lit = front & seen.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
@@ -348,7 +361,8 @@ fn spawn<S: Simd>(simd: S, min_weight: f32, node: &Node<S>, hit: &Hit<S>, stack:
         let (active, faint) = strength(simd, glass & passes, through, least);
         if (active | faint).any_true() {
             let ray = RayPacket { direction: refracted, inward: !inside, ..leaving };
-            stack.push(Node { active, faint, ray, weight: through, path: path * 2 + 1, ..child });
+            let start = hit.start.without(simd, active & !inside);
+            stack.push(Node { active, faint, ray, start, weight: through, path: path * 2 + 1, ..child });
         }
         reflected = V3::select(glass, weight * Lane(share), reflected);
         stays_inside = glass & inside;
@@ -358,7 +372,8 @@ fn spawn<S: Simd>(simd: S, min_weight: f32, node: &Node<S>, hit: &Hit<S>, stack:
         return None;
     }
     let ray = RayPacket { direction: mirrored, inward: stays_inside, ..leaving };
-    Some(Node { active, faint, ray, weight: reflected, path: path * 2, ..child })
+    let start = hit.start.without(simd, stays_inside);
+    Some(Node { active, faint, ray, start, weight: reflected, path: path * 2, ..child })
 }
 
 /// The `wanted` lanes whose weight is more than `least` and that are traced, and those that have less but some.

@@ -60,16 +60,14 @@ pub fn nearest<S: Simd>(
     let nowhere = U::<S>::splat(simd, NOWHERE);
     let (mut best, mut object) = (reach, nowhere);
     let ball = if shadow { Ball::Middle } else { Ball::Rough };
-    let leaves = leaves(simd, ray, active, shadow);
     #[cfg(count)]
     COUNTS[0].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     'words: for (word, &listed) in list.iter().enumerate() {
-        let mut bodies = match shaft {
-            Some(shaft) if listed != 0 => listed & shaft.meets(simd, bounds, word),
-            _ => listed,
-        };
-        if (leaves / WORD as u32) as usize == word {
-            bodies &= !(1 << (leaves % WORD as u32));
+        let mut bodies = listed;
+        if let Some(shaft) = shaft
+            && listed != 0
+        {
+            bodies &= shaft.meets(simd, bounds, word);
         }
         #[cfg(count)]
         {
@@ -115,13 +113,3 @@ pub fn nearest<S: Simd>(
 
 #[cfg(count)]
 pub static COUNTS: [std::sync::atomic::AtomicU64; 16] = [const { std::sync::atomic::AtomicU64::new(0) }; 16];
-
-/// The body that no active ray can meet because all leave it, or [`NOWHERE`].
-#[inline(always)]
-fn leaves<S: Simd>(simd: S, ray: &RayPacket<S>, active: M<S>, shadow: bool) -> u32 {
-    let from = ray.from[active.to_bitmask().trailing_zeros() as usize & (F::<S>::LEN - 1)];
-    let other = !ray.from.simd_eq(U::<S>::splat(simd, from));
-    // Inwards the far side of the body counts.
-    let may = if shadow { other } else { other | ray.inward };
-    if (active & may).any_true() { NOWHERE } else { from }
-}
