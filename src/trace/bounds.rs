@@ -13,9 +13,9 @@
 use super::ray::NOWHERE;
 use super::shape::{FAR, Shape};
 use super::world::World;
-use crate::simd::block::{BLOCK, Block3, load};
-use crate::simd::lanes::{F, M, V3};
-use fearless_simd::prelude::*;
+use crate::simd::block::{BLOCK, load};
+use crate::simd::lanes::{Bits, F, M, V3};
+use fearless_simd::{f32x8, prelude::*};
 use glam::Vec3;
 
 /// By how much boxes (as a share of their size and their distance from the origin) and directions are taken larger than
@@ -25,11 +25,12 @@ const SLACK: f32 = 1e-5;
 /// Bodies of a word.
 pub const WORD: usize = BLOCK;
 
-/// Boxes around as many bodies as a word has bits: least and largest coordinates.
-struct Boxes {
-    low: Block3,
-    high: Block3,
-}
+/// Boxes around as many bodies as a word has bits: their least x, y and z, and their largest. The last two rows are not
+/// used.
+type Boxes = [[f32; BLOCK]; SIDES];
+
+/// The sides of a box, in a number of which vectors can be made.
+const SIDES: usize = 8;
 
 /// Boxes around the bodies of a world.
 pub struct Bounds {
@@ -45,13 +46,13 @@ impl Bounds {
     pub fn new(world: &World) -> Bounds {
         let mut bounds = Bounds { boxes: Vec::new(), all: Vec::new(), casters: Vec::new() };
         for bodies in world.objects.chunks(WORD) {
-            let mut boxes = Boxes { low: [[0.0; BLOCK]; 3], high: [[0.0; BLOCK]; 3] };
+            let mut boxes = [[0.0; BLOCK]; SIDES];
             let mut casters = 0;
             for (bit, body) in bodies.iter().enumerate() {
                 let (low, high) = around(&body.shape);
                 for axis in 0..3 {
-                    boxes.low[axis][bit] = low[axis];
-                    boxes.high[axis][bit] = high[axis];
+                    boxes[axis][bit] = low[axis];
+                    boxes[3 + axis][bit] = high[axis];
                 }
                 casters |= (body.casts_shadow as u64) << bit;
             }
@@ -135,20 +136,15 @@ impl Start {
     }
 }
 
-/// One of the six conditions under which the box of all rays at a distance overlaps that of a body:
-/// `(side - edge) * inverse` is a bound of that distance.
-#[derive(Clone, Copy)]
-struct Condition {
-    edge: f32,
-    inverse: f32,
-    /// Positive infinity if it is a lower bound, negative infinity if it is an upper one.
-    lower: f32,
-}
-
 /// All places where the rays of a packet may be.
+///
+/// Its box at a distance overlaps that of a body under six conditions, one for each side of the latter:
+/// `(side - edge) * inverse` is a bound of that distance.
 pub struct Shaft {
-    /// For each axis the condition on the low side of a box, and on the high one.
-    conditions: [[Condition; 2]; 3],
+    edge: [f32; SIDES],
+    inverse: [f32; SIDES],
+    /// The bits of the sides that give a lower bound; the others give an upper one.
+    lower: u64,
     reach: f32,
     leaves: u32,
 }
@@ -156,74 +152,71 @@ pub struct Shaft {
 impl Shaft {
     /// The shaft of rays whose unit directions lie in a box.
     #[inline(always)]
-    pub fn new(start: Start, directions: Extent) -> Shaft {
-        Shaft::between(start, directions.low - SLACK, directions.high + SLACK, FAR)
+    pub fn new<S: Simd>(simd: S, start: Start, directions: Extent) -> Shaft {
+        Shaft::between(simd, start, directions.low - SLACK, directions.high + SLACK, FAR)
     }
 
     /// The shaft of rays that end at one point.
     #[inline(always)]
-    pub fn to(start: Start, target: Vec3) -> Shaft {
+    pub fn to<S: Simd>(simd: S, start: Start, target: Vec3) -> Shaft {
         // With its own length for the unit, each of them is there at 1.
         let origins = start.origins;
         let (low, high) = (target - origins.low, target - origins.high);
         let slack = SLACK * low.abs().max(high.abs()).max_element();
-        Shaft::between(start, low - slack, high + slack, 1.0)
+        Shaft::between(simd, start, low - slack, high + slack, 1.0)
     }
 
     /// At the distance t the rays are between `origins.low + low t` and `origins.high + high t`.
     #[inline(always)]
-    fn between(start: Start, low: Vec3, high: Vec3, reach: f32) -> Shaft {
+    fn between<S: Simd>(simd: S, start: Start, low: Vec3, high: Vec3, reach: f32) -> Shaft {
         let Start { origins, leaves } = start;
-        let mut conditions = [[Condition { edge: 0.0, inverse: 0.0, lower: 0.0 }; 2]; 3];
-        let mut axis = 0;
-        while axis < 3 {
-            conditions[axis] =
-                [condition(origins.high[axis], high[axis], 1.0), condition(origins.low[axis], low[axis], -1.0)];
-            axis += 1;
-        }
-        Shaft { conditions, reach, leaves }
+        // The high end of the rays meets a box's low side, and the other way round.
+        let edge =
+            [origins.high.x, origins.high.y, origins.high.z, origins.low.x, origins.low.y, origins.low.z, 0.0, 0.0];
+        let speed = f32x8::from_slice(simd, &[high.x, high.y, high.z, low.x, low.y, low.z, 1.0, 1.0]);
+        // Never 0, so that 0 times infinity never forms.
+        let speed = speed.abs().max(f32x8::splat(simd, 1e-20)).copysign(speed);
+        let mut inverse = [0.0; SIDES];
+        (f32x8::splat(simd, 1.0) / speed).store_slice(&mut inverse);
+        let lower = (speed.simd_gt(f32x8::splat(simd, 0.0)).to_bitmask() ^ 0b111_000) & 0b111_111;
+        Shaft { edge, inverse, lower, reach, leaves }
     }
 
     /// The bits of the bodies of a word that a ray may meet; bits beyond the last body mean nothing.
     #[inline(always)]
     pub fn meets<S: Simd>(&self, simd: S, bounds: &Bounds, word: usize) -> u64 {
-        let Boxes { low, high } = &bounds.boxes[word];
+        let boxes = &bounds.boxes[word];
         let count = WORD - bounds.all[word].leading_zeros() as usize;
         let mut bits = 0;
         let mut i = 0;
+        // Two vectors at a time, so that what a condition needs is loaded once for both.
         while i * F::<S>::LEN < count {
-            let mut from = F::<S>::splat(simd, 0.0);
-            let mut to = F::<S>::splat(simd, self.reach);
-            let mut axis = 0;
-            while axis < 3 {
-                let [on_low, on_high] = self.conditions[axis];
-                narrow(simd, on_low, load(simd, &low[axis], i), &mut from, &mut to);
-                narrow(simd, on_high, load(simd, &high[axis], i), &mut from, &mut to);
-                axis += 1;
+            let mut from = [F::<S>::splat(simd, 0.0); 2];
+            let mut to = [F::<S>::splat(simd, self.reach); 2];
+            for side in Bits(self.lower) {
+                let bound = self.bound(simd, &boxes[side & (SIDES - 1)], side, i);
+                from = [from[0].max(bound[0]), from[1].max(bound[1])];
             }
-            bits |= from.simd_le(to).to_bitmask() << (i * F::<S>::LEN);
-            i += 1;
+            for side in Bits(self.lower ^ 0b111_111) {
+                let bound = self.bound(simd, &boxes[side & (SIDES - 1)], side, i);
+                to = [to[0].min(bound[0]), to[1].min(bound[1])];
+            }
+            let pair = from[0].simd_le(to[0]).to_bitmask() | from[1].simd_le(to[1]).to_bitmask() << F::<S>::LEN;
+            bits |= pair << (i * F::<S>::LEN);
+            i += 2;
         }
         if self.leaves as usize / WORD == word {
             bits &= !(1 << (self.leaves as usize % WORD));
         }
         bits
     }
-}
 
-/// The condition that `speed * t` comes from `edge` to a side of a box, from below for a `sign` of 1, from above for -1.
-#[inline(always)]
-fn condition(edge: f32, speed: f32, sign: f32) -> Condition {
-    // Never 0, so that 0 times infinity never forms.
-    let speed = speed.abs().max(1e-20).copysign(speed);
-    Condition { edge, inverse: 1.0 / speed, lower: f32::INFINITY.copysign(speed * sign) }
-}
-
-/// Narrows the distances `from` to `to` at which boxes overlap by a condition on one of their sides.
-#[inline(always)]
-fn narrow<S: Simd>(simd: S, condition: Condition, side: F<S>, from: &mut F<S>, to: &mut F<S>) {
-    let Condition { edge, inverse, lower } = condition;
-    let bound = (side - F::<S>::splat(simd, edge)) * inverse;
-    *from = from.max(bound.min(F::<S>::splat(simd, lower)));
-    *to = to.min(bound.max(F::<S>::splat(simd, lower)));
+    /// The bounds of the distance that one side of two vectors of boxes gives.
+    #[inline(always)]
+    fn bound<S: Simd>(&self, simd: S, row: &[f32; BLOCK], side: usize, i: usize) -> [F<S>; 2] {
+        let edge = F::<S>::splat(simd, self.edge[side & (SIDES - 1)]);
+        let inverse = F::<S>::splat(simd, self.inverse[side & (SIDES - 1)]);
+        let (first, second): (F<S>, F<S>) = (load(simd, row, i), load(simd, row, i + 1));
+        [(first - edge) * inverse, (second - edge) * inverse]
+    }
 }

@@ -173,7 +173,7 @@ fn landing<S: Simd>(
     let inward = M::<S>::splat(simd, false);
     let (start, along) = (V3::splat(simd, origin), V3::splat(simd, direction));
     let ray = RayPacket { origin: start, direction: along, from: U::<S>::splat(simd, from), inward };
-    let shaft = Shaft::new(Start { origins: Extent::point(origin), leaves: from }, Extent::point(direction));
+    let shaft = Shaft::new(simd, Start { origins: Extent::point(origin), leaves: from }, Extent::point(direction));
     let far = F::<S>::splat(simd, FAR);
     let (object, t) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;

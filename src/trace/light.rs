@@ -78,9 +78,9 @@ pub fn visibility<S: Simd>(
         // A lit point of a convex body is never in that body's own shadow.
         let ray = RayPacket { origin: point, direction, from, inward: M::<S>::splat(simd, false) };
         let shaft = match light.emitter {
-            Emitter::Point(position) if !soft => Shaft::to(start, position),
-            Emitter::Directional(towards) if !soft => Shaft::new(start, Extent::point(towards)),
-            _ => Shaft::new(start, Extent::new(simd, direction, wanted)),
+            Emitter::Point(position) if !soft => Shaft::to(simd, start, position),
+            Emitter::Directional(towards) if !soft => Shaft::new(simd, start, Extent::point(towards)),
+            _ => Shaft::new(simd, start, Extent::new(simd, direction, wanted)),
         };
         let (object, _) =
             nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);

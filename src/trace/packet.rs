@@ -124,6 +124,9 @@ const LIT: u32 = 1;
 const HIGHLIT: u32 = 2;
 const PARTLY_LIT: u32 = 3;
 
+/// Bodies of which all are tested, since finding those that matter takes as long.
+const FEW: u32 = 5;
+
 /// Most lanes of any SIMD level.
 const MOST_LANES: usize = 16;
 
@@ -261,8 +264,11 @@ fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>
     }
     let TraceContext { world, bounds, visible, .. } = *context;
     let Node { ray, active, .. } = node;
+    if node.level == 1 && visible.iter().map(|word| word.count_ones()).sum::<u32>() <= FEW {
+        return nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
+    }
     let list = if node.level == 1 { visible } else { &bounds.all };
-    let shaft = Shaft::new(node.start, Extent::new(simd, ray.direction, *active));
+    let shaft = Shaft::new(simd, node.start, Extent::new(simd, ray.direction, *active));
     nearest(simd, world, bounds, list, Some(&shaft), ray, *active, far, Search::Nearest)
 }
 
@@ -319,7 +325,9 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         let lit = front & seen.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
-        let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
+        // Beyond e^-24 nothing is seen of a highlight, and its power need not be known: g^n <= e^(n (g - 1)).
+        let near = ((one - glint) * hit.surface.numbers[EXPONENT]).simd_lt(F::<S>::splat(simd, 24.0));
+        let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero) & near;
         let mut shine = zero;
         if shiny.any_true() {
             let power = math::exp2(simd, math::log2(simd, glint) * hit.surface.numbers[EXPONENT]);
