@@ -16,7 +16,7 @@
 //! thresholds of [`Limits`] and the points on soft lights; [`super::reference`] is the recursion without any.
 
 use super::bounds::{Bounds, Extent, Shaft, Start};
-use super::light::{Aim, aim, background, visibility};
+use super::light::{Aim, aim, background, noticeable, visibility};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
 use super::shape::FAR;
@@ -189,7 +189,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
         let lanes = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
         let missed = (active & !lanes) | node.faint;
         if missed.any_true() {
-            let behind = background(simd, &world.background, node.ray.direction);
+            let behind = background(simd, &world.background, node.ray.direction, missed);
             light = light + behind.mulv(weight).masked(simd, missed);
         }
         let mut states = U::<S>::splat(simd, UNLIT);
@@ -325,8 +325,7 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         let lit = front & seen.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
-        // Beyond e^-24 nothing is seen of a highlight, and its power need not be known: g^n <= e^(n (g - 1)).
-        let near = ((one - glint) * hit.surface.numbers[EXPONENT]).simd_lt(F::<S>::splat(simd, 24.0));
+        let near = noticeable(simd, glint, hit.surface.numbers[EXPONENT]);
         let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero) & near;
         let mut shine = zero;
         if shiny.any_true() {
