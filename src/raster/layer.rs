@@ -178,12 +178,10 @@ impl Layer for RasterLayer {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let spare = self.memory.as_ref().and_then(|memory| memory.lock().spare.pop());
-        let mut scratch = spare.unwrap_or_else(Scratch::new);
+        let memory = self.memory.as_ref().expect("a layer that is prepared");
+        let mut scratch = memory.lock().spare.pop().unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
-        if let Some(memory) = &self.memory {
-            memory.lock().spare.push(scratch);
-        }
+        memory.lock().spare.push(scratch);
         Stats { samples }
     }
 }
