@@ -46,7 +46,7 @@ impl TraceLayer {
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
-        let TraceSettings { min_weight, min_detail, light_samples, .. } = *settings;
+        let TraceSettings { min_weight, min_detail, light_samples, .. } = settings.built();
         let limits = Limits { min_weight: min_weight / brightest, min_detail: min_detail / brightest, light_samples };
         TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory: None }
     }
