@@ -82,7 +82,7 @@ impl Shape {
         match *self {
             Shape::Sphere { center, radius } => (center, radius),
             Shape::Block { center, half, .. } => (center, half.length()),
-            Shape::Cylinder { center, half, radius, .. } => (center, half.hypot(radius)),
+            Shape::Cylinder { center, half, radius, .. } => (center, (half * half + radius * radius).sqrt()),
             Shape::Plane { .. } => (Vec3::ZERO, f32::INFINITY),
             #[cfg(feature = "full")]
             Shape::Globe { .. } => (Vec3::ZERO, f32::INFINITY),
