@@ -44,6 +44,9 @@ pub const SOFT_LIGHTS: bool = FULL;
 /// Whether pictures can be encoded by another curve than sRGB's.
 pub const TRANSFERS: bool = FULL;
 
+/// Whether the ray tracer groups bodies, which pays from a hundred on. The show has some tens.
+pub const MANY_BODIES: bool = FULL;
+
 /// Whether textures can be checkers: the show has none.
 pub const CHECKER: bool = FULL;
 

@@ -13,6 +13,7 @@
 use super::ray::NOWHERE;
 use super::shape::{FAR, Shape};
 use super::world::World;
+use crate::cuts;
 use crate::simd::block::{BLOCK, load};
 use crate::simd::lanes::{Bits, F, M, V3};
 use fearless_simd::{f32x8, prelude::*};
@@ -32,10 +33,17 @@ type Boxes = [[f32; BLOCK]; SIDES];
 /// The sides of a box, in a number of which vectors can be made.
 const SIDES: usize = 8;
 
-/// Boxes around the bodies of a world.
+/// Boxes around the bodies of a world, 64 to a word.
+///
+/// In worlds of more bodies than a word holds, those of a word are neighbours, and the word has a box of its own. So the
+/// bodies that a packet may meet are found among 10,000 in the time of some tens of tests.
 pub struct Bounds {
     boxes: Vec<Boxes>,
-    /// A bit for every body, 64 to a word.
+    /// Boxes around words, 64 to a row.
+    words: Vec<Boxes>,
+    /// The index of every body, in the order of their bits. Empty if that is the order of the bodies themselves.
+    order: Vec<u32>,
+    /// A bit for every body.
     pub all: Vec<u64>,
     /// The bits of bodies that cast shadows.
     pub casters: Vec<u64>,
@@ -44,28 +52,109 @@ pub struct Bounds {
 impl Bounds {
     /// The boxes around the bodies of a world.
     pub fn new(world: &World) -> Bounds {
-        let mut bounds = Bounds { boxes: Vec::new(), all: Vec::new(), casters: Vec::new() };
-        for bodies in world.objects.chunks(WORD) {
+        let extents: Vec<Extent> = world.objects.iter().map(|body| around(&body.shape)).collect();
+        let mut order = Vec::new();
+        if cuts::MANY_BODIES && extents.len() > WORD {
+            order = (0..extents.len() as u32).collect();
+            gather(&extents, &mut order);
+        }
+        let mut bounds = Bounds { boxes: Vec::new(), words: Vec::new(), order, all: Vec::new(), casters: Vec::new() };
+        let mut first = 0;
+        while first < extents.len() {
             let mut boxes = [[0.0; BLOCK]; SIDES];
-            let mut casters = 0;
-            for (bit, body) in bodies.iter().enumerate() {
-                let (low, high) = around(&body.shape);
-                for axis in 0..3 {
-                    boxes[axis][bit] = low[axis];
-                    boxes[3 + axis][bit] = high[axis];
+            let (mut all, mut casters) = (0, 0);
+            let mut whole = Extent { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+            for bit in 0..WORD.min(extents.len() - first) {
+                let index = bounds.index(first + bit);
+                let extent = extents[index];
+                put(&mut boxes, bit, extent);
+                whole = Extent { low: whole.low.min(extent.low), high: whole.high.max(extent.high) };
+                all |= 1 << bit;
+                casters |= (world.objects[index].casts_shadow as u64) << bit;
+            }
+            if cuts::MANY_BODIES {
+                let word = bounds.all.len();
+                if word.is_multiple_of(WORD) {
+                    bounds.words.push([[0.0; BLOCK]; SIDES]);
                 }
-                casters |= (body.casts_shadow as u64) << bit;
+                put(&mut bounds.words[word / WORD], word % WORD, whole);
             }
             bounds.boxes.push(boxes);
-            bounds.all.push(u64::MAX >> (WORD - bodies.len()));
+            bounds.all.push(all);
             bounds.casters.push(casters);
+            first += WORD;
         }
         bounds
     }
+
+    /// The index of the body of a bit, which is counted from the first word's first.
+    #[inline(always)]
+    pub fn index(&self, bit: usize) -> usize {
+        if cuts::MANY_BODIES && !self.order.is_empty() { self.order[bit] as usize } else { bit }
+    }
+
+    /// Centre and radius of a ball around the bodies of a word.
+    pub fn around(&self, word: usize) -> (Vec3, f32) {
+        let (row, bit) = (&self.words[word / WORD], word % WORD);
+        let low = Vec3::new(row[0][bit], row[1][bit], row[2][bit]);
+        let high = Vec3::new(row[3][bit], row[4][bit], row[5][bit]);
+        let radius = 0.5 * low.distance(high);
+        if radius.is_finite() { (0.5 * (low + high), radius) } else { (Vec3::ZERO, f32::INFINITY) }
+    }
+
+    /// The bits of the words, of which 64 make a row, that hold bodies which a ray of a shaft may meet.
+    #[inline(always)]
+    pub fn words<S: Simd>(&self, simd: S, shaft: &Shaft, row: usize) -> u64 {
+        let count = WORD.min(self.all.len() - row * WORD);
+        if cuts::MANY_BODIES && count > 1 {
+            shaft.meets(simd, &self.words[row], count) & u64::MAX >> (WORD - count)
+        } else {
+            u64::MAX >> (WORD - count)
+        }
+    }
+
+    /// The bits of the bodies of a word that a ray of a shaft may meet; bits beyond the last body mean nothing.
+    #[inline(always)]
+    pub fn bodies<S: Simd>(&self, simd: S, shaft: &Shaft, word: usize) -> u64 {
+        shaft.meets(simd, &self.boxes[word], WORD - self.all[word].leading_zeros() as usize)
+    }
 }
 
-/// The box around a body, a little larger: least and largest coordinates. It has no end where the body has none.
-fn around(shape: &Shape) -> (Vec3, Vec3) {
+/// Writes a box into a row of boxes.
+fn put(boxes: &mut Boxes, bit: usize, Extent { low, high }: Extent) {
+    for axis in 0..3 {
+        boxes[axis][bit] = low[axis];
+        boxes[3 + axis][bit] = high[axis];
+    }
+}
+
+/// Orders bodies so that those of a word are neighbours: halves them across their longest side, down to words.
+fn gather(extents: &[Extent], order: &mut [u32]) {
+    if order.len() <= WORD {
+        return;
+    }
+    // Bodies without end are where the origin is.
+    let middle = |&index: &u32| {
+        let Extent { low, high } = extents[index as usize];
+        let middle = 0.5 * (low + high);
+        if middle.is_finite() { middle } else { Vec3::ZERO }
+    };
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for index in &*order {
+        low = low.min(middle(index));
+        high = high.max(middle(index));
+    }
+    let axis = (high - low).max_position();
+    // Whole words to the left, so that none but the last is partly filled.
+    let half = order.len().div_ceil(2).next_multiple_of(WORD).min(order.len() - 1);
+    order.select_nth_unstable_by(half, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]).then(a.cmp(b)));
+    let (left, right) = order.split_at_mut(half);
+    gather(extents, left);
+    gather(extents, right);
+}
+
+/// The box around a body, a little larger. It has no end where the body has none.
+fn around(shape: &Shape) -> Extent {
     let (center, half) = match *shape {
         Shape::Sphere { center, radius } => (center, Vec3::splat(radius)),
         Shape::Block { center, half, turn } => {
@@ -83,13 +172,13 @@ fn around(shape: &Shape) -> (Vec3, Vec3) {
             if normal == Vec3::Y {
                 high.y = offset + offset.abs() * SLACK;
             }
-            return (Vec3::NEG_INFINITY, high);
+            return Extent { low: Vec3::NEG_INFINITY, high };
         }
         #[cfg(feature = "full")]
-        Shape::Globe { .. } => return (Vec3::NEG_INFINITY, Vec3::INFINITY),
+        Shape::Globe { .. } => return Extent { low: Vec3::NEG_INFINITY, high: Vec3::INFINITY },
     };
     let half = half + (half.max_element() + center.abs().max_element()) * SLACK;
-    (center - half, center + half)
+    Extent { low: center - half, high: center + half }
 }
 
 /// A box: least and largest coordinates.
@@ -146,7 +235,8 @@ pub struct Shaft {
     /// The bits of the sides that give a lower bound; the others give an upper one.
     lower: u64,
     reach: f32,
-    leaves: u32,
+    /// The body that no ray meets, because all of them leave it outwards; or [`NOWHERE`].
+    pub leaves: u32,
 }
 
 impl Shaft {
@@ -182,11 +272,9 @@ impl Shaft {
         Shaft { edge, inverse, lower, reach, leaves }
     }
 
-    /// The bits of the bodies of a word that a ray may meet; bits beyond the last body mean nothing.
+    /// The bits of the first `count` boxes that a ray may meet; bits beyond mean nothing.
     #[inline(always)]
-    pub fn meets<S: Simd>(&self, simd: S, bounds: &Bounds, word: usize) -> u64 {
-        let boxes = &bounds.boxes[word];
-        let count = WORD - bounds.all[word].leading_zeros() as usize;
+    fn meets<S: Simd>(&self, simd: S, boxes: &Boxes, count: usize) -> u64 {
         let mut bits = 0;
         let mut i = 0;
         // Two vectors at a time, so that what a condition needs is loaded once for both.
@@ -204,9 +292,6 @@ impl Shaft {
             let pair = from[0].simd_le(to[0]).to_bitmask() | from[1].simd_le(to[1]).to_bitmask() << F::<S>::LEN;
             bits |= pair << (i * F::<S>::LEN);
             i += 2;
-        }
-        if self.leaves as usize / WORD == word {
-            bits &= !(1 << (self.leaves as usize % WORD));
         }
         bits
     }

@@ -8,12 +8,14 @@
 //! Images in round mirrors, and the highlights on round and flat bodies, which are images of the lights, are only made
 //! sure to be met by a sample, with squares of half their radius; from there their edges are followed.
 //!
-//! Not guarded are images in the sides of blocks and cylinders, and images of images.
+//! Not guarded are images in the sides of blocks and cylinders, images of images, and in worlds of more than 64 bodies
+//! images in round mirrors, of which there are as many as pairs.
 
-use super::bounds::{Bounds, Extent, Shaft, Start};
+use super::bounds::{Bounds, Extent, Shaft, Start, WORD};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::{FAR, Shape};
-use super::world::{Emitter, Light, Object, World};
+use super::world::{Emitter, Light, Material, Object, World};
+use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::level;
 use crate::view::View;
@@ -51,13 +53,23 @@ impl Guard {
         let (columns, rows) = (view.width().div_ceil(BLOCK), view.height().div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
         let eye = view.camera().eye;
+        let many = cuts::MANY_BODIES && world.objects.len() > WORD;
+        let mut mirrors = Vec::new();
+        for (index, body) in world.objects.iter().enumerate() {
+            let flat = matches!(body.shape, Shape::Plane { .. });
+            // Not every ball in every ball where there are many.
+            if mirrors_light(&body.material) && (flat || !many) {
+                mirrors.push(index);
+            }
+        }
         for (index, body) in world.objects.iter().filter(|_| !cfg!(without = "guard")).enumerate() {
             for light in &world.lights {
                 guard.highlight(view, body, position(light, eye));
             }
             for (center, radius) in (0..).map_while(|n| ball(&body.shape, n)) {
                 guard.protect(view, center, radius, Rim::Exact);
-                for (other, mirror) in world.objects.iter().enumerate() {
+                for &other in &mirrors {
+                    let mirror = &world.objects[other];
                     if other != index
                         && let Some((image, radius)) = reflected(eye, mirror, center, radius)
                     {
@@ -253,13 +265,14 @@ fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
     }
 }
 
+/// Whether anything is seen in a body of the material.
+fn mirrors_light(material: &Material) -> bool {
+    material.reflectance.max_element() != 0.0 || material.fresnel != 0.0 || material.is_glass()
+}
+
 /// The image of a ball in a mirror: a point that is seen in the same direction, and the radius that it appears to have
-/// there; none where the body does not mirror.
+/// there; none where its shape makes none that is simple.
 fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(Vec3, f32)> {
-    let material = &mirror.material;
-    if material.reflectance.max_element() == 0.0 && material.fresnel == 0.0 && !material.is_glass() {
-        return None;
-    }
     match mirror.shape {
         Shape::Plane { normal, offset } if normal.dot(eye) > offset => {
             Some((center - normal * (2.0 * (normal.dot(center) - offset)), radius))

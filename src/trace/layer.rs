@@ -7,13 +7,16 @@ use super::job::Job;
 use super::packet::{Limits, TraceContext};
 use super::surface::{self, SurfaceNumbers};
 use super::world::World;
+use crate::cuts;
 use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::TraceSettings;
+use crate::simd::lanes::Bits;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
+use glam::Vec3;
 
 /// A world as a view shows it. The layer fills every pixel and writes inverse depth and coverage, so it comes first.
 pub struct TraceLayer {
@@ -59,11 +62,14 @@ impl TraceLayer {
         // Corners of the grid reach one pixel beyond the tile.
         let cone = Cone::new(&self.view, (x + half, y + half), half + 1.0);
         visible.clear();
-        for bodies in self.world.objects.chunks(WORD) {
+        for (word, &all) in self.bounds.all.iter().enumerate() {
             let mut bits = 0;
-            for (bit, body) in bodies.iter().enumerate() {
-                let (center, radius) = body.shape.bound();
-                bits |= (cone.may_meet(center - eye, radius) as u64) << bit;
+            let meets = |(center, radius): (Vec3, f32)| cone.may_meet(center - eye, radius);
+            if !cuts::MANY_BODIES || self.bounds.all.len() == 1 || meets(self.bounds.around(word)) {
+                for bit in Bits(all) {
+                    let body = &self.world.objects[self.bounds.index(word * WORD + bit)];
+                    bits |= (meets(body.shape.bound()) as u64) << bit;
+                }
             }
             visible.push(bits);
         }
@@ -100,22 +106,5 @@ impl Layer for TraceLayer {
         let mut scratch = Scratch::default();
         self.draw_in(level, tile, &mut scratch);
         scratch.positions().collect()
-    }
-}
-
-#[cfg(count)]
-impl Drop for TraceLayer {
-    fn drop(&mut self) {
-        let n: Vec<f64> =
-            super::ray::COUNTS.iter().map(|c| c.load(std::sync::atomic::Ordering::Relaxed) as f64).collect();
-        for (k, name) in [(1, "shadow"), (2, "secondary"), (3, "eye")] {
-            let c = n[3 * k];
-            eprintln!(
-                "{name}: {c} packets, {:.2} of {:.2} bodies, {:.2} lanes",
-                n[3 * k + 1] / c,
-                n[3 * k + 2] / c,
-                n[12 + k] / c
-            );
-        }
     }
 }

@@ -6,7 +6,7 @@
 use super::bounds::{Bounds, Shaft, WORD};
 use super::shape::Ball;
 use super::world::World;
-use crate::simd::lanes::{F, M, U, V3};
+use crate::simd::lanes::{Bits, F, M, U, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
@@ -37,7 +37,7 @@ pub enum Search {
 }
 
 /// For every lane the nearest of the bodies whose bits are set in `list`, or [`NOWHERE`], and its distance but for a few
-/// ulps. Of several at the same distance it is the first.
+/// ulps. Of several at the same distance it is the first by bit.
 ///
 /// Only surfaces at distances above 0 and below `reach` count, both ends excluded. A ray that only touches a round body
 /// misses it. Lanes that are not `active`, and rays with a NaN, have unspecified results. If there is a shaft, all active
@@ -60,56 +60,48 @@ pub fn nearest<S: Simd>(
     let nowhere = U::<S>::splat(simd, NOWHERE);
     let (mut best, mut object) = (reach, nowhere);
     let ball = if shadow { Ball::Middle } else { Ball::Rough };
-    #[cfg(count)]
-    COUNTS[0].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-    'words: for (word, &listed) in list.iter().enumerate() {
-        let mut bodies = listed;
-        if let Some(shaft) = shaft
-            && listed != 0
-        {
-            bodies &= shaft.meets(simd, bounds, word);
-        }
-        #[cfg(count)]
-        {
-            use std::sync::atomic::Ordering::Relaxed;
-            let k = if shadow {
-                1
-            } else if shaft.is_some() {
-                2
-            } else {
-                3
-            };
-            COUNTS[k * 3].fetch_add(1, Relaxed);
-            COUNTS[k * 3 + 1].fetch_add(bodies.count_ones() as u64, Relaxed);
-            COUNTS[k * 3 + 2].fetch_add(listed.count_ones() as u64, Relaxed);
-            COUNTS[12 + k].fetch_add(active.to_bitmask().count_ones() as u64, Relaxed);
-        }
-        while bodies != 0 {
-            let index = (word * WORD) as u32 + bodies.trailing_zeros();
-            bodies &= bodies - 1;
-            let body = &world.objects[index as usize];
-            let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
-            if !(hit & active).any_true() {
-                continue;
+    let leaves = shaft.map_or(NOWHERE, |shaft| shaft.leaves);
+    let mut row = 0;
+    'rows: while row * WORD < list.len() {
+        let words = match shaft {
+            Some(shaft) => bounds.words(simd, shaft, row),
+            None => u64::MAX >> (WORD - WORD.min(list.len() - row * WORD)),
+        };
+        for word in Bits(words) {
+            let word = row * WORD + word;
+            let mut bodies = list[word];
+            if let Some(shaft) = shaft
+                && bodies != 0
+            {
+                bodies &= bounds.bodies(simd, shaft, word);
             }
-            let id = U::<S>::splat(simd, index);
-            let other = !ray.from.simd_eq(id);
-            if shadow {
-                object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
-                if !(active & object.simd_eq(nowhere)).any_true() {
-                    break 'words;
+            for bit in Bits(bodies) {
+                let index = bounds.index(word * WORD + bit) as u32;
+                if index == leaves {
+                    continue;
                 }
-            } else {
-                // Outwards the body that the ray leaves does not count; inwards only its far side does.
-                let t = (t0.simd_gt(zero) & other).select(t0, t1);
-                let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
-                best = meets.select(t, best);
-                object = meets.select(id, object);
+                let body = &world.objects[index as usize];
+                let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
+                if !(hit & active).any_true() {
+                    continue;
+                }
+                let id = U::<S>::splat(simd, index);
+                let other = !ray.from.simd_eq(id);
+                if shadow {
+                    object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+                    if !(active & object.simd_eq(nowhere)).any_true() {
+                        break 'rows;
+                    }
+                } else {
+                    // Outwards the body that the ray leaves does not count; inwards only its far side does.
+                    let t = (t0.simd_gt(zero) & other).select(t0, t1);
+                    let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+                    best = meets.select(t, best);
+                    object = meets.select(id, object);
+                }
             }
         }
+        row += 1;
     }
     (object, best)
 }
-
-#[cfg(count)]
-pub static COUNTS: [std::sync::atomic::AtomicU64; 16] = [const { std::sync::atomic::AtomicU64::new(0) }; 16];
