@@ -47,6 +47,9 @@ pub const TRANSFERS: bool = FULL;
 /// Whether the ray tracer groups bodies, which pays from a hundred on. The show has some tens.
 pub const MANY_BODIES: bool = FULL;
 
+/// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.
+pub const ASKEW: bool = FULL;
+
 /// Whether textures can be checkers: the show has none.
 pub const CHECKER: bool = FULL;
 

@@ -94,10 +94,12 @@ impl Layer for TraceLayer {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let memory = self.memory.as_ref().expect("a layer that is prepared");
-        let mut scratch = memory.lock().0.pop().unwrap_or_default();
+        // A layer that was not prepared draws too, with memory of its own.
+        let mut scratch = self.memory.as_ref().and_then(|memory| memory.lock().0.pop()).unwrap_or_default();
         let samples = self.draw_in(level, tile, &mut scratch);
-        memory.lock().0.push(scratch);
+        if let Some(memory) = &self.memory {
+            memory.lock().0.push(scratch);
+        }
         Stats { samples }
     }
 
