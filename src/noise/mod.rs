@@ -14,6 +14,8 @@
 //! - `octaves`: picks the kernel of a SIMD level, and sums octaves, which may fade with the size of a pixel.
 
 #[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
 mod avx512;
 mod curve;
 mod octaves;

@@ -5,7 +5,7 @@
 //! cells, by `1 / (1 + 0.3 L^2)`. That is a fit to its best linear predictor, within 0.04 of what was measured.
 
 #[cfg(target_arch = "x86_64")]
-use super::avx512;
+use super::{avx2, avx512};
 use super::wide;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::level::best;
@@ -37,7 +37,7 @@ pub fn noise_block<S: Simd>(
         #[cfg(target_arch = "x86_64")]
         Level::Avx512(simd) => avx512::noise64(simd, [x, y, z], zoom, out),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(simd) => wide::noise64_avx2(simd, [x, y, z], zoom, out),
+        Level::Avx2(simd) => avx2::noise64(simd, [x, y, z], zoom, out),
         _ => wide::noise64(simd, [x, y, z], zoom, out),
     }
 }

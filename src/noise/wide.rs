@@ -12,14 +12,10 @@
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
 use crate::simd::block::{BLOCK, load, store};
-#[cfg(target_arch = "x86_64")]
-use core::arch::x86_64::*;
 use fearless_simd::prelude::*;
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Avx2, f32x8, u32x8};
 
 /// The gradient of each entry of the permutation: its components, -1, 0 or 1, as signed fields of two bits, x lowest.
-static GRADIENTS: [u8; 257] = {
+pub static GRADIENTS: [u8; 257] = {
     // A component of 1 is 1, 4 or 16 in x, y or z, one of -1 is 3, 12 or 48. In the order of Perlin's `h & 15`.
     const CODES: [u8; 16] =
         [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
@@ -36,33 +32,9 @@ static GRADIENTS: [u8; 257] = {
 ///
 /// In 32 bits, since writing the byte of a register would make each lookup wait for the last.
 #[inline(always)]
-fn at(table: &[u8; 257], i: u32) -> u32 {
+pub fn at(table: &[u8; 257], i: u32) -> u32 {
     let i = i as usize & 255;
     u16::from_le_bytes([table[i], table[i + 1]]) as u32
-}
-
-#[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    /// The low two bits of each lane, as a number with a sign, by one permutation.
-    #[inline]
-    fn component_avx2(simd: Avx2, codes: u32x8<Avx2>) -> f32x8<Avx2> {
-        let values = _mm256_setr_ps(0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0);
-        _mm256_permutevar_ps(values, codes.into()).simd_into(simd)
-    }
-);
-
-/// Noise at 64 points times `zoom` at AVX2, which has a permutation for a gradient's components.
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-pub fn noise64_avx2(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
-    noise64_by(
-        simd,
-        points,
-        zoom,
-        out,
-        #[inline(always)]
-        |codes| component_avx2(simd, codes),
-    );
 }
 
 /// Noise at 64 points times `zoom`.
