@@ -17,7 +17,7 @@
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
 use super::wide::{GRADIENTS, at};
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, load, store, vectors};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx2, f32x8, i32x8, prelude::*, u32x8};
 
@@ -73,12 +73,13 @@ fearless_simd::kernel!(
     }
 );
 
-/// Noise at 64 points times `zoom`.
+/// Noise at the first `count` of 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
+pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
+    let vectors = vectors(count, LANES);
     let mut offsets = [[0.0; BLOCK]; 3];
     let mut cells = [0; BLOCK];
-    let starts = locate(simd, points, zoom, &mut offsets, &mut cells);
+    let starts = locate(simd, points, zoom, vectors, &mut offsets, &mut cells);
 
     let mut codes = [[0; BLOCK + LANES]; 2];
     let (mut todo, mut run) = (starts, 0);
@@ -92,7 +93,7 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32
     // The number of the run that the last point was in.
     let mut run = !0usize;
     let mut i = 0;
-    while i < BLOCK / LANES {
+    while i < vectors {
         let p = [load(simd, &offsets[0], i), load(simd, &offsets[1], i), load(simd, &offsets[2], i)];
         let begins = starts >> (i * LANES) & 255;
         run = run.wrapping_add(begins as usize & 1);
@@ -130,13 +131,14 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32
     }
 }
 
-/// The offsets of points times `zoom` in their cells, and the cells modulo 256: x, y and z in a byte each. Returns a bit
+/// The offsets of vectors of points times `zoom` in their cells, and the cells modulo 256: x, y and z in a byte each. Returns a bit
 /// for each point whose cell is not that of the point before it.
 #[inline(always)]
 fn locate(
     simd: Avx2,
     points: [&[f32; BLOCK]; 3],
     zoom: f32,
+    vectors: usize,
     offsets: &mut [[f32; BLOCK]; 3],
     cells: &mut [u32; BLOCK],
 ) -> u64 {
@@ -144,7 +146,7 @@ fn locate(
     // No cell: the first point begins a run.
     let mut last = Words::splat(simd, !0);
     let mut i = 0;
-    while i < BLOCK / LANES {
+    while i < vectors {
         let mut cell = Words::splat(simd, 0);
         let mut axis = 0;
         while axis < 3 {

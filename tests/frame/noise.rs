@@ -240,12 +240,12 @@ fn check_levels(points: &[Vec3; BLOCK]) {
     };
     for (name, level) in testkit::levels() {
         let mut out = [0.0; BLOCK];
-        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut out));
         same("noise", name, &out, &noise);
         for octaves in [0, 1, 5] {
-            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, None, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, BLOCK, None, &mut out));
             same("fbm", name, &out, &|p| fbm(p, octaves));
-            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, None, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, BLOCK, None, &mut out));
             same("turbulence", name, &out, &|p| turbulence(p, octaves));
         }
     }
