@@ -14,8 +14,8 @@ pub const SCENES: bool = FULL;
 /// Whether two eyes can be rendered side by side.
 pub const STEREO: bool = FULL;
 
-/// Whether a pixel can have a grid of samples.
-pub const REFERENCE: bool = FULL;
+/// Whether there are qualities beside fast and default, such as one that has a grid of samples per pixel.
+pub const QUALITIES: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;

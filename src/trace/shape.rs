@@ -4,7 +4,7 @@
 //! meets only its far side. The test against hitting oneself therefore compares identities and needs no epsilon; a
 //! constant epsilon fails on 3 to 36 % of secondary rays, depending on the scale of the scene.
 //!
-//! The same arithmetic in scalar code is in [`super::reference`]; `tests/shapes.rs` holds both against exact numbers.
+//! The same arithmetic in scalar code is in [`super::reference`]; `tests/trace/shapes.rs` holds both against exact numbers.
 
 use crate::simd::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
