@@ -280,6 +280,27 @@ fn every_level_gives_the_same_bits_of_specials() {
     }
 }
 
+/// Points as pixels have them: along a line, so that cells are shared by runs of any length, and there and back, so that
+/// cells are met again. For every count of points that matter.
+#[test]
+fn every_level_gives_the_same_bits_along_lines() {
+    let mut random = Random(6);
+    for round in 0..2000 {
+        let (start, step) = (random.within(300.0), random.within(1.0) * 10f32.powf(random.next() as f32 * 4.0 - 3.0));
+        let row = 1 + (random.next() * BLOCK as f64) as usize;
+        let points = core::array::from_fn(|i| start + (i % row) as f32 * step);
+        check_levels(&points);
+        let count = round % BLOCK + 1;
+        let [x, y, z] = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
+        for (name, level) in testkit::levels() {
+            let (mut all, mut some) = ([0.0; BLOCK], [0.0; BLOCK]);
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], 3, false, BLOCK, None, &mut all));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], 3, false, count, None, &mut some));
+            assert_eq!(all[..count], some[..count], "{name}: {count} points");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
 
