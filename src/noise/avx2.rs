@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! for each vector of points: cells, offsets in them -> a bit for each point that is in another cell than the one before
-//! for each of these: three lookups in the permutation and four in the gradients, each of two neighbouring entries
+//! for each of these: seven lookups in the permutation, each of two neighbouring entries
 //! for each vector of points: weights; all of one run?
 //!     gradients out of a table, the same in all lanes
 //!     or else gradients of its runs, dealt out to lanes by a permutation
@@ -16,10 +16,10 @@
 
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
-use super::wide::{GRADIENTS, at};
+use super::wide::{CODES, at};
 use crate::simd::block::{BLOCK, load, store, vectors};
 use core::arch::x86_64::*;
-use fearless_simd::{Avx2, f32x8, i32x8, prelude::*, u32x8};
+use fearless_simd::{Avx2, f32x8, i32x8, prelude::*, u8x16, u32x8};
 
 type Floats = f32x8<Avx2>;
 type Words = u32x8<Avx2>;
@@ -27,13 +27,14 @@ type Words = u32x8<Avx2>;
 /// Lanes of a vector.
 const LANES: usize = 8;
 
-/// The components x, y and z of a gradient by its code in [`GRADIENTS`].
-static COMPONENTS: [[f32; 4]; 64] = {
+/// The components x, y and z of each gradient.
+static COMPONENTS: [[f32; 4]; 16] = {
     const VALUES: [f32; 4] = [0.0, 1.0, 0.0, -1.0];
-    let mut components = [[0.0; 4]; 64];
+    let mut components = [[0.0; 4]; 16];
     let mut i = 0;
-    while i < 64 {
-        components[i] = [VALUES[i & 3], VALUES[i >> 2 & 3], VALUES[i >> 4], 0.0];
+    while i < 16 {
+        let code = CODES[i] as usize;
+        components[i] = [VALUES[code & 3], VALUES[code >> 2 & 3], VALUES[code >> 4], 0.0];
         i += 1;
     }
     components
@@ -65,6 +66,16 @@ fearless_simd::kernel!(
 );
 
 fearless_simd::kernel!(
+    /// The codes of gradients by the low four bits of each byte.
+    #[inline]
+    fn encode(simd: Avx2, hashes: u32x8<Avx2>) -> u32x8<Avx2> {
+        let codes = u8x16::load_array(simd, CODES).into();
+        let low = _mm256_and_si256(hashes.into(), _mm256_set1_epi8(15));
+        _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(codes), low).simd_into(simd)
+    }
+);
+
+fearless_simd::kernel!(
     /// The low two bits of each lane, as a number with a sign, by one permutation.
     #[inline]
     fn component(simd: Avx2, codes: u32x8<Avx2>) -> f32x8<Avx2> {
@@ -77,16 +88,17 @@ fearless_simd::kernel!(
 #[inline(always)]
 pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
     let vectors = vectors(count, LANES);
-    let mut offsets = [[0.0; BLOCK]; 3];
+    // Separate arrays, since to clear larger ones is a call.
+    let (mut ox, mut oy, mut oz) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
     let mut cells = [0; BLOCK];
-    let starts = locate(simd, points, zoom, vectors, &mut offsets, &mut cells);
+    let starts = locate(simd, points, zoom, vectors, [&mut ox, &mut oy, &mut oz], &mut cells);
 
-    let mut codes = [[0; BLOCK + LANES]; 2];
+    let (mut near, mut far) = ([0; BLOCK + LANES], [0; BLOCK + LANES]);
     let (mut todo, mut run) = (starts, 0);
     while todo != 0 {
         let cell = cells[todo.trailing_zeros() as usize & (BLOCK - 1)];
         todo &= todo - 1;
-        [codes[0][run], codes[1][run]] = hash(cell);
+        [near[run], far[run]] = hash(cell);
         run = (run + 1) & (BLOCK - 1);
     }
 
@@ -94,7 +106,7 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, 
     let mut run = !0usize;
     let mut i = 0;
     while i < vectors {
-        let p = [load(simd, &offsets[0], i), load(simd, &offsets[1], i), load(simd, &offsets[2], i)];
+        let p = [load(simd, &ox, i), load(simd, &oy, i), load(simd, &oz, i)];
         let begins = starts >> (i * LANES) & 255;
         run = run.wrapping_add(begins as usize & 1);
         let first = run & (BLOCK - 1);
@@ -103,19 +115,19 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, 
         let count = each.wrapping_mul(0x0101_0101_0101_0100);
         run = run.wrapping_add((count >> 56) as usize);
         let value = if count == 0 {
-            let codes = [codes[0][first], codes[1][first]];
+            let hashes = [near[first], far[first]];
             blend(
                 p,
                 #[inline(always)]
                 |side, shift| {
-                    let [x, y, z, _] = COMPONENTS[(codes[side] >> shift) as usize & 63];
+                    let [x, y, z, _] = COMPONENTS[(hashes[side] >> shift) as usize & 15];
                     [Floats::splat(simd, x), Floats::splat(simd, y), Floats::splat(simd, z)]
                 },
             )
         } else {
             let index = bytes(simd, count);
-            let near = deal(simd, Words::from_slice(simd, &codes[0][first..first + LANES]), index);
-            let far = deal(simd, Words::from_slice(simd, &codes[1][first..first + LANES]), index);
+            let near = encode(simd, deal(simd, Words::from_slice(simd, &near[first..first + LANES]), index));
+            let far = encode(simd, deal(simd, Words::from_slice(simd, &far[first..first + LANES]), index));
             blend(
                 p,
                 #[inline(always)]
@@ -131,7 +143,7 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, 
     }
 }
 
-/// The offsets of vectors of points times `zoom` in their cells, and the cells modulo 256: x, y and z in a byte each. Returns a bit
+/// The offsets of points times `zoom` in their cells, and the cells modulo 256: x, y and z in a byte each. Returns a bit
 /// for each point whose cell is not that of the point before it.
 #[inline(always)]
 fn locate(
@@ -139,7 +151,7 @@ fn locate(
     points: [&[f32; BLOCK]; 3],
     zoom: f32,
     vectors: usize,
-    offsets: &mut [[f32; BLOCK]; 3],
+    offsets: [&mut [f32; BLOCK]; 3],
     cells: &mut [u32; BLOCK],
 ) -> u64 {
     let mut starts = 0;
@@ -155,7 +167,7 @@ fn locate(
             // Where the conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are
             // multiples of 256.
             cell = cell << 8 | (floor.to_int::<i32x8<_>>().bitcast::<Words>() & 255);
-            store(p - floor, &mut offsets[axis], i);
+            store(p - floor, offsets[axis], i);
             axis += 1;
         }
         store(cell, cells, i);
@@ -167,20 +179,20 @@ fn locate(
     starts
 }
 
-/// The gradients of a cell's corners as [`GRADIENTS`] has them: in the first word those of the corners at y = 0, in the
-/// second at y = 1; from the lowest byte on those at (x, z) = (0, 0), (0, 1), (1, 0) and (1, 1).
+/// The hashes of a cell's corners, whose low four bits choose gradients: in the first word those at y = 0, in the second
+/// at y = 1; from the lowest byte on those at (x, z) = (0, 0), (0, 1), (1, 0) and (1, 1).
 #[inline(always)]
 fn hash(cell: u32) -> [u32; 2] {
     let (ix, iy, iz) = (cell >> 16, cell >> 8, cell);
     let ab = at(&PERMUTATION, ix);
     let (a, b) = (at(&PERMUTATION, ab + iy), at(&PERMUTATION, (ab >> 8) + iy));
-    let (aa, ba) = (at(&GRADIENTS, a + iz), at(&GRADIENTS, b + iz));
-    let (ab, bb) = (at(&GRADIENTS, (a >> 8) + iz), at(&GRADIENTS, (b >> 8) + iz));
+    let (aa, ba) = (at(&PERMUTATION, a + iz), at(&PERMUTATION, b + iz));
+    let (ab, bb) = (at(&PERMUTATION, (a >> 8) + iz), at(&PERMUTATION, (b >> 8) + iz));
     [aa | ba << 16, ab | bb << 16]
 }
 
 /// The blend of the eight corners at offsets in their cells. `gradient` gives the components of a corner's gradient, by
-/// the word and the bit from which on [`hash`] has it.
+/// the word and the bit from which on [`hash`] has its hash.
 #[inline(always)]
 fn blend([x, y, z]: [Floats; 3], gradient: impl Fn(usize, u32) -> [Floats; 3]) -> Floats {
     let (u, v, w) = (fade(x), fade(y), fade(z));

@@ -4,9 +4,9 @@
 //! at one point, or it shimmers. So each octave may fade with the length `L` of the footprint, in the octave's own
 //! cells, by `1 / (1 + 0.3 L^2)`. That is a fit to its best linear predictor, within 0.04 of what was measured.
 
+use super::wide;
 #[cfg(target_arch = "x86_64")]
 use super::{avx2, avx512};
-use super::wide;
 use crate::simd::block::{BLOCK, load, store, vectors};
 use crate::simd::level::best;
 #[cfg(target_arch = "x86_64")]

@@ -14,11 +14,13 @@ use super::permutation::PERMUTATION;
 use crate::simd::block::{BLOCK, load, store, vectors};
 use fearless_simd::prelude::*;
 
-/// The gradient of each entry of the permutation: its components, -1, 0 or 1, as signed fields of two bits, x lowest.
-pub static GRADIENTS: [u8; 257] = {
-    // A component of 1 is 1, 4 or 16 in x, y or z, one of -1 is 3, 12 or 48. In the order of Perlin's `h & 15`.
-    const CODES: [u8; 16] =
-        [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
+/// The gradients in the order of Perlin's `h & 15`: their components, -1, 0 or 1, as signed fields of two bits, x lowest. A
+/// component of 1 is 1, 4 or 16 in x, y or z, one of -1 is 3, 12 or 48.
+pub const CODES: [u8; 16] =
+    [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
+
+/// The gradient of each entry of the permutation as [`CODES`] has it.
+static GRADIENTS: [u8; 257] = {
     let mut codes = [0; 257];
     let mut i = 0;
     while i < 257 {
@@ -39,13 +41,7 @@ pub fn at(table: &[u8; 257], i: u32) -> u32 {
 
 /// Noise at the first `count` of 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64<S: Simd>(
-    simd: S,
-    [x, y, z]: [&[f32; BLOCK]; 3],
-    zoom: f32,
-    count: usize,
-    out: &mut [f32; BLOCK],
-) {
+pub fn noise64<S: Simd>(simd: S, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
     let vectors = vectors(count, S::f32s::LEN);
     let [mut ix, mut iy, mut iz] = [[0u32; BLOCK]; 3];
     cells(simd, x, zoom, &mut ix);
