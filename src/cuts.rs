@@ -41,6 +41,12 @@ pub const BACKGROUND: bool = FULL;
 /// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
 pub const SOFT_LIGHTS: bool = FULL;
 
+/// Whether pictures can be encoded by another curve than sRGB's.
+pub const TRANSFERS: bool = FULL;
+
+/// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.
+pub const ASKEW: bool = FULL;
+
 /// Whether textures can be checkers: the show has none.
 pub const CHECKER: bool = FULL;
 
