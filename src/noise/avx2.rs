@@ -172,7 +172,7 @@ fn locate(
         }
         store(cell, cells, i);
         let same = cell.simd_eq(before(simd, last, cell)).to_bitmask();
-        starts |= (same as u64 ^ 255) << (i * LANES);
+        starts |= (same ^ 255) << (i * LANES);
         last = cell;
         i += 1;
     }
