@@ -144,7 +144,7 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
 #[inline(always)]
 fn paint<S: Simd>(simd: S, texture: &Texture, queue: &mut FragmentQueue) {
     let mut painted = [[0.0; BLOCK]; 3];
-    texture::shade(simd, texture, &queue.point, Some(&queue.footprint), &mut painted);
+    texture::shade(simd, texture, &queue.point, BLOCK, Some(&queue.footprint), &mut painted);
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         V3::load(simd, &queue.albedo, i).mulv(V3::load(simd, &painted, i)).store(&mut queue.albedo, i);
@@ -164,7 +164,7 @@ fn settle<S: Simd>(
 ) {
     let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
     shine(simd, context, &snow.fall, lookup, &queue.point, &queue.normal, &mut open);
-    texture::shade(simd, &GRAIN, &queue.point, Some(&queue.footprint), &mut grain);
+    texture::shade(simd, &GRAIN, &queue.point, BLOCK, Some(&queue.footprint), &mut grain);
     snow.whiten(simd, &open, &grain, queue);
 }
 
