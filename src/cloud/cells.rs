@@ -12,7 +12,6 @@ use super::march::Passage;
 use super::seen::{SeenCloud, SeenClouds};
 use super::world::CloudLight;
 use crate::frame::Tile;
-use crate::settings::samples_per_axis;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::to_f32;
@@ -85,7 +84,7 @@ pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
 #[simd]
 fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
     const POINTS: usize = SIDE * SIDE;
-    let mut size = clouds.settings.cell;
+    let mut size = clouds.settings.built().cell;
     let mut lattice = Lattice {
         values: vec![[0.0; 5]; POINTS],
         known: vec![false; POINTS],
@@ -108,7 +107,7 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
                             }
                         }
                         1 => lattice.want(cell.middle()),
-                        _ => lattice.fill_or_cut(cell, clouds.settings.threshold),
+                        _ => lattice.fill_or_cut(cell, clouds.settings.built().threshold),
                     }
                 }
             }
@@ -194,7 +193,7 @@ fn finish<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut
 /// Casts rays through the points that are wanted: as far as the solids there, or without end.
 #[simd]
 fn cast<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, lattice: &mut Lattice, solids: bool) {
-    let grid = samples_per_axis(clouds.settings.grid) as u32;
+    let grid = clouds.settings.built().grid as u32;
     let step = 1.0 / grid as f32;
     for points in lattice.wanted.chunks(BLOCK) {
         let mut sum = [[0.0; BLOCK]; 5];
@@ -242,7 +241,7 @@ fn cast_block<S: Simd>(
         let mut light = V3::splat(simd, Vec3::ZERO);
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
-            let passage: Passage<S> = seen.meet(simd, eye, d, limit, clouds.settings.opaque);
+            let passage: Passage<S> = seen.meet(simd, eye, d, limit, clouds.settings.built().opaque);
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
             let (color, passes) = passage.shine(simd, &sunlit, d);
             let color = V3::splat(simd, seen.veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, seen.fades));
@@ -250,7 +249,7 @@ fn cast_block<S: Simd>(
             transmittance *= passes;
             end = passes.simd_lt(one).select(end.max(seen.end()), end);
             // A ray that is through ends by itself, by a limit of 0: its light must not depend on its vector's others.
-            let ends = transmittance.simd_lt(clouds.settings.hidden);
+            let ends = transmittance.simd_lt(clouds.settings.built().hidden);
             if ends.all_true() {
                 break;
             }

@@ -14,7 +14,7 @@ use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
-use crate::settings::{RasterSettings, samples_per_axis};
+use crate::settings::RasterSettings;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::F;
 use crate::view::View;
@@ -77,7 +77,7 @@ impl RasterLayer {
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let RasterLayer { world, view, raster, lookups, settings, .. } = self;
-        let grid = samples_per_axis(settings.grid) as u32;
+        let grid = settings.built().grid as u32;
         let count = if grid > 1 { 1 } else { settings.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
@@ -153,12 +153,10 @@ impl Layer for RasterLayer {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let spare = self.memory.as_ref().and_then(|memory| memory.lock().spare.pop());
-        let mut scratch = spare.unwrap_or_else(Scratch::new);
+        let memory = self.memory.as_ref().expect("a layer that is prepared");
+        let mut scratch = memory.lock().spare.pop().unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
-        if let Some(memory) = &self.memory {
-            memory.lock().spare.push(scratch);
-        }
+        memory.lock().spare.push(scratch);
         Stats { samples }
     }
 }

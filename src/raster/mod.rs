@@ -18,8 +18,7 @@
 //!
 //! What approximates, and where its reference stands: shadow maps ([`depth_map`]) against shadows traced through the
 //! same triangles (`exact_shadow`), and a few samples per pixel against a grid of 64. Edges are exact at any sample:
-//! coverage is decided in whole numbers. `tests/raster.rs`, `tests/clip.rs`, `tests/shadow.rs`, `tests/torch.rs`,
-//! `tests/lights.rs`, `tests/depth_map.rs` and `tests/settle.rs` hold the stages against formulas in f64.
+//! coverage is decided in whole numbers. The files of `tests/raster/` hold the stages against formulas in f64.
 //!
 //! ```
 //! use glam::{Affine3A, Mat3, Vec3, vec3};

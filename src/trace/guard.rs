@@ -24,8 +24,8 @@ use glam::Vec3;
 const BLOCK: usize = 8;
 /// Most balls that stand for one long body.
 const MOST_BALLS: f32 = 64.0;
-/// Share of its peak to which a highlight has fallen where it ceases to be guarded.
-const SKIRT: f32 = 0.125;
+/// Twice the logarithm of 8: a highlight is guarded as far as it has an eighth of its peak.
+const SKIRT: f32 = 4.158_883;
 
 /// What is asked of the rim of a small thing.
 #[derive(Clone, Copy)]
@@ -124,7 +124,8 @@ impl Guard {
         }
         let Some(point) = mirror_point(view.camera().eye, &body.shape, source) else { return };
         // Half the angle of the lobe, since turning a normal turns the mirrored ray by twice as much.
-        let angle = 0.5 * SKIRT.powf(1.0 / material.exponent.max(1.0)).acos();
+        // A lobe cos(a)^n is all but the Gaussian exp(-n a^2 / 2), and never wider.
+        let angle = 0.5 * (SKIRT / material.exponent.max(1.0)).sqrt();
         let radius = match body.shape {
             Shape::Sphere { radius, .. } => radius * angle,
             _ => 2.0 * angle * point.distance(view.camera().eye),

@@ -46,7 +46,7 @@ impl TraceLayer {
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
-        let TraceSettings { min_weight, min_detail, light_samples, .. } = *settings;
+        let TraceSettings { min_weight, min_detail, light_samples, .. } = settings.built();
         let limits = Limits { min_weight: min_weight / brightest, min_detail: min_detail / brightest, light_samples };
         TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory: None }
     }
@@ -86,11 +86,10 @@ impl Layer for TraceLayer {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let mut scratch = self.memory.as_ref().and_then(|memory| memory.lock().0.pop()).unwrap_or_default();
+        let memory = self.memory.as_ref().expect("a layer that is prepared");
+        let mut scratch = memory.lock().0.pop().unwrap_or_default();
         let samples = self.draw_in(level, tile, &mut scratch);
-        if let Some(memory) = &self.memory {
-            memory.lock().0.push(scratch);
-        }
+        memory.lock().0.push(scratch);
         Stats { samples }
     }
 
