@@ -49,7 +49,7 @@ impl<S: Simd> Passage<S> {
 /// entry, exit = the ray against the three slabs of the cube, ended by the limit
 /// for each step, as long as a lane of the vector has one left:
 ///     u = the middle of the step, in voxels
-///     where anything is within a cell of u in any lane:
+///     where something may be at u in any lane:
 ///         depth += density(u) * extinction * length            for lanes that are not through
 ///         hidden += transmittance - exp(-depth)                 and as much is lit
 ///     step over as many steps as the empty space around u is wide
@@ -76,32 +76,35 @@ pub fn march<S: Simd>(
     if missed.all_true() {
         return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one };
     }
-    let mut step = missed.select(F::<S>::splat(simd, steps), zero);
+    let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
     let most = to_f32(cloud.voxels.edge() - 1);
     let half = to_f32(cloud.voxels.edge()) * 0.5;
-    // Voxels that one step crosses at most, along any axis, and so the steps per voxel.
+    // Voxels that one step crosses at most, along any axis, and so the steps per voxel: a little less, lest rounding
+    // brings a leap into what it ends before.
     let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
-    let reach = one / missed.select(one, stride);
+    let reach = F::<S>::splat(simd, 0.9999) / missed.select(one, stride);
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
-    while step.simd_lt(steps).any_true() {
-        let way = missed.select(zero, entry + (step + 0.5) * length);
-        let p = d * Lane(way);
+    // What ends a lane is kept apart from its step, so that the next place does not wait for this one's light.
+    let (mut step, mut goes) = (zero, length.simd_gt(zero));
+    while goes.any_true() {
+        let p = d * Lane(entry + (step + 0.5) * length);
         let voxel = |p: F<S>, q: f32| ((p + q) * half + (half - 0.5)).max(0.0).min(most);
         let u = V3 { x: voxel(p.x, q.x), y: voxel(p.y, q.y), z: voxel(p.z, q.z) };
         let leap = cloud.voxels.leap(simd, u);
-        if leap.simd_eq(zero).any_true() {
+        if (goes & leap.simd_lt(zero)).any_true() {
             let [density, sunlit] = cloud.voxels.look_up(simd, u);
             // From the depth so far: `1 - exp(-x)` of a thin step would be mostly rounding.
-            depth += step.simd_lt(steps).select(density * thickness, zero);
+            depth += goes.select(density * thickness, zero);
             let passes = exp2(simd, depth);
             let hides = transmittance - passes;
             hidden += hides;
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;
+            goes = goes & transmittance.simd_ge(opaque);
         }
-        step += (leap * reach).floor().max(one);
-        step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
+        step += (leap.max(zero) * reach).floor() + one;
+        goes = goes & step.simd_lt(steps);
     }
     let upper = (height + hidden * q.y) * 0.5 + hidden * 0.5;
     Passage { hidden, upper, lit, transmittance }

@@ -1,7 +1,7 @@
 //! Density and light of a cloud in a cube of voxels, and lookups of both for a vector of points.
 //!
 //! A lookup is trilinear, and takes two reads of memory per point and value: the bytes of four neighbours are packed
-//! into one word. Space is divided into blocks of 4 x 4 x 4 cells, each of which knows how far around it nothing is, so
+//! into one word. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how far around it nothing is, so
 //! that rays can leap over emptiness.
 
 use crate::simd::lanes::{F, U, V3};
@@ -10,10 +10,10 @@ use fearless_simd::prelude::*;
 use glam::Vec3;
 
 /// Cells along an edge of a block, for which one leap is stored.
-const LEAP: usize = 4;
+const LEAP: usize = 2;
 
-/// Rings of blocks that are searched for emptiness: a leap is at most `7 * LEAP` cells.
-const RINGS: usize = 7;
+/// Rings of blocks that are searched for emptiness: a leap is at most `RINGS * LEAP` cells.
+const RINGS: usize = 28 / LEAP;
 
 /// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
 /// ones.
@@ -30,7 +30,8 @@ pub struct Voxels {
     /// For each point and the next layer: density and light of the point, of the next one along x, and of both one row
     /// further along y, a byte each.
     cells: Vec<[u32; 2]>,
-    /// For each block, the number of cells along any axis within which nothing is.
+    /// For each block, 0 where something is in it, otherwise 1 more than the number of cells around it, along any axis,
+    /// within which nothing is.
     leaps: Vec<u8>,
     /// See [`Voxels::reach`].
     reach: f32,
@@ -110,14 +111,17 @@ impl Voxels {
     fn measure(&mut self) {
         let mut full = self.occupied();
         let n = self.edge / LEAP;
-        self.leaps = vec![0; full.len()];
+        self.leaps = full.iter().map(|full| !full as u8).collect();
         for _ in 0..RINGS {
-            // One ring wider, an axis at a time. What runs over an edge comes in at the opposite one, which can only
-            // make leaps shorter.
+            // One ring wider, an axis at a time. What runs over an edge comes in at the next row, which can only make
+            // leaps shorter.
             for stride in [1, n, n * n] {
                 let before = full.clone();
-                for (at, full) in full.iter_mut().enumerate() {
-                    *full |= before[(at + stride) % before.len()] | before[(at + before.len() - stride) % before.len()];
+                for (full, next) in full.iter_mut().zip(&before[stride..]) {
+                    *full |= next;
+                }
+                for (full, last) in full[stride..].iter_mut().zip(&before) {
+                    *full |= last;
                 }
             }
             for (leap, full) in self.leaps.iter_mut().zip(&full) {
@@ -149,19 +153,14 @@ impl Voxels {
         full
     }
 
-    /// The number of cells along any axis, at least, within which nothing is around points `u`. Coordinates are those
-    /// of [`Voxels::look_up`].
+    /// The number of cells along any axis, at least, within which nothing is around the blocks that points `u` are in;
+    /// -1 where something may be in the block. Coordinates are those of [`Voxels::look_up`].
     #[inline(always)]
     pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
         let n = to_f32(self.edge / LEAP);
         let block = |u: F<S>| (u * (1.0 / LEAP as f32)).floor();
-        let index = block(u.x) + (block(u.y) + block(u.z) * n) * n;
-        let mut at = [0; 16];
-        index.to_int::<U<S>>().store_slice(&mut at[..F::<S>::LEN]);
-        for at in &mut at[..F::<S>::LEN] {
-            *at = self.leaps[*at as usize] as u32;
-        }
-        U::<S>::from_slice(simd, &at[..F::<S>::LEN]).to_float()
+        let index = (block(u.x) + (block(u.y) + block(u.z) * n) * n).to_int::<U<S>>();
+        U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32).to_float::<F<S>>() - 1.0
     }
 
     /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
@@ -171,11 +170,10 @@ impl Voxels {
         let n = to_f32(self.edge);
         let base = V3::<S> { x: u.x.floor(), y: u.y.floor(), z: u.z.floor() };
         let f = u - base;
-        let mut at = [0; 16];
-        (base.x + (base.y + base.z * n) * n).to_int::<U<S>>().store_slice(&mut at[..lanes]);
+        let at = (base.x + (base.y + base.z * n) * n).to_int::<U<S>>();
         let mut words = [[0; 16]; 4];
-        for (lane, at) in at[..lanes].iter().enumerate() {
-            let at = *at as usize;
+        for lane in 0..lanes {
+            let at = at[lane] as usize;
             let (near, far) = (self.cells[at], self.cells[at + self.edge * self.edge]);
             words[0][lane] = near[0];
             words[1][lane] = near[1];
