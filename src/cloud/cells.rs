@@ -7,6 +7,8 @@
 //!
 //! Solids are in the tile already. A ray is cast once as if there were none; and where a solid may stand in front of
 //! something that clouds hide, once more as far as the solid. The pixel's coverage mixes the two.
+//!
+//! The first of the two is cast before solids are drawn, so that those which clouds hide anyway are left out.
 
 use super::march::Passage;
 use super::seen::{SeenCloud, SeenClouds};
@@ -25,6 +27,10 @@ const SIDE: usize = Tile::SIZE + 1;
 
 /// Points from one row of a lattice to the next: a vector may begin at each point of a row.
 const ROW: usize = Tile::SIZE + 16;
+
+/// Solids of which no more than this comes through clouds are never drawn: it is a thirtieth of a code where codes are
+/// darkest. Were they drawn, they would show beside nearer ones in the same pixel, which has one depth.
+const NOTHING: f32 = 1.0 / 65536.0;
 
 /// A plane of a lattice.
 type Plane = [f32; ROW * SIDE];
@@ -70,6 +76,17 @@ impl Cell {
     }
 }
 
+/// Finds what rays through a tile meet, as if there were no solids, and says from where on clouds hide all but
+/// [`hidden`](crate::settings::CloudSettings::hidden) of what is there.
+pub(super) fn foresee(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
+    let near = clouds.near(tile);
+    if near.is_empty() {
+        tile.hidden.fill(0.0);
+    } else {
+        dispatch!(level, simd => foresee_near(simd, clouds, &near, tile));
+    }
+}
+
 /// Draws clouds into a tile: adds their light, takes what they hide from what is there, and counts it as covered.
 pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
     let near = clouds.near(tile);
@@ -78,7 +95,40 @@ pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
     }
 }
 
-/// Draws the clouds that rays through the tile may meet.
+#[simd]
+fn foresee_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
+    let lanes = F::<S>::LEN;
+    let mut planes = std::mem::take(&mut tile.foreseen);
+    planes.resize(size_of::<Planes>() / size_of::<f32>(), 0.0);
+    let free = &mut planes.as_chunks_mut().0.as_chunks_mut().0[0];
+    find(simd, clouds, near, tile, free);
+    for y in 0..Tile::SIZE {
+        for x in (0..Tile::SIZE).step_by(lanes) {
+            let point = x + y * ROW..x + y * ROW + lanes;
+            let passes = F::<S>::from_slice(simd, &free[TRANSMITTANCE][point.clone()]);
+            let end = F::<S>::from_slice(simd, &free[END][point]);
+            let ends = passes.simd_lt(clouds.settings.hidden.max(NOTHING));
+            let hidden = ends.select(F::<S>::splat(simd, 1.0) / end, F::<S>::splat(simd, 0.0));
+            hidden.store_slice(&mut tile.hidden[x + y * Tile::SIZE..][..lanes]);
+        }
+    }
+    tile.foreseen = planes;
+}
+
+/// Draws the clouds that rays through a tile may meet.
+#[simd]
+fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
+    if tile.foreseen.is_empty() {
+        foresee_near(simd, clouds, near, tile);
+    }
+    let mut planes = std::mem::take(&mut tile.foreseen);
+    mix(simd, clouds, near, tile, &planes.as_chunks().0.as_chunks().0[0]);
+    // The memory serves the next tile.
+    planes.clear();
+    tile.foreseen = planes;
+}
+
+/// Finds what rays through all pixels of a tile meet, as if there were no solids.
 ///
 /// ```text
 /// for each size of cells, from the coarsest to 1:
@@ -88,15 +138,6 @@ pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
 /// ```
 ///
 /// Rays are cast for all cells of a size at once, so that vectors are full.
-#[simd]
-fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
-    let mut planes = vec![0.0; size_of::<Planes>() / 4];
-    let free = planes.as_chunks_mut().0.as_chunks_mut().0;
-    find(simd, clouds, near, tile, &mut free[0]);
-    mix(simd, clouds, near, tile, &free[0]);
-}
-
-/// Finds what rays through all pixels of a tile meet, as if there were no solids.
 #[simd]
 fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
     let mut size = clouds.settings.cell;
@@ -289,13 +330,16 @@ fn cast_block<S: Simd>(
         let mut light = V3::splat(simd, Vec3::ZERO);
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
-            let passage: Passage<S> = seen.meet(simd, eye, d, limit, clouds.settings.opaque);
+            // The less nearer clouds let through, the earlier it ends in this one.
+            let opaque = F::<S>::splat(simd, clouds.settings.opaque) / transmittance;
+            let passage: Passage<S> = seen.meet(simd, eye, d, limit, opaque);
+            let ended = passage.end.min(seen.end());
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
             let (color, passes) = passage.shine(simd, &sunlit, d);
             let color = V3::splat(simd, seen.veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, seen.fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
-            end = passes.simd_lt(one).select(end.max(seen.end()), end);
+            end = passes.simd_lt(one).select(end.max(ended), end);
             // A ray that is through ends by itself, by a limit of 0: its light must not depend on its vector's others.
             let ends = transmittance.simd_lt(clouds.settings.hidden);
             if ends.all_true() {

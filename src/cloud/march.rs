@@ -24,6 +24,8 @@ pub struct Passage<S: Simd> {
     pub lit: F<S>,
     /// The share of what is behind the cloud that comes through: 1 less `hidden`.
     pub transmittance: F<S>,
+    /// Distance from the eye at which the ray ended as too little came through, metres; infinite where none did.
+    pub end: F<S>,
 }
 
 impl<S: Simd> Passage<S> {
@@ -64,17 +66,19 @@ pub fn march<S: Simd>(
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
-    [steps, opaque]: [f32; 2],
+    steps: f32,
+    opaque: F<S>,
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let q = (eye - cloud.centre) / cloud.size;
     let [entry, exit] = cube(simd, q, d);
     let exit = exit.min(limit * (1.0 / cloud.size));
     let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let mut end = F::<S>::splat(simd, f32::INFINITY);
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
     if missed.all_true() {
-        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one };
+        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end };
     }
     let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
     let most = to_f32(cloud.voxels.edge() - 1);
@@ -87,7 +91,8 @@ pub fn march<S: Simd>(
     // What ends a lane is kept apart from its step, so that the next place does not wait for this one's light.
     let (mut step, mut goes) = (zero, length.simd_gt(zero));
     while goes.any_true() {
-        let p = d * Lane(entry + (step + 0.5) * length);
+        let way = entry + (step + 0.5) * length;
+        let p = d * Lane(way);
         let voxel = |p: F<S>, q: f32| ((p + q) * half + (half - 0.5)).max(0.0).min(most);
         let u = V3 { x: voxel(p.x, q.x), y: voxel(p.y, q.y), z: voxel(p.z, q.z) };
         let leap = cloud.voxels.leap(simd, u);
@@ -101,13 +106,15 @@ pub fn march<S: Simd>(
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;
-            goes = goes & transmittance.simd_ge(opaque);
+            let through = transmittance.simd_ge(opaque);
+            end = (goes & !through).select((way + length * 0.5) * cloud.size, end);
+            goes = goes & through;
         }
         step += (leap.max(zero) * reach).floor() + one;
         goes = goes & step.simd_lt(steps);
     }
     let upper = (height + hidden * q.y) * 0.5 + hidden * 0.5;
-    Passage { hidden, upper, lit, transmittance }
+    Passage { hidden, upper, lit, transmittance, end }
 }
 
 /// Where rays from `q` along `d` enter and leave the cube from -1 to 1; not before `q`.
