@@ -33,6 +33,12 @@ impl Visible {
         self.inv_depth.fill(inv_depth);
         self.id.fill(NOTHING);
     }
+
+    /// The same at a depth of each pixel's own, beyond which nothing will be shown.
+    pub fn clear_to(&mut self, inv_depth: &[f32; Tile::AREA]) {
+        self.inv_depth.copy_from_slice(inv_depth);
+        self.id.fill(NOTHING);
+    }
 }
 
 /// The place of a sample in its pixel, in steps of 1 / [`SUB`] pixel from the top left corner.
