@@ -44,6 +44,9 @@ pub const SOFT_LIGHTS: bool = FULL;
 /// Whether pictures can be encoded by another curve than sRGB's.
 pub const TRANSFERS: bool = FULL;
 
+/// Whether the ray tracer groups bodies, which pays from a hundred on. The show has some tens.
+pub const MANY_BODIES: bool = FULL;
+
 /// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.
 pub const ASKEW: bool = FULL;
 

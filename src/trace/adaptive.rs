@@ -36,8 +36,8 @@ const LEVELS: usize = 7;
 /// Memory for drawing a tile, passed from tile to tile. No value in it survives a tile.
 #[derive(Default)]
 pub struct Scratch {
-    /// The objects that eye rays may meet.
-    pub visible: Vec<u32>,
+    /// The bits of the objects that eye rays may meet.
+    pub visible: Vec<u64>,
     grid: Grid,
     /// Squares to be examined, by size from the coarsest.
     work: [Vec<Square>; LEVELS],
