@@ -48,7 +48,7 @@ pub struct CloudSettings {
     pub detail: f32,
     /// A ray ends inside a cloud where its transmittance falls below this; 0 for never.
     pub opaque: f32,
-    /// A ray ends between clouds where its transmittance falls below this; 0 for never.
+    /// A ray ends between clouds where its transmittance falls below this, and solids behind are not drawn; 0 for never.
     pub hidden: f32,
     /// Edge of the coarsest square of pixels with rays at its corners, a power of two up to 16. At 1 every pixel has a
     /// ray.

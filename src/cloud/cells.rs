@@ -7,13 +7,15 @@
 //!
 //! Solids are in the tile already. A ray is cast once as if there were none; and where a solid may stand in front of
 //! something that clouds hide, once more as far as the solid. The pixel's coverage mixes the two.
+//!
+//! The first of the two is cast before solids are drawn, so that those which clouds hide anyway are left out.
 
 use super::march::Passage;
 use super::seen::{SeenCloud, SeenClouds};
 use super::world::CloudLight;
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, load, store};
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{Bits, F, Lane, STEPS, U, V3, float};
 use crate::simd::math::to_f32;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
@@ -22,21 +24,31 @@ use glam::Vec3;
 /// Points along an edge of a tile's lattice: its pixels, and the first ones of the next tile.
 const SIDE: usize = Tile::SIZE + 1;
 
-/// What a ray gives: premultiplied red, green and blue; transmittance; the distance in metres beyond which no cloud
-/// hides anything.
-type Value = [f32; 5];
+/// Points from one row of a lattice to the next: a vector may begin at each point of a row.
+const ROW: usize = Tile::SIZE + 16;
 
-/// Indices into a [`Value`].
+/// Solids of which no more than this comes through clouds are never drawn: it is a thirtieth of a code where codes are
+/// darkest. Were they drawn, they would show beside nearer ones in the same pixel, which has one depth.
+const NOTHING: f32 = 1.0 / 65536.0;
+
+/// A plane of a lattice.
+type Plane = [f32; ROW * SIDE];
+
+/// The planes of a lattice. What a ray gives: premultiplied red, green and blue; transmittance; the distance in metres
+/// beyond which no cloud hides anything.
+type Planes = [Plane; 5];
+
+/// Indices into [`Planes`].
 const TRANSMITTANCE: usize = 3;
 const END: usize = 4;
 
 /// The points of a tile.
-struct Lattice {
-    values: Vec<Value>,
+struct Lattice<'a> {
+    planes: &'a mut Planes,
     /// Whether a ray has been cast through the point, or is to be.
     known: Vec<bool>,
     /// Edge of the cell whose top left corner the point is, pixels.
-    sizes: Vec<usize>,
+    sizes: Vec<u8>,
     /// Points through which rays are to be cast.
     wanted: Vec<usize>,
 }
@@ -54,12 +66,23 @@ impl Cell {
     #[inline(always)]
     fn corners(self) -> [usize; 4] {
         let Cell { at, size } = self;
-        [at, at + size, at + size * SIDE, at + size * SIDE + size]
+        [at, at + size, at + size * ROW, at + size * ROW + size]
     }
 
     #[inline(always)]
     fn middle(self) -> usize {
-        self.at + (self.size / 2) * (SIDE + 1)
+        self.at + (self.size / 2) * (ROW + 1)
+    }
+}
+
+/// Finds what rays through a tile meet, as if there were no solids, and says from where on clouds hide all but
+/// [`hidden`](crate::settings::CloudSettings::hidden) of what is there.
+pub(super) fn foresee(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
+    let near = clouds.near(tile);
+    if near.is_empty() {
+        tile.hidden.fill(0.0);
+    } else {
+        dispatch!(level, simd => foresee_near(simd, clouds, &near, tile));
     }
 }
 
@@ -71,7 +94,40 @@ pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
     }
 }
 
-/// Draws the clouds that rays through the tile may meet.
+#[simd]
+fn foresee_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
+    let lanes = F::<S>::LEN;
+    let mut planes = std::mem::take(&mut tile.foreseen);
+    planes.resize(size_of::<Planes>() / size_of::<f32>(), 0.0);
+    let free = &mut planes.as_chunks_mut().0.as_chunks_mut().0[0];
+    find(simd, clouds, near, tile, free);
+    for y in 0..Tile::SIZE {
+        for x in (0..Tile::SIZE).step_by(lanes) {
+            let point = x + y * ROW..x + y * ROW + lanes;
+            let passes = F::<S>::from_slice(simd, &free[TRANSMITTANCE][point.clone()]);
+            let end = F::<S>::from_slice(simd, &free[END][point]);
+            let ends = passes.simd_lt(clouds.settings.built().hidden.max(NOTHING));
+            let hidden = ends.select(F::<S>::splat(simd, 1.0) / end, F::<S>::splat(simd, 0.0));
+            hidden.store_slice(&mut tile.hidden[x + y * Tile::SIZE..][..lanes]);
+        }
+    }
+    tile.foreseen = planes;
+}
+
+/// Draws the clouds that rays through a tile may meet.
+#[simd]
+fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
+    if tile.foreseen.is_empty() {
+        foresee_near(simd, clouds, near, tile);
+    }
+    let mut planes = std::mem::take(&mut tile.foreseen);
+    mix(simd, clouds, near, tile, &planes.as_chunks().0.as_chunks().0[0]);
+    // The memory serves the next tile.
+    planes.clear();
+    tile.foreseen = planes;
+}
+
+/// Finds what rays through all pixels of a tile meet, as if there were no solids.
 ///
 /// ```text
 /// for each size of cells, from the coarsest to 1:
@@ -82,21 +138,17 @@ pub(super) fn draw(level: Level, clouds: &SeenClouds, tile: &mut Tile) {
 ///
 /// Rays are cast for all cells of a size at once, so that vectors are full.
 #[simd]
-fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile) {
-    const POINTS: usize = SIDE * SIDE;
+fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
     let mut size = clouds.settings.built().cell;
-    let mut lattice = Lattice {
-        values: vec![[0.0; 5]; POINTS],
-        known: vec![false; POINTS],
-        sizes: vec![size; POINTS],
-        wanted: Vec::new(),
-    };
+    let points = planes[0].len();
+    let (known, sizes) = (vec![false; points], vec![size as u8; points]);
+    let mut lattice = Lattice { planes, known, sizes, wanted: Vec::new() };
     loop {
         for pass in 0..3 {
             for y in (0..tile.height).step_by(size) {
                 for x in (0..tile.width).step_by(size) {
-                    let cell = Cell { at: x + y * SIDE, size };
-                    if lattice.sizes[cell.at] != size {
+                    let cell = Cell { at: x + y * ROW, size };
+                    if lattice.sizes[cell.at] as usize != size {
                         continue;
                     }
                     match pass {
@@ -107,13 +159,13 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
                             }
                         }
                         1 => lattice.want(cell.middle()),
-                        _ => lattice.fill_or_cut(cell, clouds.settings.built().threshold),
+                        _ => lattice.fill_or_cut(simd, cell, clouds.settings.built().threshold),
                     }
                 }
             }
-            cast(simd, clouds, near, tile, &mut lattice, false);
+            cast(simd, clouds, near, tile, &lattice.wanted, false, lattice.planes);
+            lattice.wanted.clear();
             if size == 1 {
-                finish(simd, clouds, near, tile, &mut lattice);
                 return;
             }
         }
@@ -121,7 +173,7 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
     }
 }
 
-impl Lattice {
+impl Lattice<'_> {
     fn want(&mut self, at: usize) {
         if !self.known[at] {
             self.known[at] = true;
@@ -131,77 +183,113 @@ impl Lattice {
 
     /// Interpolates a cell where its middle is off by at most `threshold`; cuts it into four otherwise.
     #[inline(always)]
-    fn fill_or_cut(&mut self, cell: Cell, threshold: f32) {
+    fn fill_or_cut<S: Simd>(&mut self, simd: S, cell: Cell, threshold: f32) {
         let Cell { at, size } = cell;
-        let middle = cell.middle();
-        let [a, b, c, d] = cell.corners().map(|corner| self.values[corner]);
+        let (corners, middle) = (cell.corners(), cell.middle());
         let mut error = 0.0f32;
-        for k in 0..4 {
-            error = error.max((self.values[middle][k] - (a[k] + b[k] + c[k] + d[k]) * 0.25).abs());
+        for plane in &self.planes[..END] {
+            let [a, b, c, d] = corners.map(|corner| plane[corner]);
+            error = error.max((plane[middle] - (a + b + c + d) * 0.25).abs());
         }
         if error > threshold {
             for part in [at, at + size / 2, middle - size / 2, middle] {
-                self.sizes[part] = size / 2;
+                self.sizes[part] = size as u8 / 2;
             }
         } else {
-            self.fill(cell, [a, b, c, d]);
+            self.fill(simd, cell);
         }
     }
 
-    /// Fills a cell's points by bilinear interpolation between its corners.
-    fn fill(&mut self, Cell { at, size }: Cell, [a, b, c, d]: [Value; 4]) {
+    /// Fills a cell's points by bilinear interpolation between its corners, but that ends are the farthest of the four.
+    #[inline(always)]
+    fn fill<S: Simd>(&mut self, simd: S, cell: Cell) {
+        let Cell { at, size } = cell;
+        let lanes = F::<S>::LEN;
         let share = 1.0 / to_f32(size);
-        for part in 0..size * size {
-            let (x, y) = (part % size, part / size);
-            let (u, v) = (to_f32(x) * share, to_f32(y) * share);
-            for k in 0..4 {
-                let (above, below) = (a[k] + (b[k] - a[k]) * u, c[k] + (d[k] - c[k]) * u);
-                self.values[at + x + y * SIDE][k] = above + (below - above) * v;
+        let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
+        let far = cell.corners().map(|corner| self.planes[END][corner]).into_iter().fold(0.0, f32::max);
+        for (k, plane) in self.planes.iter_mut().enumerate() {
+            let [a, b, c, d] = if k == END { [far; 4] } else { cell.corners().map(|corner| plane[corner]) };
+            for x in (0..size).step_by(lanes) {
+                let place = steps + to_f32(x);
+                let (u, inside) = (place * share, place.simd_lt(to_f32(size)));
+                let (above, below) = (u * (b - a) + a, u * (d - c) + c);
+                for y in 0..size {
+                    let points = &mut plane[at + x + y * ROW..][..lanes];
+                    let value = above + (below - above) * (to_f32(y) * share);
+                    inside.select(value, F::<S>::from_slice(simd, points)).store_slice(points);
+                }
             }
-            self.values[at + x + y * SIDE][END] = a[END].max(b[END]).max(c[END]).max(d[END]);
         }
     }
 }
 
-/// Mixes the lattice into the tile. Where a solid may stand in front of something that clouds hide, a ray is cast as
-/// far as the solid, for every pixel.
+/// Mixes into the tile what rays meet: `free`, as if there were no solids. Where a solid may stand in front of something
+/// that clouds hide, a ray is cast as far as the solid, for every pixel.
 #[simd]
-fn finish<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile, lattice: &mut Lattice) {
-    let free = lattice.values.clone();
+fn mix<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &mut Tile, free: &Planes) {
+    let lanes = F::<S>::LEN;
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let mut wanted = Vec::new();
     for y in 0..tile.height {
-        for x in 0..tile.width {
-            let (at, point) = (x + y * Tile::SIZE, x + y * SIDE);
-            if tile.coverage[at] > 0.0 && tile.inv_depth[at] * free[point][END] > 1.0 {
-                lattice.wanted.push(point);
+        for x in (0..tile.width).step_by(lanes) {
+            let (at, point) = (x + y * Tile::SIZE, x + y * ROW);
+            let vector = |plane: &[f32], at: usize| F::<S>::from_slice(simd, &plane[at..at + lanes]);
+            let within = vector(&*tile.inv_depth, at) * vector(&free[END], point);
+            let stands = vector(&*tile.coverage, at).simd_gt(zero) & within.simd_gt(one);
+            for lane in Bits(stands.to_bitmask()) {
+                if x + lane < tile.width {
+                    wanted.push(point + lane);
+                }
             }
         }
     }
-    cast(simd, clouds, near, tile, lattice, true);
+    let mut planes = Vec::new();
+    let mut before = free;
+    if !wanted.is_empty() {
+        planes.extend_from_slice(free);
+        let planes = &mut planes.as_chunks_mut().0[0];
+        cast(simd, clouds, near, tile, &wanted, true, planes);
+        before = planes;
+    }
     for y in 0..tile.height {
-        for x in 0..tile.width {
-            let (at, point) = (x + y * Tile::SIZE, x + y * SIDE);
-            let covered = tile.coverage[at];
-            let (before, free) = (lattice.values[point], free[point]);
+        for x in (0..tile.width).step_by(lanes) {
+            let (at, point) = (x + y * Tile::SIZE, x + y * ROW);
+            let vector = |plane: &[f32], at: usize| F::<S>::from_slice(simd, &plane[at..at + lanes]);
+            let covered = vector(&*tile.coverage, at);
+            let open = one - covered;
             for (k, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
-                plane[at] = plane[at] * before[TRANSMITTANCE] + before[k] * covered + free[k] * (1.0 - covered);
+                let light = vector(&**plane, at) * vector(&before[TRANSMITTANCE], point)
+                    + vector(&before[k], point) * covered
+                    + vector(&free[k], point) * open;
+                light.store_slice(&mut plane[at..at + lanes]);
             }
-            tile.coverage[at] = covered + (1.0 - covered) * (1.0 - free[TRANSMITTANCE]);
+            let covered = covered + open * (one - vector(&free[TRANSMITTANCE], point));
+            covered.store_slice(&mut tile.coverage[at..at + lanes]);
         }
     }
 }
 
-/// Casts rays through the points that are wanted: as far as the solids there, or without end.
+/// Casts rays through points: as far as the solids there, or without end.
 #[simd]
-fn cast<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, lattice: &mut Lattice, solids: bool) {
+fn cast<S: Simd>(
+    simd: S,
+    clouds: &SeenClouds,
+    near: &[&SeenCloud],
+    tile: &Tile,
+    points: &[usize],
+    solids: bool,
+    planes: &mut Planes,
+) {
     let grid = clouds.settings.built().grid as u32;
     let step = 1.0 / grid as f32;
-    for points in lattice.wanted.chunks(BLOCK) {
+    for points in points.chunks(BLOCK) {
         let mut sum = [[0.0; BLOCK]; 5];
         for part in 0..grid * grid {
             let [mut x, mut y] = [[0.0; BLOCK]; 2];
             let mut depth = [f32::INFINITY; BLOCK];
             for (i, point) in points.iter().enumerate() {
-                let (column, row) = (point % SIDE, point / SIDE);
+                let (column, row) = (point % ROW, point / ROW);
                 x[i] = to_f32(tile.x + column) + ((part % grid) as f32 + 0.5) * step;
                 y[i] = to_f32(tile.y + row) + ((part / grid) as f32 + 0.5) * step;
                 if solids {
@@ -210,13 +298,13 @@ fn cast<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
             }
             cast_block(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
         }
-        for (i, point) in points.iter().enumerate() {
-            for (k, sum) in sum.iter().enumerate() {
-                lattice.values[*point][k] = sum[i] * if k < END { step * step } else { 1.0 };
+        for (k, (plane, sum)) in planes.iter_mut().zip(&sum).enumerate() {
+            let share = if k < END { step * step } else { 1.0 };
+            for (point, sum) in points.iter().zip(sum) {
+                plane[*point] = sum * share;
             }
         }
     }
-    lattice.wanted.clear();
 }
 
 /// Casts rays through the first `count` of a block's points of the picture, in pixels, each as far as the depth there,
@@ -241,13 +329,16 @@ fn cast_block<S: Simd>(
         let mut light = V3::splat(simd, Vec3::ZERO);
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
-            let passage: Passage<S> = seen.meet(simd, eye, d, limit, clouds.settings.built().opaque);
+            // The less nearer clouds let through, the earlier it ends in this one.
+            let opaque = F::<S>::splat(simd, clouds.settings.built().opaque) / transmittance;
+            let passage: Passage<S> = seen.meet(simd, eye, d, limit, opaque);
+            let ended = passage.end.min(seen.end());
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
             let (color, passes) = passage.shine(simd, &sunlit, d);
             let color = V3::splat(simd, seen.veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, seen.fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
-            end = passes.simd_lt(one).select(end.max(seen.end()), end);
+            end = passes.simd_lt(one).select(end.max(ended), end);
             // A ray that is through ends by itself, by a limit of 0: its light must not depend on its vector's others.
             let ends = transmittance.simd_lt(clouds.settings.built().hidden);
             if ends.all_true() {

@@ -44,6 +44,10 @@ impl Layer for CloudLayer {
         }
     }
 
+    fn foresee(&self, level: Level, tile: &mut Tile) {
+        cells::foresee(level, &self.clouds, tile);
+    }
+
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         cells::draw(level, &self.clouds, tile);
         Stats::default()

@@ -7,11 +7,11 @@
 //! steps the transmittance of clouds that have one in closed form.
 
 use super::world::{Cloud, CloudLight};
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{F, Lane, U, V3};
 use crate::simd::math::{exp2, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::f32::consts::LOG2_E;
 
 /// What rays meet in a cloud, without the colours of its light.
@@ -24,6 +24,8 @@ pub struct Passage<S: Simd> {
     pub lit: F<S>,
     /// The share of what is behind the cloud that comes through: 1 less `hidden`.
     pub transmittance: F<S>,
+    /// Distance from the eye at which the ray ended as too little came through, metres; infinite where none did.
+    pub end: F<S>,
 }
 
 impl<S: Simd> Passage<S> {
@@ -46,10 +48,11 @@ impl<S: Simd> Passage<S> {
 /// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
 ///
 /// ```text
-/// entry, exit = the ray against the three slabs of the cube, ended by the limit
+/// start at the point that is closest to the centre, so that far clouds lose no digits
+/// entry, exit = the ray against the three slabs of the cube, ended by eye and limit
 /// for each step, as long as a lane of the vector has one left:
 ///     u = the middle of the step, in voxels
-///     where anything is within a cell of u in any lane:
+///     where something may be at u in any lane:
 ///         depth += density(u) * extinction * length            for lanes that are not through
 ///         hidden += transmittance - exp(-depth)                 and as much is lit
 ///     step over as many steps as the empty space around u is wide
@@ -64,64 +67,94 @@ pub fn march<S: Simd>(
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
-    [steps, opaque]: [f32; 2],
+    steps: f32,
+    opaque: F<S>,
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let q = (eye - cloud.centre) / cloud.size;
+    let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);
     let [entry, exit] = cube(simd, q, d);
-    let exit = exit.min(limit * (1.0 / cloud.size));
+    let (entry, exit) = (entry.max(-way), exit.min(limit * (1.0 / cloud.size) - way));
     let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let mut end = F::<S>::splat(simd, f32::INFINITY);
     let length = (exit - entry) * (1.0 / steps);
     let missed = length.simd_le(zero);
     if missed.all_true() {
-        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one };
+        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end };
     }
-    let mut step = missed.select(F::<S>::splat(simd, steps), zero);
+    let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
     let most = to_f32(cloud.voxels.edge() - 1);
     let half = to_f32(cloud.voxels.edge()) * 0.5;
-    // Voxels that one step crosses at most, along any axis, and so the steps per voxel.
+    // Voxels that one step crosses at most, along any axis, and so the steps per voxel: a little less, lest rounding
+    // brings a leap into what it ends before.
     let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
-    let reach = one / missed.select(one, stride);
+    let reach = F::<S>::splat(simd, 0.9999) / missed.select(one, stride);
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
-    while step.simd_lt(steps).any_true() {
-        let way = missed.select(zero, entry + (step + 0.5) * length);
-        let p = d * Lane(way);
-        let voxel = |p: F<S>, q: f32| ((p + q) * half + (half - 0.5)).max(0.0).min(most);
-        let u = V3 { x: voxel(p.x, q.x), y: voxel(p.y, q.y), z: voxel(p.z, q.z) };
+    // What ends a lane is kept apart from its step, so that the next place does not wait for this one's light.
+    let (mut step, mut goes) = (zero, length.simd_gt(zero));
+    while goes.any_true() {
+        let along = entry + (step + 0.5) * length;
+        let p = q + d * Lane(along);
+        let voxel = |p: F<S>| (p * half + (half - 0.5)).max(0.0).min(most);
+        let u = V3 { x: voxel(p.x), y: voxel(p.y), z: voxel(p.z) };
         let leap = cloud.voxels.leap(simd, u);
-        if leap.simd_eq(zero).any_true() {
+        if (goes & leap.simd_lt(zero)).any_true() {
             let [density, sunlit] = cloud.voxels.look_up(simd, u);
             // From the depth so far: `1 - exp(-x)` of a thin step would be mostly rounding.
-            depth += step.simd_lt(steps).select(density * thickness, zero);
+            depth += goes.select(density * thickness, zero);
             let passes = exp2(simd, depth);
             let hides = transmittance - passes;
             hidden += hides;
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;
+            let through = transmittance.simd_ge(opaque);
+            end = (goes & !through).select((way + along + length * 0.5) * cloud.size, end);
+            goes = goes & through;
         }
-        step += (leap * reach).floor().max(one);
-        step = transmittance.simd_lt(opaque).select(F::<S>::splat(simd, steps), step);
+        step += (leap.max(zero) * reach).floor() + one;
+        goes = goes & step.simd_lt(steps);
     }
-    let upper = (height + hidden * q.y) * 0.5 + hidden * 0.5;
-    Passage { hidden, upper, lit, transmittance }
+    let upper = (height + hidden) * 0.5;
+    Passage { hidden, upper, lit, transmittance, end }
 }
 
-/// Where rays from `q` along `d` enter and leave the cube from -1 to 1; not before `q`.
+/// The points where rays from `q` along unit directions `d` come closest to the centre of the cube, and how far away.
+///
+/// From there on numbers are small, however far the eye is. As far as that point it takes two goes: in the first the
+/// distance and the directions have 12 bits at a time, whose products are exact.
 #[inline(always)]
-fn cube<S: Simd>(simd: S, q: Vec3, d: V3<S>) -> [F<S>; 2] {
+fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
+    let short = |x: F<S>| (x.bitcast::<U<S>>() & !0xfff).bitcast::<F<S>>();
+    let eye = q.as_vec3();
+    let rest = (q - eye.as_dvec3()).as_vec3();
+    let way = short(-d.dot1(eye));
+    let go = |eye: f32, rest: f32, d: F<S>| {
+        let first = short(d);
+        (first * way + eye) + (d - first) * way + rest
+    };
+    let near = V3::<S> { x: go(eye.x, rest.x, d.x), y: go(eye.y, rest.y, d.y), z: go(eye.z, rest.z, d.z) };
+    let more = -d.dot(near);
+    (near + d * Lane(more), way + more)
+}
+
+/// Where rays from `q` along `d` enter and leave the cube from -1 to 1.
+#[inline(always)]
+fn cube<S: Simd>(simd: S, q: V3<S>, d: V3<S>) -> [F<S>; 2] {
     let [x0, x1] = slab(simd, q.x, d.x);
     let [y0, y1] = slab(simd, q.y, d.y);
     let [z0, z1] = slab(simd, q.z, d.z);
-    [x0.max(y0).max(z0).max(F::<S>::splat(simd, 0.0)), x1.min(y1).min(z1)]
+    [x0.max(y0).max(z0), x1.min(y1).min(z1)]
 }
 
 /// Where rays enter and leave the space between -1 and 1 along an axis.
 #[inline(always)]
-fn slab<S: Simd>(simd: S, q: f32, d: F<S>) -> [F<S>; 2] {
+fn slab<S: Simd>(simd: S, q: F<S>, d: F<S>) -> [F<S>; 2] {
+    let one = F::<S>::splat(simd, 1.0);
+    let inverse = one / d;
+    let (a, b) = (inverse * (-q - 1.0), inverse * (-q + 1.0));
     // A ray along the slab is in it or is not; on the very face it would be 0 / 0, or 0 times infinity.
-    let least = F::<S>::splat(simd, 1e-20);
-    let inverse = F::<S>::splat(simd, 1.0) / d.abs().simd_lt(least).select(least, d);
-    let (a, b) = (inverse * (-1.0 - q), inverse * (1.0 - q));
-    [a.min(b), a.max(b)]
+    let along = d.abs().simd_lt(1e-20);
+    let never = F::<S>::splat(simd, f32::INFINITY);
+    let entry = q.abs().simd_gt(one).select(never, -never);
+    [along.select(entry, a.min(b)), along.select(never, a.max(b))]
 }

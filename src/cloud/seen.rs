@@ -113,23 +113,23 @@ impl SeenCloud {
     /// What rays from `eye` along unit directions `d` meet of it, up to `limit` metres from the eye: of the cloud
     /// itself or of its imposters. A ray ends where its transmittance falls below `opaque`.
     #[inline(always)]
-    pub fn meet<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: f32) -> Passage<S> {
+    pub fn meet<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
             self.meet_imposters(simd, eye, d, limit, opaque)
         } else {
-            march(simd, &self.cloud, eye, d, limit, [self.steps, opaque])
+            march(simd, &self.cloud, eye, d, limit, self.steps, opaque)
         }
     }
 
     /// [`Self::meet`] for a cloud with imposters: their weighted sum, with the cloud's own share where it has one.
     /// Where a solid stands in the cloud, rays are cast.
     #[inline(always)]
-    fn meet_imposters<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: f32) -> Passage<S> {
+    fn meet_imposters<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
         let zero = F::<S>::splat(simd, 0.0);
         let q = (eye - self.cloud.centre) / self.cloud.size;
         let mut sums = [zero; 3];
         if self.direct > 0.0 {
-            let met = march(simd, &self.cloud, eye, d, limit, [self.steps, opaque]);
+            let met = march(simd, &self.cloud, eye, d, limit, self.steps, opaque);
             sums = [met.transmittance * self.direct, met.upper * self.direct, met.lit * self.direct];
         }
         let mut share = 1.0 - self.direct;
@@ -152,18 +152,20 @@ impl SeenCloud {
         }
         // Where a ray passes by an imposter, nothing is hidden.
         let transmittance = sums[0] + share;
-        let met = Passage { hidden: -transmittance + 1.0, upper: sums[1], lit: sums[2], transmittance };
+        let end = F::<S>::splat(simd, f32::INFINITY);
+        let met = Passage { hidden: -transmittance + 1.0, upper: sums[1], lit: sums[2], transmittance, end };
         let reach = self.cloud.voxels.reach() * self.cloud.size;
         let cut = limit.simd_gt(self.distance - reach) & limit.simd_lt(self.distance + reach);
         if !cut.any_true() {
             return met;
         }
-        let cast = march(simd, &self.cloud, eye, d, limit, [self.steps, opaque]);
+        let cast = march(simd, &self.cloud, eye, d, limit, self.steps, opaque);
         Passage {
             hidden: cut.select(cast.hidden, met.hidden),
             upper: cut.select(cast.upper, met.upper),
             lit: cut.select(cast.lit, met.lit),
             transmittance: cut.select(cast.transmittance, met.transmittance),
+            end,
         }
     }
 }

@@ -10,8 +10,7 @@
 //! `0.7 exp(-q / 2) + 0.3 exp(-0.06 q)` of an optical depth q, two terms of the sum of octaves of `[Wrenninge13]`.
 
 use super::voxels::Voxels;
-use crate::simd::block::{BLOCK, load, store};
-use crate::simd::lanes::F;
+use crate::simd::lanes::{F, STEPS, U, float};
 use crate::simd::math::{exp2, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -22,7 +21,7 @@ use std::f32::consts::LOG2_E;
 /// greatest density has that extinction coefficient, per half of the cube's edge.
 #[simd]
 pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f32) {
-    let n = voxels.edge();
+    let (n, lanes) = (voxels.edge(), F::<S>::LEN);
     let (strides, way) = ([1, n, n * n], towards.to_array());
     // Layers lie across the main axis. The ray to the sun goes `du`, `dv` voxels sideways from one to the next.
     let main = towards.abs().max_position();
@@ -31,49 +30,58 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     let (du, dv) = (way[u] * slope, way[v] * slope);
     // Half of the optical depth of one layer, per step of density.
     let half = extinction * slope / to_f32(255 * n);
-    let mut depths = vec![0.0; n * n * n];
+    // Layers with a margin in which nothing is: one row and column before their own, and two after.
+    let width = n + 20;
+    let mut before = vec![0.0; width * (n + 3)];
+    let mut after = before.clone();
+    // A layer's rows interpolated along themselves; densities and light of a row.
+    let mut between = before.clone();
+    let mut densities = vec![0.0; width];
+    let mut lights = densities.clone();
+    let (column, row) = ((du.floor() + 1.0) as usize, (dv.floor() + 1.0) as usize);
+    let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
+    let (density, light) = voxels.density_and_light();
     for step in 0..n {
         let layer = strides[main] * if way[main] > 0.0 { n - 1 - step } else { step };
-        let before = if way[main] > 0.0 { layer + strides[main] } else { layer.wrapping_sub(strides[main]) };
-        for j in 0..n {
-            for i in 0..n {
-                let (x, y) = (to_f32(i) + du, to_f32(j) + dv);
-                let (fx, fy) = (x - x.floor(), y - y.floor());
-                // Outside of the cube nothing is in the way. A place below 0 is cast to one beyond `n`.
-                let depth = |i: i32, j: i32| {
-                    let (i, j) = (i as usize, j as usize);
-                    if step > 0 && i < n && j < n { depths[before + i * strides[u] + j * strides[v]] } else { 0.0 }
-                };
-                let (x, y) = (x.floor() as i32, y.floor() as i32);
-                let (a, b) = (depth(x, y), depth(x, y + 1));
-                let (a, b) = (a + (depth(x + 1, y) - a) * fx, b + (depth(x + 1, y + 1) - b) * fx);
-                let at = layer + i * strides[u] + j * strides[v];
-                depths[at] = a + (b - a) * fy + voxels.density()[at] as f32 * (2.0 * half);
+        for j in 0..n + 1 {
+            for i in (0..n).step_by(lanes) {
+                let place = steps + to_f32(i);
+                let share = place + du - (place + du.floor());
+                let at = (j + row) * width + i + column;
+                let (a, b): (F<S>, F<S>) = (take(simd, &before, at), take(simd, &before, at + 1));
+                (a + (b - a) * share).store_slice(&mut between[j * width + i..][..lanes]);
             }
         }
+        for j in 0..n {
+            let first = layer + j * strides[v];
+            for (i, out) in densities[..n].iter_mut().enumerate() {
+                *out = density[first + i * strides[u]] as f32;
+            }
+            let share = to_f32(j) + dv - (to_f32(j) + dv.floor());
+            for i in (0..n).step_by(lanes) {
+                let (a, b): (F<S>, F<S>) =
+                    (take(simd, &between, j * width + i), take(simd, &between, (j + 1) * width + i));
+                let own: F<S> = take(simd, &densities, i);
+                let depth = a + (b - a) * share + own * (2.0 * half);
+                let inside = (steps + to_f32(i)).simd_lt(to_f32(n));
+                let kept = inside.select(depth, F::<S>::splat(simd, 0.0));
+                kept.store_slice(&mut after[(j + 1) * width + i + 1..][..lanes]);
+                // As far as the centre of the voxel.
+                let q = (depth - own * half) * LOG2_E;
+                let light = exp2(simd, q * -0.5) * (0.7 * 255.0) + exp2(simd, q * -0.06) * (0.3 * 255.0);
+                light.store_slice(&mut lights[i..i + lanes]);
+            }
+            for (i, value) in lights[..n].iter().enumerate() {
+                light[first + i * strides[u]] = (value + 0.5) as u8;
+            }
+        }
+        std::mem::swap(&mut before, &mut after);
     }
-    scatter(simd, voxels, &depths, half);
     voxels.pack();
 }
 
-/// From the optical depths behind voxels to the light at their centres; `half` is half of a voxel's own optical depth,
-/// per step of density.
+/// The vector that begins at a place of a row.
 #[inline(always)]
-fn scatter<S: Simd>(simd: S, voxels: &mut Voxels, depths: &[f32], half: f32) {
-    let (densities, light) = voxels.density_and_light();
-    let blocks = depths.as_chunks::<BLOCK>().0.iter().zip(densities.as_chunks::<BLOCK>().0);
-    for ((depths, densities), out) in blocks.zip(light.as_chunks_mut::<BLOCK>().0) {
-        let mut light = [0.0; BLOCK];
-        for (light, density) in light.iter_mut().zip(densities) {
-            *light = *density as f32 * half;
-        }
-        for i in 0..BLOCK / F::<S>::LEN {
-            // As far as the centre of the voxel.
-            let q = (load::<S, F<S>>(simd, depths, i) - load::<S, F<S>>(simd, &light, i)) * LOG2_E;
-            store(exp2(simd, q * -0.5) * (0.7 * 255.0) + exp2(simd, q * -0.06) * (0.3 * 255.0), &mut light, i);
-        }
-        for (light, out) in light.iter().zip(out) {
-            *out = (*light + 0.5) as u8;
-        }
-    }
+fn take<S: Simd>(simd: S, row: &[f32], at: usize) -> F<S> {
+    F::<S>::from_slice(simd, &row[at..at + F::<S>::LEN])
 }

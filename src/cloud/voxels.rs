@@ -1,7 +1,7 @@
 //! Density and light of a cloud in a cube of voxels, and lookups of both for a vector of points.
 //!
-//! A lookup is trilinear, and takes two reads of memory per point and value: the bytes of four neighbours are packed
-//! into one word. Space is divided into blocks of 4 x 4 x 4 cells, each of which knows how far around it nothing is, so
+//! A lookup is trilinear, and takes two reads of memory per point: the bytes of both values at two neighbours are packed
+//! into one word, and two words lie side by side. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how far around it nothing is, so
 //! that rays can leap over emptiness.
 
 use crate::simd::lanes::{F, U, V3};
@@ -10,10 +10,10 @@ use fearless_simd::prelude::*;
 use glam::Vec3;
 
 /// Cells along an edge of a block, for which one leap is stored.
-const LEAP: usize = 4;
+const LEAP: usize = 2;
 
-/// Rings of blocks that are searched for emptiness: a leap is at most `7 * LEAP` cells.
-const RINGS: usize = 7;
+/// Rings of blocks that are searched for emptiness: a leap is at most `RINGS * LEAP` cells.
+const RINGS: usize = 28 / LEAP;
 
 /// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
 /// ones.
@@ -27,10 +27,11 @@ pub struct Voxels {
     density: Vec<u8>,
     /// See [`Voxels::light`].
     light: Vec<u8>,
-    /// For each point and the next layer: density and light of the point, of the next one along x, and of both one row
-    /// further along y, a byte each.
-    cells: Vec<[u32; 2]>,
-    /// For each block, the number of cells along any axis within which nothing is.
+    /// For each point, of one layer more than there are: density and light of the point and of the next one along y, a
+    /// byte each.
+    cells: Vec<u32>,
+    /// For each block, 0 where something is in it, otherwise 1 more than the number of cells around it, along any axis,
+    /// within which nothing is.
     leaps: Vec<u8>,
     /// See [`Voxels::reach`].
     reach: f32,
@@ -91,33 +92,31 @@ impl Voxels {
     pub(super) fn pack(&mut self) {
         let n = self.edge;
         self.cells.clear();
-        // One layer more than there are, since every lookup reads two.
+        // One layer more than there are, since every lookup reads two; and one point more, since it reads two of a row.
         for row in 0..n * (n + 1) {
             let (j, l) = (row % n, (row / n).min(n - 1));
             let (this, next) = ((j + n * l) * n, ((j + 1).min(n - 1) + n * l) * n);
-            for i in 0..n {
-                let k = (i + 1).min(n - 1);
-                // Not by `map`, which the size build turns into a call for each.
-                let cell = |bytes: &[u8]| {
-                    u32::from_le_bytes([bytes[this + i], bytes[this + k], bytes[next + i], bytes[next + k]])
-                };
-                self.cells.push([cell(&self.density), cell(&self.light)]);
-            }
+            let [near, far] = [this, next].map(|at| self.density[at..at + n].iter().zip(&self.light[at..at + n]));
+            self.cells.extend(near.zip(far).map(|((a, b), (c, d))| u32::from_le_bytes([*a, *b, *c, *d])));
         }
+        self.cells.push(0);
     }
 
     /// Measures empty space: how far around each block nothing is, and how far the cloud reaches.
     fn measure(&mut self) {
         let mut full = self.occupied();
         let n = self.edge / LEAP;
-        self.leaps = vec![0; full.len()];
+        self.leaps = full.iter().map(|full| !full as u8).collect();
         for _ in 0..RINGS {
-            // One ring wider, an axis at a time. What runs over an edge comes in at the opposite one, which can only
-            // make leaps shorter.
+            // One ring wider, an axis at a time. What runs over an edge comes in at the next row, which can only make
+            // leaps shorter.
             for stride in [1, n, n * n] {
                 let before = full.clone();
-                for (at, full) in full.iter_mut().enumerate() {
-                    *full |= before[(at + stride) % before.len()] | before[(at + before.len() - stride) % before.len()];
+                for (full, next) in full.iter_mut().zip(&before[stride..]) {
+                    *full |= next;
+                }
+                for (full, last) in full[stride..].iter_mut().zip(&before) {
+                    *full |= last;
                 }
             }
             for (leap, full) in self.leaps.iter_mut().zip(&full) {
@@ -149,49 +148,64 @@ impl Voxels {
         full
     }
 
-    /// The number of cells along any axis, at least, within which nothing is around points `u`. Coordinates are those
-    /// of [`Voxels::look_up`].
+    /// The number of cells along any axis, at least, within which nothing is around the blocks that points `u` are in;
+    /// -1 where something may be in the block. Coordinates are those of [`Voxels::look_up`].
     #[inline(always)]
     pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
         let n = to_f32(self.edge / LEAP);
         let block = |u: F<S>| (u * (1.0 / LEAP as f32)).floor();
-        let index = block(u.x) + (block(u.y) + block(u.z) * n) * n;
-        let mut at = [0; 16];
-        index.to_int::<U<S>>().store_slice(&mut at[..F::<S>::LEN]);
-        for at in &mut at[..F::<S>::LEN] {
-            *at = self.leaps[*at as usize] as u32;
-        }
-        U::<S>::from_slice(simd, &at[..F::<S>::LEN]).to_float()
+        let index = (block(u.x) + (block(u.y) + block(u.z) * n) * n).to_int::<U<S>>();
+        U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32).to_float::<F<S>>() - 1.0
     }
 
     /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
     #[inline(always)]
     pub fn look_up<S: Simd>(&self, simd: S, u: V3<S>) -> [F<S>; 2] {
-        let lanes = F::<S>::LEN;
         let n = to_f32(self.edge);
         let base = V3::<S> { x: u.x.floor(), y: u.y.floor(), z: u.z.floor() };
         let f = u - base;
-        let mut at = [0; 16];
-        (base.x + (base.y + base.z * n) * n).to_int::<U<S>>().store_slice(&mut at[..lanes]);
-        let mut words = [[0; 16]; 4];
-        for (lane, at) in at[..lanes].iter().enumerate() {
-            let at = *at as usize;
-            let (near, far) = (self.cells[at], self.cells[at + self.edge * self.edge]);
-            words[0][lane] = near[0];
-            words[1][lane] = near[1];
-            words[2][lane] = far[0];
-            words[3][lane] = far[1];
-        }
-        let near = [0, 1].map(|k| U::<S>::from_slice(simd, &words[k][..lanes]));
-        let far = [2, 3].map(|k| U::<S>::from_slice(simd, &words[k][..lanes]));
-        [0, 1].map(
+        let at = (base.x + (base.y + base.z * n) * n).to_int::<U<S>>();
+        let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
+        [0, 8].map(
             #[inline(always)]
-            |k| {
-                let (a, b) = (bilinear::<S>(near[k], f.x, f.y), bilinear::<S>(far[k], f.x, f.y));
+            |shift| {
+                let (a, b) = (square(near, shift, &f), square(far, shift, &f));
                 a + (b - a) * f.z
             },
         )
     }
+
+    /// The words of points, and of the next ones along x, a number of points further on.
+    #[inline(always)]
+    fn pairs<S: Simd>(&self, simd: S, at: U<S>, further: usize) -> [U<S>; 2] {
+        let cells = &self.cells[further..];
+        let [low, high] = [0, S::u64s::LEN].map(
+            #[inline(always)]
+            |first| {
+                let pairs = S::u64s::from_fn(
+                    simd,
+                    #[inline(always)]
+                    |lane| {
+                        let at = at[first + lane] as usize;
+                        cells[at] as u64 | (cells[at + 1] as u64) << 32
+                    },
+                );
+                pairs.bitcast::<U<S>>()
+            },
+        );
+        [low.unzip_low(high), low.unzip_high(high)]
+    }
+}
+
+/// Bilinear interpolation of a square's four corners: the bytes at `shift` and `shift + 16` of two words, along y, and
+/// the words along x.
+#[inline(always)]
+fn square<S: Simd>([left, right]: [U<S>; 2], shift: u32, f: &V3<S>) -> F<S> {
+    let (a, b) = ((left >> shift & 255).to_float::<F<S>>(), (right >> shift & 255).to_float::<F<S>>());
+    let (left, right) = (left >> (shift + 16), right >> (shift + 16));
+    let (c, d) = ((left & 255).to_float::<F<S>>(), (right & 255).to_float::<F<S>>());
+    let (a, c) = (a + (b - a) * f.x, c + (d - c) * f.x);
+    a + (c - a) * f.y
 }
 
 /// Bilinear interpolation of a square's four corners, which are the bytes of a word: x fastest.

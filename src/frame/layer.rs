@@ -8,6 +8,8 @@
 //!    tile alone, so a frame has the same bytes on every number of threads.
 //! 4. A layer of solids writes `inv_depth` and `coverage` where [`Tile::solids_matter`]; particles and clouds read them
 //!    to be hidden by what is in front, and a sky reads `coverage` to fill what solids left.
+//! 5. [`Layer::foresee`] runs before the first layer is drawn into a tile. A layer that will hide what is far away says
+//!    so in [`Tile::hidden`], for every pixel, and a layer of solids may leave out what is there.
 
 use super::cache::Cache;
 use super::encode::Transfer;
@@ -24,8 +26,11 @@ pub struct Stats {
 
 /// Something that draws into tiles. The module has the contract.
 pub trait Layer: Sync {
-    /// Does what is done once per frame: shadow maps, triangles in bins. What may serve a later frame goes into `cache`.
+    /// Does what is done once per frame: triangles in bins. What may serve a later frame goes into `cache`.
     fn prepare(&mut self, _workers: &Workers, _cache: &Cache) {}
+
+    /// Says from where on the layer will hide what is drawn before it. At most one layer of a picture does.
+    fn foresee(&self, _level: Level, _tile: &mut Tile) {}
 
     /// Draws the layer's part of a tile over what is there.
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;

@@ -155,6 +155,9 @@ impl Renderer {
             let mut samples = 0;
             for column in 0..columns {
                 tile.place(column, row, width, height);
+                for layer in &picture.layers {
+                    layer.foresee(level, tile);
+                }
                 for (index, layer) in picture.layers.iter().enumerate() {
                     tile.solids_matter = index + 1 < picture.layers.len();
                     samples += layer.draw(level, tile).samples;

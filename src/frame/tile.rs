@@ -24,6 +24,11 @@ pub struct Tile {
     pub inv_depth: Box<[f32; Tile::AREA]>,
     /// Share of the pixel that solids cover, 0 to 1.
     pub coverage: Box<[f32; Tile::AREA]>,
+    /// 1 / distance along the view axis from which on solids need not be drawn, as a later layer hides them, 1/metres; 0
+    /// for none. A layer that foresees what it hides writes it.
+    pub hidden: Box<[f32; Tile::AREA]>,
+    /// What a layer leaves for itself when it foresees what it hides; empty otherwise.
+    pub foreseen: Vec<f32>,
     /// Whether a later layer may read `inv_depth` and `coverage`. Where none does they need not be written.
     pub solids_matter: bool,
 }
@@ -51,7 +56,9 @@ impl Tile {
     pub(super) fn new() -> Tile {
         let plane = || Box::new([0.0; Tile::AREA]);
         let (red, green, blue, inv_depth, coverage) = (plane(), plane(), plane(), plane(), plane());
-        Tile { x: 0, y: 0, width: 0, height: 0, red, green, blue, inv_depth, coverage, solids_matter: true }
+        let (hidden, foreseen) = (plane(), Vec::new());
+        let (x, y, width, height, solids_matter) = (0, 0, 0, 0, true);
+        Tile { x, y, width, height, red, green, blue, inv_depth, coverage, hidden, foreseen, solids_matter }
     }
 
     /// Makes the tile black and empty.

@@ -4,12 +4,13 @@
 //!
 //! ```text
 //! once a frame    fit        views of lights, fitted to what the camera sees         (asked for by scenes)
-//!                 triangle   faces clipped, snapped and turned into planes, for the camera and for each view of a light
+//!                 triangle   faces clipped, snapped and turned into planes
 //!                 bins       triangles sorted into tiles of 64x64 pixels
-//!                 rasters    shadow maps drawn by `fill`; `shadow_maps` keeps those that stay the same
 //! per tile        fill       which triangle each sample shows
 //!                 collect    fragments: the part of a pixel that shows one triangle, gathered by texture
 //!                 shade      surfaces, textures, snow, haze; `lighting` adds what each light in reach gives
+//! when met        depth_map  a tile of a shadow map, for which `rasters` sets up the bodies that it may show;
+//!                            `shadow_maps` keeps the maps of lights that stay the same
 //! ```
 //!
 //! So visibility is decided before anything is shaded (deferred shading per tile), a fragment is shaded once whatever the

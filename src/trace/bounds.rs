@@ -157,11 +157,13 @@ fn gather(extents: &[Extent], order: &mut [u32]) {
 fn around(shape: &Shape) -> Extent {
     let (center, half) = match *shape {
         Shape::Sphere { center, radius } => (center, Vec3::splat(radius)),
+        Shape::Block { center, half, .. } if !cuts::ASKEW => (center, half),
         Shape::Block { center, half, turn } => {
             let turn = turn.transpose();
             let reach = |axis: usize| turn.row(axis).abs().dot(half);
             (center, Vec3::new(reach(0), reach(1), reach(2)))
         }
+        Shape::Cylinder { center, half, radius, .. } if !cuts::ASKEW => (center, Vec3::new(radius, half, radius)),
         Shape::Cylinder { center, axis, half, radius } => {
             let across = (Vec3::ONE - axis * axis).max(Vec3::ZERO);
             (center, axis.abs() * half + Vec3::new(across.x.sqrt(), across.y.sqrt(), across.z.sqrt()) * radius)

@@ -133,7 +133,14 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32,
     let last = queue.footprint[0];
     queue.footprint[queue.count..].fill(last);
     let footprint = filter.then_some(&queue.footprint);
-    texture::shade(simd, &world.objects[object as usize].material.albedo, &queue.point, footprint, &mut color);
+    texture::shade(
+        simd,
+        &world.objects[object as usize].material.albedo,
+        &queue.point,
+        queue.count,
+        footprint,
+        &mut color,
+    );
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

@@ -427,7 +427,7 @@ fn remember<S: Simd>(
         late &= !here;
         let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
         point.store(&mut points, 0);
-        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
+        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, F::<S>::LEN, None, &mut color);
         for lane in Bits(here) {
             let [red, green, blue, ..] = &mut out[lane].numbers;
             *red += color[0][lane] * gain.x[lane];

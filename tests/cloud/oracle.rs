@@ -71,7 +71,7 @@ pub fn rays(
             let axis = |axis: usize| d.iter().map(|d| d[axis]).collect::<Vec<_>>();
             let [x, y, z] = [0, 1, 2].map(|k| F::<S>::from_slice(simd, &axis(k)));
             let d = V3 { x, y, z };
-            let met = march(simd, cloud, eye, d, F::<S>::splat(simd, limit), cut);
+            let met = march(simd, cloud, eye, d, F::<S>::splat(simd, limit), cut[0], F::<S>::splat(simd, cut[1]));
             let (light, left) = met.shine(simd, look, d);
             for i in 0..F::<S>::LEN {
                 found.push((vec3(light.x[i], light.y[i], light.z[i]), left[i]));
