@@ -59,45 +59,10 @@ pub fn nearest<S: Simd>(
     if cuts::MANY_BODIES
         && let Some(shaft) = shaft
         && list.len() > MANY
+        && scattered(simd, bounds, shaft, active)
     {
-        let mut words = 0;
-        for row in 0..list.len().div_ceil(WORD) {
-            words += bounds.words(simd, shaft, row).count_ones() as usize;
-        }
-        // More words, dearer searches for single rays.
-        if words > MANY + list.len() / 16 {
-            let (mut object, mut best) = (U::<S>::splat(simd, NOWHERE), reach);
-            for lane in Bits(active.to_bitmask()) {
-                let one = M::<S>::from_bitmask(simd, 1 << lane);
-                let start = Start { origins: Extent::new(simd, ray.origin, one), leaves: shaft.leaves };
-                let alone = Shaft::new(simd, start, Extent::new(simd, ray.direction, one)).within(reach[lane]);
-                let (found, t) = first(simd, world, bounds, list, Some(&alone), ray, one, reach, search);
-                (object, best) = (one.select(found, object), one.select(t, best));
-            }
-            return (object, best);
-        }
+        return apart(simd, world, bounds, list, shaft, ray, active, reach, search);
     }
-    first(simd, world, bounds, list, shaft, ray, active, reach, search)
-}
-
-/// Words of bodies beyond which the rays of a packet are taken one by one: they lead to all sides, as off balls that are
-/// smaller than a pixel, so that together they come near everything.
-const MANY: usize = 8;
-
-/// [`nearest`] for all rays at once.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-fn first<S: Simd>(
-    simd: S,
-    world: &World,
-    bounds: &Bounds,
-    list: &[u64],
-    shaft: Option<&Shaft>,
-    ray: &RayPacket<S>,
-    active: M<S>,
-    reach: F<S>,
-    search: Search,
-) -> (U<S>, F<S>) {
     let shadow = search == Search::Shadow;
     let zero = F::<S>::splat(simd, 0.0);
     let nowhere = U::<S>::splat(simd, NOWHERE);
@@ -145,6 +110,46 @@ fn first<S: Simd>(
             }
         }
         row += 1;
+    }
+    (object, best)
+}
+
+/// Words of bodies beyond which the rays of a packet are taken one by one: they lead to all sides, as off balls that are
+/// smaller than a pixel, so that together they come near everything.
+const MANY: usize = 8;
+
+/// Whether the rays of a packet are better taken one by one.
+#[simd]
+fn scattered<S: Simd>(simd: S, bounds: &Bounds, shaft: &Shaft, active: M<S>) -> bool {
+    let mut words = 0;
+    for row in 0..bounds.all.len().div_ceil(WORD) {
+        words += bounds.words(simd, shaft, row).count_ones() as usize;
+    }
+    // More words, dearer searches for single rays.
+    words > MANY + bounds.all.len() / 16 && active.to_bitmask().count_ones() > 1
+}
+
+/// [`nearest`] for one ray after another, each with a shaft of its own.
+#[simd]
+#[allow(clippy::too_many_arguments)]
+fn apart<S: Simd>(
+    simd: S,
+    world: &World,
+    bounds: &Bounds,
+    list: &[u64],
+    shaft: &Shaft,
+    ray: &RayPacket<S>,
+    active: M<S>,
+    reach: F<S>,
+    search: Search,
+) -> (U<S>, F<S>) {
+    let (mut object, mut best) = (U::<S>::splat(simd, NOWHERE), reach);
+    for lane in Bits(active.to_bitmask()) {
+        let one = M::<S>::from_bitmask(simd, 1 << lane);
+        let start = Start { origins: Extent::new(simd, ray.origin, one), leaves: shaft.leaves };
+        let alone = Shaft::new(simd, start, Extent::new(simd, ray.direction, one)).within(reach[lane]);
+        let (found, t) = nearest(simd, world, bounds, list, Some(&alone), ray, one, reach, search);
+        (object, best) = (one.select(found, object), one.select(t, best));
     }
     (object, best)
 }
