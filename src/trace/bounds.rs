@@ -1,7 +1,7 @@
 //! Which bodies a packet of rays may meet: boxes around bodies, many per vector, against the shaft of the packet.
 //!
 //! A test of a packet against a body is dear, above all against a block, and most packets come near few bodies. So the
-//! packet's rays are taken together, as in shaft culling `[Haines94]`: all origins lie in one box, all directions in
+//! packet's rays are taken together, as in shaft culling `[Haines91]`: all origins lie in one box, all directions in
 //! another, so that at a distance t along the rays all points lie in `origins + t directions`, by interval arithmetic
 //! `[Boulos06]`. Along each axis that box overlaps the box of a body from some distance on, up to some distance; both are
 //! linear in the body's sides, so that a vector of bodies takes six multiplications. What is left is one bit per body.
@@ -259,6 +259,12 @@ impl Shaft {
         let (low, high) = (target - origins.low, target - origins.high);
         let slack = SLACK * low.abs().max(high.abs()).max_element();
         Shaft::between(simd, start, low - slack, high + slack, 1.0)
+    }
+
+    /// The same of rays that end at a distance.
+    #[inline(always)]
+    pub fn within(self, reach: f32) -> Shaft {
+        Shaft { reach: self.reach.min(reach * (1.0 + SLACK)), ..self }
     }
 
     /// At the distance t the rays are between `origins.low + low t` and `origins.high + high t`.

@@ -3,7 +3,7 @@
 //! Every ray is tried against every body that [`super::bounds`] leaves. The scalar code that this must equal is
 //! [`super::reference`].
 
-use super::bounds::{Bounds, Shaft, WORD};
+use super::bounds::{Bounds, Extent, Shaft, Start, WORD};
 use super::shape::Ball;
 use super::world::World;
 use crate::cuts;
@@ -46,6 +46,48 @@ pub enum Search {
 #[simd]
 #[allow(clippy::too_many_arguments)]
 pub fn nearest<S: Simd>(
+    simd: S,
+    world: &World,
+    bounds: &Bounds,
+    list: &[u64],
+    shaft: Option<&Shaft>,
+    ray: &RayPacket<S>,
+    active: M<S>,
+    reach: F<S>,
+    search: Search,
+) -> (U<S>, F<S>) {
+    if cuts::MANY_BODIES
+        && let Some(shaft) = shaft
+        && list.len() > MANY
+    {
+        let mut words = 0;
+        for row in 0..list.len().div_ceil(WORD) {
+            words += bounds.words(simd, shaft, row).count_ones() as usize;
+        }
+        // More words, dearer searches for single rays.
+        if words > MANY + list.len() / 16 {
+            let (mut object, mut best) = (U::<S>::splat(simd, NOWHERE), reach);
+            for lane in Bits(active.to_bitmask()) {
+                let one = M::<S>::from_bitmask(simd, 1 << lane);
+                let start = Start { origins: Extent::new(simd, ray.origin, one), leaves: shaft.leaves };
+                let alone = Shaft::new(simd, start, Extent::new(simd, ray.direction, one)).within(reach[lane]);
+                let (found, t) = first(simd, world, bounds, list, Some(&alone), ray, one, reach, search);
+                (object, best) = (one.select(found, object), one.select(t, best));
+            }
+            return (object, best);
+        }
+    }
+    first(simd, world, bounds, list, shaft, ray, active, reach, search)
+}
+
+/// Words of bodies beyond which the rays of a packet are taken one by one: they lead to all sides, as off balls that are
+/// smaller than a pixel, so that together they come near everything.
+const MANY: usize = 8;
+
+/// [`nearest`] for all rays at once.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn first<S: Simd>(
     simd: S,
     world: &World,
     bounds: &Bounds,

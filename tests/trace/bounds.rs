@@ -58,10 +58,8 @@ impl Random {
         let (origin, direction) = (self.vector() * 12.0, self.direction());
         let [near, narrow] = [self.number().powi(6), self.number().powi(6)];
         let mut rays = [[Vec3::ZERO; LANES]; 2];
-        for lane in 0..LANES {
-            rays[0][lane] = origin + self.vector() * 4.0 * near;
-            rays[1][lane] = (direction + self.vector() * narrow).normalize_or(direction);
-        }
+        rays[0] = rays[0].map(|_| origin + self.vector() * 4.0 * near);
+        rays[1] = rays[1].map(|_| (direction + self.vector() * narrow).normalize_or(direction));
         rays
     }
 }
