@@ -53,8 +53,8 @@ fn fill<S: Simd>(simd: S, value: f32, out: &mut [f32; BLOCK]) {
 
 fn wide(level: Level, planes: usize, octaves: Option<u32>) -> u32 {
     dispatch!(level, simd => grid(simd, planes, #[inline(always)] |[x, y, z], out| match octaves {
-        None => noise_block(simd, x, y, z, 1.0, out),
-        Some(octaves) => octaves_block(simd, [x, y, z], octaves, false, None, out),
+        None => noise_block(simd, x, y, z, 1.0, BLOCK, out),
+        Some(octaves) => octaves_block(simd, [x, y, z], octaves, false, BLOCK, None, out),
     }))
 }
 

@@ -29,12 +29,14 @@ const STEP: f64 = 0.05;
 const START: f64 = 2.0;
 const SIZE: (usize, usize) = (1280, 720);
 
-/// Only what a frame does before its tiles.
+/// Only the maps, all of whose tiles are drawn, whether they are looked up or not.
 struct DepthOnly(RasterLayer);
 
 impl Layer for DepthOnly {
-    fn prepare(&mut self, workers: &Workers, _cache: &Cache) {
-        self.0.prepare(workers, _cache);
+    fn prepare(&mut self, workers: &Workers, cache: &Cache) {
+        self.0.prepare(workers, cache);
+        let memory = cache.get::<RasterMemory>();
+        memory.lock().maps.iter().for_each(|(_, map)| map.draw_all(workers));
     }
 
     fn draw(&self, _level: Level, _tile: &mut Tile) -> Stats {

@@ -14,8 +14,8 @@ pub const SCENES: bool = FULL;
 /// Whether two eyes can be rendered side by side.
 pub const STEREO: bool = FULL;
 
-/// Whether a pixel can have a grid of samples.
-pub const REFERENCE: bool = FULL;
+/// Whether there are qualities beside fast and default, such as one that has a grid of samples per pixel.
+pub const QUALITIES: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
 pub const PARAMETERS: bool = FULL;
@@ -40,6 +40,15 @@ pub const BACKGROUND: bool = FULL;
 
 /// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
 pub const SOFT_LIGHTS: bool = FULL;
+
+/// Whether pictures can be encoded by another curve than sRGB's.
+pub const TRANSFERS: bool = FULL;
+
+/// Whether the ray tracer groups bodies, which pays from a hundred on. The show has some tens.
+pub const MANY_BODIES: bool = FULL;
+
+/// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.
+pub const ASKEW: bool = FULL;
 
 /// Whether textures can be checkers: the show has none.
 pub const CHECKER: bool = FULL;

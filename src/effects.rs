@@ -22,7 +22,7 @@ pub struct Fog {
     pub end: f32,
 }
 
-/// Fog over all layers before it, the sky too. The reference is the formula in `f64` (`tests/fog.rs`).
+/// Fog over all layers before it, the sky too. The reference is the formula in `f64` (`tests/frame/fog.rs`).
 pub struct FogLayer {
     fog: Fog,
     view: View,

@@ -196,8 +196,46 @@ impl Default for Quality {
     }
 }
 
-/// Samples along each axis of a pixel as a renderer takes them: `grid`, or 1 in the 64 kB build, which has no reference.
-#[inline(always)]
-pub const fn samples_per_axis(grid: usize) -> usize {
-    if cuts::REFERENCE { grid } else { 1 }
+// The settings as this build has them. In the 64 kB build those in which its two qualities agree are constants, and what
+// other values would need is left out.
+
+impl TraceSettings {
+    /// These settings; in the 64 kB build all but two are those of [`Quality::FAST`].
+    #[inline(always)]
+    pub const fn built(&self) -> TraceSettings {
+        let TraceSettings { min_detail, subpixel, .. } = *self;
+        if cuts::QUALITIES { *self } else { TraceSettings { min_detail, subpixel, ..Quality::FAST.trace } }
+    }
+}
+
+impl RasterSettings {
+    /// These settings; in the 64 kB build all but the coverage are those of [`Quality::FAST`].
+    #[inline(always)]
+    pub const fn built(&self) -> RasterSettings {
+        if cuts::QUALITIES { *self } else { RasterSettings { coverage: self.coverage, ..Quality::FAST.raster } }
+    }
+}
+
+impl CloudSettings {
+    /// These settings; in the 64 kB build those of [`Quality::FAST`].
+    #[inline(always)]
+    pub const fn built(&self) -> CloudSettings {
+        if cuts::QUALITIES { *self } else { Quality::FAST.cloud }
+    }
+}
+
+impl ParticleSettings {
+    /// These settings; in the 64 kB build those of [`Quality::FAST`].
+    #[inline(always)]
+    pub const fn built(&self) -> ParticleSettings {
+        if cuts::QUALITIES { *self } else { Quality::FAST.particles }
+    }
+}
+
+impl SkySettings {
+    /// These settings; in the 64 kB build those of [`Quality::FAST`].
+    #[inline(always)]
+    pub const fn built(&self) -> SkySettings {
+        if cuts::QUALITIES { *self } else { Quality::FAST.sky }
+    }
 }

@@ -7,7 +7,7 @@
 
 use crate::cuts;
 use crate::noise::{self, Footprint};
-use crate::simd::block::{BLOCK, Block3, load, store};
+use crate::simd::block::{BLOCK, Block3, load, store, vectors};
 use crate::simd::lanes::{F, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
@@ -170,7 +170,7 @@ fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
     }
 }
 
-/// The colours of a block of points, linear light: [`Texture::color`], [`BLOCK`] at a time.
+/// The colours of the first `count` points of a block, linear light: [`Texture::color`], up to [`BLOCK`] at a time.
 ///
 /// `footprint` is the length of a pixel's picture on the surface, metres. Where it is given, a colour is an estimate of
 /// the mean over it.
@@ -181,7 +181,15 @@ fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
 /// for each vector of points: the pattern's value from point and noise -> the palette's colour
 /// ```
 #[simd]
-pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Option<&[f32; BLOCK]>, out: &mut Block3) {
+pub fn shade<S: Simd>(
+    simd: S,
+    texture: &Texture,
+    points: &Block3,
+    count: usize,
+    footprint: Option<&[f32; BLOCK]>,
+    out: &mut Block3,
+) {
+    let vectors = vectors(count, F::<S>::LEN);
     let mut local = [[0.0; BLOCK]; 3];
     let (octaves, absolute, warp, scale) = octaves_of(&texture.pattern);
     let mut foot = [0.0; BLOCK];
@@ -190,9 +198,9 @@ pub fn shade<S: Simd>(simd: S, texture: &Texture, points: &Block3, footprint: Op
     let mut lost = [0.0; BLOCK];
     let [x, y, z] = &local;
     let fading = if footprint.is_some() { Some(Footprint { length: &foot, lost: &mut lost }) } else { None };
-    noise::octaves_block(simd, [x, y, z], octaves, absolute, fading, &mut field);
+    noise::octaves_block(simd, [x, y, z], octaves, absolute, count, fading, &mut field);
     let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
+    while i < vectors {
         let p = V3::load(simd, &local, i);
         let n = load::<S, F<S>>(simd, &field, i);
         let w = load::<S, F<S>>(simd, &foot, i);

@@ -14,7 +14,6 @@ use super::march::Passage;
 use super::seen::{SeenCloud, SeenClouds};
 use super::world::CloudLight;
 use crate::frame::Tile;
-use crate::settings::samples_per_axis;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{Bits, F, Lane, STEPS, U, V3, float};
 use crate::simd::math::to_f32;
@@ -107,7 +106,7 @@ fn foresee_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile
             let point = x + y * ROW..x + y * ROW + lanes;
             let passes = F::<S>::from_slice(simd, &free[TRANSMITTANCE][point.clone()]);
             let end = F::<S>::from_slice(simd, &free[END][point]);
-            let ends = passes.simd_lt(clouds.settings.hidden.max(NOTHING));
+            let ends = passes.simd_lt(clouds.settings.built().hidden.max(NOTHING));
             let hidden = ends.select(F::<S>::splat(simd, 1.0) / end, F::<S>::splat(simd, 0.0));
             hidden.store_slice(&mut tile.hidden[x + y * Tile::SIZE..][..lanes]);
         }
@@ -140,7 +139,7 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
 /// Rays are cast for all cells of a size at once, so that vectors are full.
 #[simd]
 fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
-    let mut size = clouds.settings.cell;
+    let mut size = clouds.settings.built().cell;
     let points = planes[0].len();
     let (known, sizes) = (vec![false; points], vec![size as u8; points]);
     let mut lattice = Lattice { planes, known, sizes, wanted: Vec::new() };
@@ -160,7 +159,7 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
                             }
                         }
                         1 => lattice.want(cell.middle()),
-                        _ => lattice.fill_or_cut(simd, cell, clouds.settings.threshold),
+                        _ => lattice.fill_or_cut(simd, cell, clouds.settings.built().threshold),
                     }
                 }
             }
@@ -282,7 +281,7 @@ fn cast<S: Simd>(
     solids: bool,
     planes: &mut Planes,
 ) {
-    let grid = samples_per_axis(clouds.settings.grid) as u32;
+    let grid = clouds.settings.built().grid as u32;
     let step = 1.0 / grid as f32;
     for points in points.chunks(BLOCK) {
         let mut sum = [[0.0; BLOCK]; 5];
@@ -331,7 +330,7 @@ fn cast_block<S: Simd>(
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
             // The less nearer clouds let through, the earlier it ends in this one.
-            let opaque = F::<S>::splat(simd, clouds.settings.opaque) / transmittance;
+            let opaque = F::<S>::splat(simd, clouds.settings.built().opaque) / transmittance;
             let passage: Passage<S> = seen.meet(simd, eye, d, limit, opaque);
             let ended = passage.end.min(seen.end());
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
@@ -341,7 +340,7 @@ fn cast_block<S: Simd>(
             transmittance *= passes;
             end = passes.simd_lt(one).select(end.max(ended), end);
             // A ray that is through ends by itself, by a limit of 0: its light must not depend on its vector's others.
-            let ends = transmittance.simd_lt(clouds.settings.hidden);
+            let ends = transmittance.simd_lt(clouds.settings.built().hidden);
             if ends.all_true() {
                 break;
             }

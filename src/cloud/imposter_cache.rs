@@ -6,7 +6,7 @@
 //! imposters fade into each other, so nothing pops.
 //!
 //! An imposter depends on nothing but its [`ImposterPlan`]. So frames do not depend on which imposters are kept, and
-//! clouds of one shape share them. The reference is the frame without imposters (`tests/imposters.rs`).
+//! clouds of one shape share them. The reference is the frame without imposters (`tests/cloud/imposters.rs`).
 
 use super::cells;
 use super::imposter::{Imposter, ImposterPlan, PLANE};

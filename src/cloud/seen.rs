@@ -64,7 +64,8 @@ impl SeenClouds {
             }
             let distance = way.length();
             let pixels = 2.0 * cloud.size / (distance * view.pixel());
-            let steps = (settings.steps as f32).min((pixels * settings.detail).max(LEAST_STEPS).ceil());
+            let CloudSettings { steps, detail, .. } = settings.built();
+            let steps = (steps as f32).min((pixels * detail).max(LEAST_STEPS).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
             let (fades, veil, sunlit) = (1.0, Vec3::ZERO, 1.0);
             let new = SeenCloud { cloud, distance, steps, fades, veil, sunlit, imposters: Vec::new(), direct: 1.0 };

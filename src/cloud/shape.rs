@@ -175,6 +175,6 @@ fn fbm<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, octav
         }
     }
     let mut out = [0.0; BLOCK];
-    octaves_block(simd, [&q[0], &q[1], &q[2]], octaves, false, None, &mut out);
+    octaves_block(simd, [&q[0], &q[1], &q[2]], octaves, false, BLOCK, None, &mut out);
     out
 }

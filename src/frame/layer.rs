@@ -26,7 +26,7 @@ pub struct Stats {
 
 /// Something that draws into tiles. The module has the contract.
 pub trait Layer: Sync {
-    /// Does what is done once per frame: shadow maps, triangles in bins. What may serve a later frame goes into `cache`.
+    /// Does what is done once per frame: triangles in bins. What may serve a later frame goes into `cache`.
     fn prepare(&mut self, _workers: &Workers, _cache: &Cache) {}
 
     /// Says from where on the layer will hide what is drawn before it. At most one layer of a picture does.

@@ -146,6 +146,7 @@ impl Renderer {
             layer.prepare(&self.workers, &self.cache);
         }
         let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
+        let transfer = if cuts::TRANSFERS { picture.transfer } else { Transfer::Srgb };
         let columns = width.div_ceil(Tile::SIZE);
         // The pixels of a band are contiguous, so threads never share a cache line. Bands are handed out one at a time, so
         // that a few expensive ones do not all fall to one thread.
@@ -161,7 +162,7 @@ impl Renderer {
                     tile.solids_matter = index + 1 < picture.layers.len();
                     samples += layer.draw(level, tile).samples;
                 }
-                dispatch!(level, simd => encode_tile(simd, picture.transfer, tile, stride, &mut pixels[x..]));
+                dispatch!(level, simd => encode_tile(simd, transfer, tile, stride, &mut pixels[x..]));
             }
             samples
         };

@@ -14,7 +14,7 @@
 
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
-use crate::simd::block::{BLOCK, load, store};
+use crate::simd::block::{BLOCK, load, store, vectors};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx512, f32x16, i32x16, prelude::*, u8x64, u32x16};
 
@@ -92,9 +92,9 @@ fn gradient(simd: Avx512, tables: &[Floats; 3], hash: u32x16<Avx512>, x: Floats,
     component(simd, tables[0], hash).mul_add(x, component(simd, tables[1], hash).mul_add(y, z))
 }
 
-/// Noise at 64 points times `zoom`.
+/// Noise at the first `count` of 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64(simd: Avx512, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
+pub fn noise64(simd: Avx512, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
     let table = load_table(simd, &PERMUTATION);
     let (ix, iy, iz) = (cells(simd, x, zoom), cells(simd, y, zoom), cells(simd, z, zoom));
     let a = lookup(simd, table, ix) + iy;
@@ -113,7 +113,7 @@ pub fn noise64(simd: Avx512, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, out: &mut
         f32x16::load_array(simd, GRADIENTS[2]),
     ];
 
-    for g in 0..BLOCK / Floats::LEN {
+    for g in 0..vectors(count, Floats::LEN) {
         let (x, y, z): (Floats, Floats, Floats) = (load(simd, x, g), load(simd, y, g), load(simd, z, g));
         let (x, y, z) = (x * zoom, y * zoom, z * zoom);
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());

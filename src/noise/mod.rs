@@ -10,9 +10,12 @@
 //! - `permutation`: his table, from which both hashes and gradients are taken.
 //! - `curve`: his weights and the interpolation, over lanes.
 //! - `wide`: 64 points at any SIMD level. Hashes are looked up one by one, everything else is over lanes.
+//! - `avx2`: 64 points, whose hashes are looked up once for each run of points in one cell.
 //! - `avx512`: 64 points by byte permutations, which hold the whole table in four registers.
 //! - `octaves`: picks the kernel of a SIMD level, and sums octaves, which may fade with the size of a pixel.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod curve;

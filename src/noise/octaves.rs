@@ -4,10 +4,10 @@
 //! at one point, or it shimmers. So each octave may fade with the length `L` of the footprint, in the octave's own
 //! cells, by `1 / (1 + 0.3 L^2)`. That is a fit to its best linear predictor, within 0.04 of what was measured.
 
-#[cfg(target_arch = "x86_64")]
-use super::avx512;
 use super::wide;
-use crate::simd::block::{BLOCK, load, store};
+#[cfg(target_arch = "x86_64")]
+use super::{avx2, avx512};
+use crate::simd::block::{BLOCK, load, store, vectors};
 use crate::simd::level::best;
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::Level;
@@ -22,8 +22,8 @@ const MEAN: f32 = 0.21;
 /// Cells of an octave along the footprint from which on it is left out: less than a thirtieth of it would be left.
 const LONG: f32 = 10.0;
 
-/// Perlin's improved noise at a block of points, whose coordinates are multiplied by `zoom`: the same bits as
-/// [`noise`](super::noise) there.
+/// Perlin's improved noise at the first `count` points of a block, whose coordinates are multiplied by `zoom`: the same
+/// bits as [`noise`](super::noise) there. What is written behind these is of no meaning.
 #[simd]
 pub fn noise_block<S: Simd>(
     simd: S,
@@ -31,14 +31,15 @@ pub fn noise_block<S: Simd>(
     y: &[f32; BLOCK],
     z: &[f32; BLOCK],
     zoom: f32,
+    count: usize,
     out: &mut [f32; BLOCK],
 ) {
     match simd.level() {
         #[cfg(target_arch = "x86_64")]
-        Level::Avx512(simd) => avx512::noise64(simd, [x, y, z], zoom, out),
+        Level::Avx512(simd) => avx512::noise64(simd, [x, y, z], zoom, count, out),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(simd) => wide::noise64_avx2(simd, [x, y, z], zoom, out),
-        _ => wide::noise64(simd, [x, y, z], zoom, out),
+        Level::Avx2(simd) => avx2::noise64(simd, [x, y, z], zoom, count, out),
+        _ => wide::noise64(simd, [x, y, z], zoom, count, out),
     }
 }
 
@@ -50,7 +51,8 @@ pub struct Footprint<'a> {
     pub lost: &'a mut [f32; BLOCK],
 }
 
-/// [`fbm`](super::fbm) at a block of points, or [`turbulence`](super::turbulence) where noises are `absolute`.
+/// [`fbm`](super::fbm) at the first `count` points of a block, or [`turbulence`](super::turbulence) where noises are
+/// `absolute`. What is written behind these is of no meaning.
 ///
 /// Without a footprint these are the same bits. With one each octave fades to its mean, as the module says.
 #[simd]
@@ -59,6 +61,7 @@ pub fn octaves_block<S: Simd>(
     [x, y, z]: [&[f32; BLOCK]; 3],
     octaves: u32,
     absolute: bool,
+    count: usize,
     mut footprint: Option<Footprint>,
     out: &mut [f32; BLOCK],
 ) {
@@ -72,10 +75,10 @@ pub fn octaves_block<S: Simd>(
     for _ in 0..octaves {
         let mut octave = [0.0; BLOCK];
         if shortest * zoom < LONG {
-            noise_block(simd, x, y, z, zoom, &mut octave);
+            noise_block(simd, x, y, z, zoom, count, &mut octave);
         }
         let mut i = 0;
-        while i < BLOCK / S::f32s::LEN {
+        while i < vectors(count, S::f32s::LEN) {
             let mut n: S::f32s = load(simd, &octave, i);
             if absolute {
                 n = n.abs();
@@ -136,7 +139,7 @@ pub fn octaves(p: Vec3, octaves: usize, absolute: bool) -> f32 {
         [x[k], y[k], z[k]] = zoomed.to_array();
         zoomed *= 2.0;
     }
-    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, &mut n));
+    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, octaves, &mut n));
     let (mut sum, mut amplitude) = (0.0, 0.5);
     for n in &n[..octaves] {
         sum += amplitude * if absolute { n.abs() } else { *n };

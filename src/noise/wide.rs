@@ -1,4 +1,4 @@
-//! Noise for 64 points at any SIMD level.
+//! Noise for 64 points at any SIMD level: what a level has no kernel of its own for.
 //!
 //! ```text
 //! cells of all points, over lanes
@@ -11,18 +11,16 @@
 
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
-use crate::simd::block::{BLOCK, load, store};
-#[cfg(target_arch = "x86_64")]
-use core::arch::x86_64::*;
+use crate::simd::block::{BLOCK, load, store, vectors};
 use fearless_simd::prelude::*;
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Avx2, f32x8, u32x8};
 
-/// The gradient of each entry of the permutation: its components, -1, 0 or 1, as signed fields of two bits, x lowest.
+/// The gradients in the order of Perlin's `h & 15`: their components, -1, 0 or 1, as signed fields of two bits, x lowest. A
+/// component of 1 is 1, 4 or 16 in x, y or z, one of -1 is 3, 12 or 48.
+pub const CODES: [u8; 16] =
+    [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
+
+/// The gradient of each entry of the permutation as [`CODES`] has it.
 static GRADIENTS: [u8; 257] = {
-    // A component of 1 is 1, 4 or 16 in x, y or z, one of -1 is 3, 12 or 48. In the order of Perlin's `h & 15`.
-    const CODES: [u8; 16] =
-        [0x05, 0x07, 0x0d, 0x0f, 0x11, 0x13, 0x31, 0x33, 0x14, 0x1c, 0x34, 0x3c, 0x05, 0x1c, 0x07, 0x3c];
     let mut codes = [0; 257];
     let mut i = 0;
     while i < 257 {
@@ -36,73 +34,30 @@ static GRADIENTS: [u8; 257] = {
 ///
 /// In 32 bits, since writing the byte of a register would make each lookup wait for the last.
 #[inline(always)]
-fn at(table: &[u8; 257], i: u32) -> u32 {
+pub fn at(table: &[u8; 257], i: u32) -> u32 {
     let i = i as usize & 255;
     u16::from_le_bytes([table[i], table[i + 1]]) as u32
 }
 
-#[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    /// The low two bits of each lane, as a number with a sign, by one permutation.
-    #[inline]
-    fn component_avx2(simd: Avx2, codes: u32x8<Avx2>) -> f32x8<Avx2> {
-        let values = _mm256_setr_ps(0.0, 1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0);
-        _mm256_permutevar_ps(values, codes.into()).simd_into(simd)
-    }
-);
-
-/// Noise at 64 points times `zoom` at AVX2, which has a permutation for a gradient's components.
-#[cfg(target_arch = "x86_64")]
+/// Noise at the first `count` of 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64_avx2(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
-    noise64_by(
-        simd,
-        points,
-        zoom,
-        out,
-        #[inline(always)]
-        |codes| component_avx2(simd, codes),
-    );
-}
-
-/// Noise at 64 points times `zoom`.
-#[inline(always)]
-pub fn noise64<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], zoom: f32, out: &mut [f32; BLOCK]) {
-    noise64_by(
-        simd,
-        points,
-        zoom,
-        out,
-        #[inline(always)]
-        |codes| ((codes << 30).bitcast::<S::i32s>() >> 30).to_float(),
-    );
-}
-
-/// Noise at 64 points times `zoom`; `component` makes a float of the number with a sign in the low two bits of each
-/// lane.
-#[inline(always)]
-fn noise64_by<S: Simd>(
-    simd: S,
-    [x, y, z]: [&[f32; BLOCK]; 3],
-    zoom: f32,
-    out: &mut [f32; BLOCK],
-    component: impl Fn(S::u32s) -> S::f32s,
-) {
+pub fn noise64<S: Simd>(simd: S, [x, y, z]: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
+    let vectors = vectors(count, S::f32s::LEN);
     let [mut ix, mut iy, mut iz] = [[0u32; BLOCK]; 3];
     cells(simd, x, zoom, &mut ix);
     cells(simd, y, zoom, &mut iy);
     cells(simd, z, zoom, &mut iz);
-    let codes = hashes(&ix, &iy, &iz);
+    let codes = hashes(&ix, &iy, &iz, vectors * S::f32s::LEN);
     let mut i = 0;
-    while i < BLOCK / S::f32s::LEN {
+    while i < vectors {
         let (x, y, z): (S::f32s, S::f32s, S::f32s) = (load(simd, x, i), load(simd, y, i), load(simd, z, i));
         let (x, y, z) = (x * zoom, y * zoom, z * zoom);
         let (x, y, z) = (x - x.floor(), y - y.floor(), z - z.floor());
         let (u, v, w) = (fade(x), fade(y), fade(z));
         let (aa, ba): (S::u32s, S::u32s) = (load(simd, &codes[0], i), load(simd, &codes[1], i));
         let (ab, bb): (S::u32s, S::u32s) = (load(simd, &codes[2], i), load(simd, &codes[3], i));
-        let bottom = face([aa, ba, ab, bb], x, y, z, u, v, &component);
-        let top = face([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v, &component);
+        let bottom = face::<S>([aa, ba, ab, bb], x, y, z, u, v);
+        let top = face::<S>([aa >> 8, ba >> 8, ab >> 8, bb >> 8], x, y, z - 1.0, u, v);
         store(lerp(w, bottom, top) + 0.0, out, i);
         i += 1;
     }
@@ -111,9 +66,9 @@ fn noise64_by<S: Simd>(
 /// The gradients of each cell's corners as [`GRADIENTS`] has them: of the corner at (0, 0), (1, 0), (0, 1) and (1, 1)
 /// in x and y, each with that of the corner above it in z in the next byte.
 #[inline(always)]
-fn hashes(ix: &[u32; BLOCK], iy: &[u32; BLOCK], iz: &[u32; BLOCK]) -> [[u32; BLOCK]; 4] {
+fn hashes(ix: &[u32; BLOCK], iy: &[u32; BLOCK], iz: &[u32; BLOCK], count: usize) -> [[u32; BLOCK]; 4] {
     let mut codes = [[0u32; BLOCK]; 4];
-    for i in 0..BLOCK {
+    for i in 0..count.min(BLOCK) {
         let (iy, iz) = (iy[i], iz[i]);
         let ab = at(&PERMUTATION, ix[i]);
         let (a, b) = (at(&PERMUTATION, ab + iy), at(&PERMUTATION, (ab >> 8) + iy));
@@ -128,35 +83,34 @@ fn hashes(ix: &[u32; BLOCK], iy: &[u32; BLOCK], iz: &[u32; BLOCK]) -> [[u32; BLO
 /// The blend of the four corners of one face of a cell, at the offset (x, y, z) from the first, by the weights `u`
 /// along x and `v` along y.
 #[inline(always)]
-fn face<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
-    [aa, ba, ab, bb]: [C; 4],
-    x: F,
-    y: F,
-    z: F,
-    u: F,
-    v: F,
-    component: &impl Fn(C) -> F,
-) -> F {
+fn face<S: Simd>(
+    [aa, ba, ab, bb]: [S::u32s; 4],
+    x: S::f32s,
+    y: S::f32s,
+    z: S::f32s,
+    u: S::f32s,
+    v: S::f32s,
+) -> S::f32s {
     let (x1, y1) = (x - 1.0, y - 1.0);
-    let near = lerp(u, gradient(aa, x, y, z, component), gradient(ba, x1, y, z, component));
+    let near = lerp(u, gradient::<S>(aa, x, y, z), gradient::<S>(ba, x1, y, z));
     // y = 0 in all lanes, as on a floor that lies on the lattice: the far half has no weight.
     if y.simd_eq(0.0).all_true() {
         return near;
     }
-    let far = lerp(u, gradient(ab, x, y1, z, component), gradient(bb, x1, y1, z, component));
+    let far = lerp(u, gradient::<S>(ab, x, y1, z), gradient::<S>(bb, x1, y1, z));
     lerp(v, near, far)
 }
 
 /// The dot product of a gradient and an offset. One of the three products is zero, so this is Perlin's sum of two.
 #[inline(always)]
-fn gradient<S: Simd, F: SimdFloat<S, Element = f32>, C: SimdInt<S>>(
-    code: C,
-    x: F,
-    y: F,
-    z: F,
-    component: &impl Fn(C) -> F,
-) -> F {
-    component(code) * x + (component(code >> 2) * y + component(code >> 4) * z)
+fn gradient<S: Simd>(code: S::u32s, x: S::f32s, y: S::f32s, z: S::f32s) -> S::f32s {
+    component::<S>(code) * x + (component::<S>(code >> 2) * y + component::<S>(code >> 4) * z)
+}
+
+/// The low two bits of each lane, as a number with a sign.
+#[inline(always)]
+fn component<S: Simd>(codes: S::u32s) -> S::f32s {
+    ((codes << 30).bitcast::<S::i32s>() >> 30).to_float()
 }
 
 /// The cells of coordinates times `zoom`, modulo 256.

@@ -1,7 +1,7 @@
 //! How the light wavers that a fire throws on other things.
 //!
 //! As in `[Fire08]` it is noise over time. The mean of four waves is taken, each of which eases from one random number
-//! to the next at a rate of its own: so it has neither jumps nor kinks. `tests/flicker.rs` has the formula in `f64`.
+//! to the next at a rate of its own: so it has neither jumps nor kinks. `tests/particles/flicker.rs` has the formula in `f64`.
 
 use crate::simd::hash::rnd;
 use crate::timeline::ease;

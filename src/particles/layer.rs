@@ -39,7 +39,7 @@ impl ParticleLayer {
         for emitter in &mut emitters {
             match emitter {
                 Emitter::Snow(_) => (planes, color) = ((PASSES, LIGHT), Vec3::ONE),
-                Emitter::Fire(fire) => *fire = fire.detailed(view, settings.detail),
+                Emitter::Fire(fire) => *fire = fire.detailed(view, settings.built().detail),
                 Emitter::Strokes(_) => solids = false,
             }
         }

@@ -6,13 +6,8 @@ use super::world::World;
 use crate::view::View;
 use std::sync::Arc;
 
-/// Where the shadows of a light are looked up.
-pub struct ShadowLookup {
-    /// The light's map, if it has one.
-    pub map: Option<Arc<DepthMap>>,
-    /// Index of the first of its rasters, which hold its triangles where it has no map.
-    pub first: usize,
-}
+/// Where the shadows of a light are looked up, if it casts any that may be seen.
+pub type ShadowLookup = Option<Arc<DepthMap>>;
 
 /// What shading reads of a frame.
 pub struct ShadeContext<'a> {
@@ -20,8 +15,8 @@ pub struct ShadeContext<'a> {
     pub world: &'a World,
     /// The shadows of each light, and after those of falling snow.
     pub lookups: &'a [ShadowLookup],
-    /// The camera's raster, then those of lights.
-    pub rasters: &'a [Raster],
+    /// The camera's raster.
+    pub raster: &'a Raster,
     /// The camera's view.
     pub view: &'a View,
     /// Share of its pixel that a sample stands for.

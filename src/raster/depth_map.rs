@@ -4,25 +4,37 @@
 //! texels are a window that moves with the point and meets 4x4 texels, whose borders count by how much of them it covers:
 //! bilinear interpolation of the averages. It is an approximation of `exact_shadow`.
 
+use super::rasters::LightView;
+use super::shadow_maps::MapKey;
 use crate::cuts;
 use crate::frame::Tile;
+#[cfg(feature = "full")]
+use crate::frame::Workers;
 use crate::simd::lanes::{Bits, F, M};
-use fearless_simd::f32x4;
+use crate::simd::level;
 use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f32x4};
+use fearless_simd_macros::simd;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// `inv_depth` of a texel that shows nothing, -1.7e38: it never hides a point. All bytes are the same, so that a map is
 /// cleared by one call.
 pub const EMPTY: f32 = f32::from_bits(0xfefe_fefe);
-/// Texels after the last row, besides one row after the last view: lookups read whole vectors, and disregard these.
-const SLACK: usize = 4;
+/// The depths of a tile, row by row.
+type Texels = Box<[f32; Tile::AREA]>;
 
 /// The depths of all views of a light.
-#[derive(Default)]
+///
+/// A tile of 64x64 texels is drawn when a lookup first meets it, by the thread that does: of the maps of `day` less than
+/// a third is looked up in a frame. What a tile shows depends on nothing but the key of the map.
 pub struct DepthMap {
     /// Number of texels along an edge of a view: a multiple of [`Tile::SIZE`].
     pub size: usize,
-    /// `inv_depth`, view by view and row by row.
-    texels: Vec<f32>,
+    views: Vec<LightView>,
+    /// `inv_depth`, view by view, in rows of tiles.
+    tiles: Vec<OnceLock<Texels>>,
+    /// Memory for tiles, of a map before.
+    spare: Mutex<Vec<Texels>>,
 }
 
 /// Where the points of a vector appear in the views of a light.
@@ -40,26 +52,61 @@ pub struct MapPoints<S: Simd> {
 }
 
 impl DepthMap {
-    /// Makes room for a number of views of `size` x `size` texels. Old texels may stay: what is used has to be written.
-    /// Panics if `size` is no multiple of [`Tile::SIZE`].
-    pub fn resize(&mut self, size: usize, views: usize) {
+    /// The map that has that key, in the memory of an old one. Panics if the size of views is no multiple of
+    /// [`Tile::SIZE`].
+    pub fn new(key: &MapKey, old: Option<DepthMap>) -> DepthMap {
+        let size = key.views[0].size[0] as usize;
         assert!(size.is_multiple_of(Tile::SIZE));
-        self.size = size;
-        let texels = (views * size + 1) * size + SLACK;
-        if self.texels.len() != texels {
-            self.texels = vec![0.0; texels];
+        let mut spare = Vec::new();
+        if let Some(old) = old {
+            spare = old.spare.into_inner().unwrap_or_default();
+            spare.extend(old.tiles.into_iter().filter_map(OnceLock::into_inner));
         }
+        let views = key.views.iter().map(|view| LightView::new(view, key.back_faces, &key.casters)).collect();
+        let tiles = vec![OnceLock::new(); key.views.len() * (size / Tile::SIZE).pow(2)];
+        DepthMap { size, views, tiles, spare: Mutex::new(spare) }
     }
 
-    /// The rows of tiles of all views, one view after the other.
-    pub fn bands(&mut self) -> impl Iterator<Item = &mut [f32]> {
-        // The row after the last view is less than a chunk.
-        self.texels.chunks_exact_mut((self.size * Tile::SIZE).max(1))
+    /// A map of known depths, in rows of texels for each view.
+    #[cfg(feature = "full")]
+    pub fn of(size: usize, views: &[Vec<f32>]) -> DepthMap {
+        let mut tiles = Vec::new();
+        for (depths, tile) in
+            views.iter().flat_map(|depths| (0..(size / Tile::SIZE).pow(2)).map(move |tile| (depths, tile)))
+        {
+            let corner = tile / (size / Tile::SIZE) * Tile::SIZE * size + tile % (size / Tile::SIZE) * Tile::SIZE;
+            let texel = |i: usize| depths[corner + i / Tile::SIZE * size + i % Tile::SIZE];
+            tiles.push(OnceLock::from(Box::new(std::array::from_fn(texel))));
+        }
+        DepthMap { size, views: Vec::new(), tiles, spare: Mutex::default() }
+    }
+
+    /// The views of the light.
+    pub(super) fn views(&self) -> &[LightView] {
+        &self.views
+    }
+
+    /// Draws every tile that was not, as if all had been looked up.
+    #[cfg(feature = "full")]
+    pub fn draw_all(&self, workers: &Workers) {
+        let draw = |index| _ = dispatch!(workers.level(), simd => self.tile(simd, index));
+        workers.each(0..self.tiles.len(), draw);
     }
 
     /// `inv_depth` at a texel of a view.
     pub fn at(&self, view: usize, x: usize, y: usize) -> f32 {
-        self.texels[(view * self.size + y) * self.size + x]
+        let tiles = self.size / Tile::SIZE;
+        let index = (view * tiles + y / Tile::SIZE) * tiles + x / Tile::SIZE;
+        dispatch!(level::best(), simd => self.tile(simd, index))[y % Tile::SIZE * Tile::SIZE + x % Tile::SIZE]
+    }
+
+    /// A tile, drawn if it was not.
+    #[inline(always)]
+    fn tile<S: Simd>(&self, simd: S, index: usize) -> &[f32; Tile::AREA] {
+        match self.tiles[index].get() {
+            Some(tile) => tile,
+            None => draw(simd, self, index),
+        }
     }
 
     /// The share of the light that reaches points, 0 to 1: of the 3x3 texels around each, those whose surfaces are not
@@ -74,28 +121,71 @@ impl DepthMap {
         let zero = F::<S>::splat(simd, 0.0);
         let (x, y) = ((points.x - shift).max(zero).min(end), (points.y - shift).max(zero).min(end));
         let (column, row) = (x.floor(), y.floor());
-        let line = (points.view * size as u32 as f32 + row).to_int::<S::i32s>();
-        let first = line * size as i32 + column.to_int::<S::i32s>();
         // A coordinate that is NaN may lead anywhere, but not out of the map.
-        let beyond = self.texels.len() - (3 * size + SLACK);
-        let first = first.bitcast::<S::u32s>().min(S::u32s::splat(simd, beyond as u32));
-        let (mut places, mut depths, mut sums) = ([0u32; 16], [0f32; 16], [0f32; 16]);
+        let whole = |n: F<S>| n.to_int::<S::i32s>().bitcast::<S::u32s>().min(S::u32s::splat(simd, size as u32 - 3));
+        let (left, top) = (whole(column), whole(row));
+        let (tiles, last) = ((size / Tile::SIZE) as u32, S::u32s::splat(simd, Tile::SIZE as u32 - 1));
+        let tile = ((whole(points.view) * tiles) + (top >> 6)) * tiles + (left >> 6);
+        let (inner_left, inner_top) = (left & last, top & last);
+        // Mostly all four rows of a window lie in one tile.
+        let apart = inner_left.max(inner_top).simd_gt(S::u32s::splat(simd, Tile::SIZE as u32 - 4)).to_bitmask();
+        let (mut index, mut places, mut depths, mut sums) = ([0u32; 16], [0u32; 16], [0f32; 16], [0f32; 16]);
         let (mut fx, mut fy) = ([0f32; 16], [0f32; 16]);
-        first.store_slice(&mut places[..lanes]);
+        tile.store_slice(&mut index[..lanes]);
+        ((inner_top << 6) + inner_left).store_slice(&mut places[..lanes]);
         points.inv_depth.store_slice(&mut depths[..lanes]);
         (x - column).store_slice(&mut fx[..lanes]);
         (y - row).store_slice(&mut fy[..lanes]);
         for lane in Bits(points.inside.to_bitmask()) {
             let lane = lane & 15;
-            let texels = &self.texels[places[lane] as usize..][..3 * size + SLACK];
+            let (tile, at) = (index[lane] as usize, places[lane] as usize);
             let inv_depth = f32x4::splat(simd, depths[lane]);
-            sums[lane] = if smooth {
-                weighted(simd, texels, size, inv_depth, fx[lane], fy[lane])
+            let mut window = [0.0; 16];
+            let (texels, stride) = if apart >> lane & 1 == 0 {
+                (&self.tile(simd, tile)[at..], Tile::SIZE)
             } else {
-                counted(simd, texels, size, inv_depth)
+                gather(simd, self, tile, at, &mut window);
+                (&window[..], 4)
+            };
+            sums[lane] = if smooth {
+                weighted(simd, texels, stride, inv_depth, fx[lane], fy[lane])
+            } else {
+                counted(simd, texels, stride, inv_depth)
             };
         }
         F::<S>::from_slice(simd, &sums[..lanes]) * (1.0 / 9.0)
+    }
+}
+
+/// Draws a tile of a map.
+#[simd]
+#[cold] // Once per tile.
+#[inline(never)]
+fn draw<S: Simd>(simd: S, map: &DepthMap, index: usize) -> &[f32; Tile::AREA] {
+    map.tiles[index].get_or_init(|| {
+        // In 32 bits, as a division of 64 takes several times the code.
+        let (index, tiles) = (index as u32, (map.size / Tile::SIZE) as u32);
+        let (row, column) = ((index / tiles) as usize, (index % tiles) as usize);
+        let spare = map.spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut texels = spare.unwrap_or_else(|| Box::new([0.0; Tile::AREA]));
+        texels.fill(EMPTY);
+        map.views[row / tiles as usize].draw(simd, column, row % tiles as usize, &mut texels);
+        texels
+    })
+}
+
+/// Gathers the 4x4 texels from a place of a tile on, which reach into the next tiles. Those beyond the map are
+/// disregarded; whatever is there will do.
+#[simd]
+#[cold] // A tenth of the lookups.
+#[inline(never)]
+fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut [f32; 16]) {
+    let (left, top) = (at % Tile::SIZE, at / Tile::SIZE);
+    for (i, texel) in window.iter_mut().enumerate() {
+        let (x, y) = (left + i % 4, top + i / 4);
+        let below = if y < Tile::SIZE { 0 } else { map.size / Tile::SIZE };
+        let tile = (tile + below + x / Tile::SIZE).min(map.tiles.len() - 1);
+        *texel = map.tile(simd, tile)[y % Tile::SIZE * Tile::SIZE + x % Tile::SIZE];
     }
 }
 

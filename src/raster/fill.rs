@@ -28,14 +28,8 @@ impl Default for Visible {
 }
 
 impl Visible {
-    /// Shows nothing anywhere, at the depth of the background.
-    pub fn clear(&mut self, inv_depth: f32) {
-        self.inv_depth.fill(inv_depth);
-        self.id.fill(NOTHING);
-    }
-
-    /// The same at a depth of each pixel's own, beyond which nothing will be shown.
-    pub fn clear_to(&mut self, inv_depth: &[f32; Tile::AREA]) {
+    /// Shows nothing anywhere, at a depth of each pixel's own, beyond which nothing will be shown.
+    pub fn clear(&mut self, inv_depth: &[f32; Tile::AREA]) {
         self.inv_depth.copy_from_slice(inv_depth);
         self.id.fill(NOTHING);
     }
@@ -54,11 +48,20 @@ const FAR: i64 = 1 << 30;
 pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id], x: i32, y: i32, sample: SubPixel, out: &mut Visible) {
     for &id in ids {
         let (mesh, number) = parts(id);
-        fill_one(simd, &meshes[mesh].triangles[number], id, x, y, sample, out);
+        let Visible { inv_depth, id: shown } = &mut *out;
+        fill_one(simd, &meshes[mesh].triangles[number], [x, y], sample, inv_depth, Some((id, shown)));
     }
 }
 
-/// Draws one triangle.
+/// Draws the depths alone of triangles of a mesh, at the middles of pixels, into the tile whose top left pixel is `corner`.
+#[simd]
+pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, ids: &[Id], corner: [i32; 2], depths: &mut [f32; Tile::AREA]) {
+    for &id in ids {
+        fill_one(simd, &mesh.triangles[parts(id).1], corner, CENTER, depths, None);
+    }
+}
+
+/// Draws one triangle; its number where that is `shown`.
 ///
 /// ```text
 /// for each row of the triangle's bounding box within the tile
@@ -70,7 +73,14 @@ pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id], x: i32, y: i32, 
 ///     step the edge functions down
 /// ```
 #[inline(always)]
-fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: SubPixel, out: &mut Visible) {
+fn fill_one<S: Simd>(
+    simd: S,
+    t: &Triangle,
+    [x, y]: [i32; 2],
+    sample: SubPixel,
+    depths: &mut [f32; Tile::AREA],
+    mut shown: Option<(Id, &mut Box<[Id; Tile::AREA]>)>,
+) {
     let lanes = F::<S>::LEN;
     let size = Tile::SIZE as i32;
     // The part of the tile that the triangle may touch, its columns from a multiple of the lanes on.
@@ -94,12 +104,15 @@ fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, x: i32, y: i32, sample: SubP
             let inv_depth = (steps + (dx + column as f32)) * zx + z;
             let inv_depth = inv_depth.max(t.range[0]).min(t.range[1]);
             let inside = (edge[0] | edge[1] | edge[2]).simd_ge(nothing);
-            let (depths, ids) = (&mut out.inv_depth[place..place + lanes], &mut out.id[place..place + lanes]);
+            let depths = &mut depths[place..place + lanes];
             let old = F::<S>::from_slice(simd, depths);
             let nearer = inside & inv_depth.simd_gt(old);
             nearer.select(inv_depth, old).store_slice(depths);
-            let old = S::u32s::from_slice(simd, ids);
-            nearer.select(S::u32s::splat(simd, id), old).store_slice(ids);
+            if let Some((id, ids)) = &mut shown {
+                let ids = &mut ids[place..place + lanes];
+                let old = S::u32s::from_slice(simd, ids);
+                nearer.select(S::u32s::splat(simd, *id), old).store_slice(ids);
+            }
             let mut k = 0;
             while k < 3 {
                 edge[k] += along[k];

@@ -2,11 +2,10 @@
 
 use super::collect::collect;
 use super::context::{ShadeContext, ShadowLookup};
-use super::depth_map::DepthMap;
 use super::fill::{SubPixel, fill};
 use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
-use super::rasters::{self, Raster, draw_map, set_up};
+use super::rasters::Raster;
 use super::shade::flush;
 use super::shadow_maps::MapKey;
 use super::shadow_views::ShadowViews;
@@ -15,7 +14,7 @@ use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
-use crate::settings::{RasterSettings, samples_per_axis};
+use crate::settings::RasterSettings;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::F;
 use crate::view::View;
@@ -27,8 +26,8 @@ pub struct RasterLayer {
     world: World,
     view: View,
     settings: RasterSettings,
-    /// The camera's raster, then those of lights that have no map from an earlier frame.
-    rasters: Vec<Raster>,
+    /// The camera's raster.
+    raster: Raster,
     /// Shadows of each light, and after those of falling snow.
     lookups: Vec<ShadowLookup>,
     /// What the renderer keeps; none until the layer is prepared.
@@ -40,22 +39,20 @@ impl RasterLayer {
     /// `coverage` must be from 1 to 16.
     pub fn new(world: World, view: &View, settings: &RasterSettings) -> RasterLayer {
         let (view, settings) = (*view, *settings);
-        RasterLayer { world, view, settings, rasters: Vec::new(), lookups: Vec::new(), memory: None }
+        RasterLayer { world, view, settings, raster: Raster::default(), lookups: Vec::new(), memory: None }
     }
 
-    /// Decides for each light, and for falling snow, where its shadows are looked up: in a map of an earlier frame, or in
-    /// rasters that are added. Returns the maps that have to be drawn into.
+    /// Finds for each light, and for falling snow, where its shadows are looked up: in a map that an earlier frame has
+    /// begun, or in a new one.
     #[inline(always)]
-    fn look_up_shadows(&mut self, memory: &Kept<RasterMemory>) -> Vec<(MapKey, DepthMap)> {
-        let RasterLayer { world, rasters, lookups, .. } = self;
-        let bodies = &world.bodies;
-        let mut missing = Vec::new();
-        let snow = world.snow.iter().map(|snow| &snow.fall);
-        for (slot, light) in world.lights.iter().chain(snow).enumerate() {
-            let mut lookup = ShadowLookup { map: None, first: rasters.len() };
+    fn look_up_shadows(&mut self, eye: &Projection, memory: &Kept<RasterMemory>) {
+        let World { bodies, lights, snow, .. } = &self.world;
+        let snow = snow.iter().map(|snow| &snow.fall);
+        for (slot, light) in lights.iter().chain(snow).enumerate() {
+            let mut lookup = None;
             // The shadows of a lamp that reaches nothing in the picture are never looked up.
-            if let Some(&ShadowViews { ref views, back_faces, traced, first_caster, .. }) = light.shadow_views()
-                && light.counts(&rasters[0].setup.projection)
+            if let Some(&ShadowViews { ref views, back_faces, first_caster, .. }) = light.shadow_views()
+                && light.counts(eye)
             {
                 let mut key = MapKey { slot, views: views.clone(), back_faces, casters: Vec::new() };
                 for body in bodies.iter().skip(first_caster) {
@@ -63,24 +60,10 @@ impl RasterLayer {
                         key.casters.push(body.clone());
                     }
                 }
-                let traced = cuts::TRACED_SHADOWS && traced;
-                // A traced light has no map, though another frame may have kept one of the same views.
-                let kept = if traced { Err(DepthMap::default()) } else { memory.lock().maps.recall(&key) };
-                match kept {
-                    Ok(map) => lookup.map = Some(map),
-                    Err(map) => {
-                        for projection in views {
-                            rasters::add(rasters, projection, [back_faces, false], first_caster, bodies.len());
-                        }
-                        if !traced {
-                            missing.push((key, map));
-                        }
-                    }
-                }
+                lookup = Some(memory.lock().maps.get(key));
             }
-            lookups.push(lookup);
+            self.lookups.push(lookup);
         }
-        missing
     }
 
     /// Draws a tile; returns the number of fragments.
@@ -93,17 +76,17 @@ impl RasterLayer {
     /// ```
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let RasterLayer { world, view, rasters, lookups, settings, .. } = self;
-        let grid = samples_per_axis(settings.grid) as u32;
+        let RasterLayer { world, view, raster, lookups, settings, .. } = self;
+        let grid = settings.built().grid as u32;
         let count = if grid > 1 { 1 } else { settings.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
-        let ids = rasters[0].bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
+        let ids = raster.bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
         tile.clear();
         tile.coverage.fill(0.0);
         tile.inv_depth.fill(0.0);
         let share = 1.0 / (grid * grid * count as u32) as f32;
-        let context = ShadeContext { world, lookups, rasters, view, share };
+        let context = ShadeContext { world, lookups, raster, view, share };
         let mut fragments = 0;
         if !ids.is_empty() {
             for pass in 0..grid * grid {
@@ -112,8 +95,8 @@ impl RasterLayer {
                         1 => spread(k as u32, count as u32),
                         _ => cell([pass % grid, pass / grid], grid),
                     };
-                    visible.clear_to(&tile.hidden);
-                    fill(simd, &rasters[0].meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
+                    visible.clear(&tile.hidden);
+                    fill(simd, &raster.meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
                 }
                 fragments += collect(simd, &context, planes, queues, tile);
             }
@@ -163,27 +146,17 @@ fn cell(at: [u32; 2], n: u32) -> SubPixel {
 impl Layer for RasterLayer {
     fn prepare(&mut self, workers: &Workers, cache: &Cache) {
         let memory = cache.get();
-        let (projection, bodies) = (Projection::of_view(&self.view), self.world.bodies.len());
-        rasters::add(&mut self.rasters, &projection, [false, true], 0, bodies);
-        let mut missing = self.look_up_shadows(&memory);
-        let RasterLayer { world, rasters, lookups, .. } = self;
-        set_up(workers, rasters, &world.bodies);
-        while let Some((key, mut map)) = missing.pop() {
-            let lookup = &mut lookups[key.slot];
-            map.resize(key.views[0].size[0] as usize, key.views.len());
-            draw_map(workers, &mut map, &rasters[lookup.first..]);
-            lookup.map = Some(memory.lock().maps.keep(key, map));
-        }
+        let projection = Projection::of_view(&self.view);
+        self.look_up_shadows(&projection, &memory);
+        self.raster = Raster::new(workers, &projection, &self.world.bodies);
         self.memory = Some(memory);
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
-        let spare = self.memory.as_ref().and_then(|memory| memory.lock().spare.pop());
-        let mut scratch = spare.unwrap_or_else(Scratch::new);
+        let memory = self.memory.as_ref().expect("a layer that is prepared");
+        let mut scratch = memory.lock().spare.pop().unwrap_or_else(Scratch::new);
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
-        if let Some(memory) = &self.memory {
-            memory.lock().spare.push(scratch);
-        }
+        memory.lock().spare.push(scratch);
         Stats { samples }
     }
 }

@@ -1,14 +1,13 @@
 //! What a light gives to points: Lambert's cosine, the fading of lamps, and shadows, looked up or traced.
 //!
 //! All lights are summed up in one pass over the visible points, each as far as it reaches, instead of one pass over the
-//! scene per light. The formulas are checked in f64 by `tests/lights.rs`, `tests/shadow.rs` and `tests/torch.rs`.
+//! scene per light. The formulas are checked in f64 by `tests/raster/lights.rs`, `tests/raster/shadow.rs` and `tests/raster/torch.rs`.
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::depth_map::MapPoints;
 use super::exact_shadow::hides;
 use super::light::{Light, Source};
 use super::project::Projection;
-use super::rasters::Raster;
 use super::shadow_views::ShadowViews;
 use crate::cuts;
 use crate::simd::block::{BLOCK, Block3};
@@ -38,7 +37,7 @@ pub fn shine<S: Simd>(
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (V3::load(simd, points, i), V3::load(simd, normals, i));
-        let mut gives = light_at(simd, light, lookup, context.rasters, p, n);
+        let mut gives = light_at(simd, light, lookup, p, n);
         if let (Source::Sun(_), Some(clouds)) = (light.source, &context.world.cloud_shadow)
             && !cfg!(without = "cloud-shadows")
         {
@@ -51,14 +50,7 @@ pub fn shine<S: Simd>(
 
 /// Light at points with unit normals, clouds aside.
 #[inline(always)]
-fn light_at<S: Simd>(
-    simd: S,
-    light: &Light,
-    lookup: &ShadowLookup,
-    rasters: &[Raster],
-    point: V3<S>,
-    normal: V3<S>,
-) -> V3<S> {
+fn light_at<S: Simd>(simd: S, light: &Light, lookup: &ShadowLookup, point: V3<S>, normal: V3<S>) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (towards, left) = match light.source {
         Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -76,7 +68,7 @@ fn light_at<S: Simd>(
     {
         let facet = Facet { point, normal, cosine };
         let points = locate(simd, views, light.source, &facet, wanted);
-        share *= unshadowed(simd, views, lookup, rasters, &points);
+        share *= unshadowed(simd, views, lookup, &points);
     }
     V3::splat(simd, light.color) * Lane(share)
 }
@@ -172,25 +164,19 @@ fn face_of<S: Simd>(simd: S, q: V3<S>) -> (F<S>, F<S>) {
 
 /// The share of the light that is not in shadow. Beyond all views that is all of it.
 #[inline(always)]
-fn unshadowed<S: Simd>(
-    simd: S,
-    shadow: &ShadowViews,
-    lookup: &ShadowLookup,
-    rasters: &[Raster],
-    points: &MapPoints<S>,
-) -> F<S> {
+fn unshadowed<S: Simd>(simd: S, shadow: &ShadowViews, lookup: &ShadowLookup, points: &MapPoints<S>) -> F<S> {
     let one = F::<S>::splat(simd, 1.0);
-    let lit = match &lookup.map {
-        Some(map) => map.lit(simd, points, shadow.smooth),
-        None if !cuts::TRACED_SHADOWS => one,
-        None => {
+    let lit = match lookup {
+        None => one,
+        Some(map) if !cuts::TRACED_SHADOWS || !shadow.traced => map.lit(simd, points, shadow.smooth),
+        Some(map) => {
             let (zero, end) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, shadow.views[0].size[0] as f32 - 0.01));
             let (x, y) = (points.x.max(zero).min(end), points.y.max(zero).min(end));
             let mut lit = [0.0; 16];
             for lane in Bits(points.inside.to_bitmask()) {
                 let of = |numbers: &F<S>| numbers.as_slice()[lane];
-                let raster = &rasters[lookup.first + of(&points.view) as usize];
-                lit[lane] = if hides(raster, of(&x), of(&y), of(&points.inv_depth)) { 0.0 } else { 1.0 };
+                let view = &map.views()[of(&points.view) as usize];
+                lit[lane] = if hides(view, of(&x), of(&y), of(&points.inv_depth)) { 0.0 } else { 1.0 };
             }
             F::<S>::from_slice(simd, &lit[..F::<S>::LEN])
         }

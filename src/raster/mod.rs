@@ -4,12 +4,13 @@
 //!
 //! ```text
 //! once a frame    fit        views of lights, fitted to what the camera sees         (asked for by scenes)
-//!                 triangle   faces clipped, snapped and turned into planes, for the camera and for each view of a light
+//!                 triangle   faces clipped, snapped and turned into planes
 //!                 bins       triangles sorted into tiles of 64x64 pixels
-//!                 rasters    shadow maps drawn by `fill`; `shadow_maps` keeps those that stay the same
 //! per tile        fill       which triangle each sample shows
 //!                 collect    fragments: the part of a pixel that shows one triangle, gathered by texture
 //!                 shade      surfaces, textures, snow, haze; `lighting` adds what each light in reach gives
+//! when met        depth_map  a tile of a shadow map, for which `rasters` sets up the bodies that it may show;
+//!                            `shadow_maps` keeps the maps of lights that stay the same
 //! ```
 //!
 //! So visibility is decided before anything is shaded (deferred shading per tile), a fragment is shaded once whatever the
@@ -17,8 +18,7 @@
 //!
 //! What approximates, and where its reference stands: shadow maps ([`depth_map`]) against shadows traced through the
 //! same triangles (`exact_shadow`), and a few samples per pixel against a grid of 64. Edges are exact at any sample:
-//! coverage is decided in whole numbers. `tests/raster.rs`, `tests/clip.rs`, `tests/shadow.rs`, `tests/torch.rs`,
-//! `tests/lights.rs`, `tests/depth_map.rs` and `tests/settle.rs` hold the stages against formulas in f64.
+//! coverage is decided in whole numbers. The files of `tests/raster/` hold the stages against formulas in f64.
 //!
 //! ```
 //! use glam::{Affine3A, Mat3, Vec3, vec3};

@@ -1,5 +1,6 @@
 //! From points in space to the pixels of a picture or of a shadow map.
 
+use crate::frame::Tile;
 use crate::view::View;
 use glam::{Affine3A, Mat4, Vec3, Vec4};
 
@@ -89,6 +90,19 @@ impl Projection {
         [x, w * width - x, y, w * height - y, w - Vec4::W * NEAR]
             .into_iter()
             .any(|plane| plane.dot(center.extend(1.0)) < -radius * plane.truncate().length())
+    }
+
+    /// First and last column, first and last row of the tiles that a sphere may touch. In perspective they are all.
+    pub fn tiles(&self, center: Vec3, radius: f32) -> [f32; 4] {
+        let [x, y, _, w] = self.rows;
+        if w != Vec4::W {
+            return [f32::NEG_INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::INFINITY];
+        }
+        // A pixel more, since corners are snapped.
+        let reach = radius / self.texel + 1.0;
+        let tile = |pixel: f32| (pixel * (1.0 / Tile::SIZE as f32)).floor();
+        let [x, y] = [x, y].map(|row| row.dot(center.extend(1.0)));
+        [tile(x - reach), tile(x + reach), tile(y - reach), tile(y + reach)]
     }
 }
 

@@ -1,74 +1,99 @@
-//! Bodies in the raster of one view: set up, binned and, for a light, drawn into its depth map.
+//! The bodies of a world on the rasters of the camera and of the views of lights.
 
 use super::bins::Bins;
-use super::depth_map::{DepthMap, EMPTY};
-use super::fill::{CENTER, Visible, fill};
+use super::fill::fill_depths;
+use super::id::Id;
 use super::project::Projection;
 use super::triangle::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
-use fearless_simd::dispatch;
+use fearless_simd::Simd;
+use std::slice;
+use std::sync::OnceLock;
 
-/// The bodies of a world in one raster.
+/// Bodies on the raster of the camera.
+#[derive(Default)]
 pub struct Raster {
-    /// The projection, and which faces are drawn.
-    pub setup: TriangleSetup,
-    /// Index of the first body that is drawn.
-    pub first: usize,
     /// The triangles of each body.
     pub meshes: Vec<SetupMesh>,
     /// The triangles by tile.
     pub bins: Bins,
 }
 
-/// Adds a raster of a projection for `bodies` bodies, of which those before `first` are left out. `shaded` triangles have
-/// what shading needs, others only their depth. The raster is empty until [`set_up`].
-pub fn add(
-    rasters: &mut Vec<Raster>,
-    projection: &Projection,
-    [back_faces, shaded]: [bool; 2],
-    first: usize,
-    bodies: usize,
-) {
-    let setup = TriangleSetup { projection: *projection, back_faces, shaded };
-    let meshes = (0..bodies).map(|_| SetupMesh::default()).collect();
-    rasters.push(Raster { setup, first, meshes, bins: Bins::default() });
+impl Raster {
+    /// Sets up every body that the camera may see, and sorts its triangles into tiles.
+    #[inline(always)]
+    pub fn new(workers: &Workers, projection: &Projection, bodies: &[Body]) -> Raster {
+        let setup = TriangleSetup { projection: *projection, back_faces: false, shaded: true };
+        let mut meshes: Vec<_> = bodies.iter().map(|_| SetupMesh::default()).collect();
+        let seen = meshes.iter_mut().zip(bodies).filter(|(_, body)| !projection.misses(body.bound.0, body.bound.1));
+        workers.each(seen, |(mesh, body)| *mesh = setup.set_up(&body.mesh, &body.place));
+        let bins = Bins::new(&meshes, projection.size);
+        Raster { meshes, bins }
+    }
 }
 
-/// Sets up every body in every raster that may show it, and sorts its triangles into tiles.
-#[inline(always)]
-pub fn set_up(workers: &Workers, rasters: &mut [Raster], bodies: &[Body]) {
-    let mut tasks = Vec::new();
-    for Raster { setup, first, meshes, .. } in rasters.iter_mut() {
-        for (mesh, body) in meshes.iter_mut().zip(bodies).skip(*first) {
-            if !setup.projection.misses(body.bound.0, body.bound.1) {
-                tasks.push((&*setup, mesh, body));
+/// What casts shadows in a view of a light. Nothing is set up before a tile needs it: much of a map is never looked up,
+/// and what has been set up once serves all later tiles, also those of later frames.
+pub struct LightView {
+    setup: TriangleSetup,
+    casters: Vec<Caster>,
+}
+
+/// A body that may show in the view.
+struct Caster {
+    body: Body,
+    /// First and last column, first and last row of tiles that it may touch.
+    bound: [f32; 4],
+    piece: OnceLock<Piece>,
+}
+
+/// A body that has been set up, and its triangles by tile.
+struct Piece(SetupMesh, Bins);
+
+impl LightView {
+    /// A view of those bodies that may show in it.
+    pub fn new(projection: &Projection, back_faces: bool, bodies: &[Body]) -> LightView {
+        let setup = TriangleSetup { projection: *projection, back_faces, shaded: false };
+        let mut casters = Vec::new();
+        for body in bodies {
+            let (center, radius) = body.bound;
+            if !projection.misses(center, radius) {
+                let bound = projection.tiles(center, radius);
+                casters.push(Caster { body: body.clone(), bound, piece: OnceLock::new() });
             }
+        }
+        LightView { setup, casters }
+    }
+
+    /// The meshes that a tile may show, each with the triangles that do. Sets up those that no tile has needed before.
+    #[inline(always)]
+    pub fn at(&self, column: usize, row: usize) -> impl Iterator<Item = (&SetupMesh, &[Id])> {
+        let [x, y] = [column, row].map(|n| n as u32 as f32);
+        self.casters.iter().filter_map(move |caster| {
+            let [x0, x1, y0, y1] = caster.bound;
+            // Written so that a NaN counts as everywhere.
+            if x < x0 || x > x1 || y < y0 || y > y1 {
+                return None;
+            }
+            let Piece(mesh, bins) = caster.piece.get_or_init(|| self.set_up(&caster.body));
+            Some((mesh, bins.of(column, row)))
+        })
+    }
+
+    #[inline(never)] // Not compiled anew for each SIMD level.
+    fn set_up(&self, body: &Body) -> Piece {
+        let mesh = self.setup.set_up(&body.mesh, &body.place);
+        let bins = Bins::new(slice::from_ref(&mesh), self.setup.projection.size);
+        Piece(mesh, bins)
+    }
+
+    /// Draws the nearest depths of a tile over what is there.
+    #[inline(always)]
+    pub fn draw<S: Simd>(&self, simd: S, column: usize, row: usize, depths: &mut [f32; Tile::AREA]) {
+        let corner = [column, row].map(|n| (n * Tile::SIZE) as i32);
+        for (mesh, ids) in self.at(column, row) {
+            fill_depths(simd, mesh, ids, corner, depths);
         }
     }
-    workers.each(tasks.iter_mut(), |(setup, mesh, body)| **mesh = setup.set_up(&body.mesh, &body.place));
-    workers.each(rasters.iter_mut(), |raster| {
-        raster.bins = Bins::new(&raster.meshes, raster.setup.projection.size);
-    });
-}
-
-/// Draws the depths of triangles into a map, one view of which is the size of one raster. Threads take a row of tiles at a
-/// time.
-pub fn draw_map(workers: &Workers, map: &mut DepthMap, rasters: &[Raster]) {
-    let (size, level) = (map.size, workers.level());
-    workers.each(map.bands().enumerate(), |(index, texels)| {
-        // In 32 bits, as a division of 64 takes several times the code.
-        let (index, bands) = (index as u32, (size / Tile::SIZE) as u32);
-        let (Raster { meshes, bins, .. }, band) = (&rasters[(index / bands) as usize], (index % bands) as usize);
-        let mut visible = Visible::default();
-        for x in (0..size).step_by(Tile::SIZE) {
-            let ids = bins.of(x / Tile::SIZE, band);
-            visible.clear(EMPTY);
-            let y = (band * Tile::SIZE) as i32;
-            dispatch!(level, simd => fill(simd, meshes, ids, x as i32, y, CENTER, &mut visible));
-            for (from, to) in visible.inv_depth.chunks(Tile::SIZE).zip(texels.chunks_mut(size)) {
-                to[x..][..Tile::SIZE].copy_from_slice(from);
-            }
-        }
-    });
 }

@@ -71,7 +71,7 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
 #[simd]
 #[inline(never)] // Apart, the stages have fewer numbers to keep in registers at a time.
 fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mut FragmentQueue) {
-    let ShadeContext { world, rasters, view, .. } = *context;
+    let ShadeContext { world, raster, view, .. } = *context;
     let one = F::<S>::splat(simd, 1.0);
     let eye = view.camera().eye;
     let mut i = 0;
@@ -81,7 +81,7 @@ fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mu
         // 27: put together, steps of 1/256 pixel.
         let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + corner[0] as u32 as f32;
         let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + corner[1] as u32 as f32;
-        let Surface { normal: n, albedo, inv_depth, gloss } = surfaces(simd, &rasters[0].meshes, &queue.id[0], i, x, y);
+        let Surface { normal: n, albedo, inv_depth, gloss } = surfaces(simd, &raster.meshes, &queue.id[0], i, x, y);
         let far = one / inv_depth.max(F::<S>::splat(simd, FARTHEST));
         let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
         let n = n * Lane(one / n.dot(n).max(F::<S>::splat(simd, 1e-30)).sqrt());
@@ -144,7 +144,7 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
 #[inline(always)]
 fn paint<S: Simd>(simd: S, texture: &Texture, queue: &mut FragmentQueue) {
     let mut painted = [[0.0; BLOCK]; 3];
-    texture::shade(simd, texture, &queue.point, Some(&queue.footprint), &mut painted);
+    texture::shade(simd, texture, &queue.point, BLOCK, Some(&queue.footprint), &mut painted);
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         V3::load(simd, &queue.albedo, i).mulv(V3::load(simd, &painted, i)).store(&mut queue.albedo, i);
@@ -164,7 +164,7 @@ fn settle<S: Simd>(
 ) {
     let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
     shine(simd, context, &snow.fall, lookup, &queue.point, &queue.normal, &mut open);
-    texture::shade(simd, &GRAIN, &queue.point, Some(&queue.footprint), &mut grain);
+    texture::shade(simd, &GRAIN, &queue.point, BLOCK, Some(&queue.footprint), &mut grain);
     snow.whiten(simd, &open, &grain, queue);
 }
 

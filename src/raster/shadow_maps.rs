@@ -25,22 +25,17 @@ pub struct MapKey {
 pub struct ShadowMaps(Vec<(MapKey, Arc<DepthMap>)>);
 
 impl ShadowMaps {
-    /// The map of an earlier frame that has this key; otherwise memory to draw it into. A map of the same slot that is
-    /// another one is given up.
-    pub fn recall(&mut self, key: &MapKey) -> Result<Arc<DepthMap>, DepthMap> {
-        let Some(at) = self.0.iter().position(|(kept, _)| kept.slot == key.slot) else {
-            return Err(DepthMap::default());
-        };
-        if self.0[at].0 == *key {
-            return Ok(self.0[at].1.clone());
+    /// The map that has this key: the one of an earlier frame, or a new one, which replaces that of the same slot.
+    pub fn get(&mut self, key: MapKey) -> Arc<DepthMap> {
+        let mut old = None;
+        if let Some(at) = self.0.iter().position(|(kept, _)| kept.slot == key.slot) {
+            if self.0[at].0 == key {
+                return self.0[at].1.clone();
+            }
+            // Another frame may still be reading it.
+            old = Arc::try_unwrap(self.0.swap_remove(at).1).ok();
         }
-        // Another frame may still be reading it.
-        Err(Arc::try_unwrap(self.0.swap_remove(at).1).unwrap_or_default())
-    }
-
-    /// Keeps a map for later frames.
-    pub fn keep(&mut self, key: MapKey, map: DepthMap) -> Arc<DepthMap> {
-        let map = Arc::new(map);
+        let map = Arc::new(DepthMap::new(&key, old));
         self.0.push((key, map.clone()));
         map
     }

@@ -3,7 +3,7 @@
 //! How far a surface lies open is a lighting problem: falling snow is a light from above with a shadow map, and what it
 //! would give a surface tells the slope and what stands above at once. The depth of snow follows from that, and a surface
 //! is covered where the depth exceeds its roughness, which noise varies, so that snow comes in patches. The formula is
-//! checked in f64 by `tests/settle.rs`.
+//! checked in f64 by `tests/raster/snow_cover.rs`.
 
 use super::light::Light;
 use super::queue::FragmentQueue;

@@ -13,6 +13,12 @@ pub const BLOCK: usize = 64;
 /// x, y and z (or red, green and blue) of the points of a block.
 pub type Block3 = [[f32; BLOCK]; 3];
 
+/// The vectors of a number of `lanes` that the first `count` points of a block lie in: at most those of a block.
+#[inline(always)]
+pub fn vectors(count: usize, lanes: usize) -> usize {
+    count.min(BLOCK).div_ceil(lanes)
+}
+
 /// Vector `i` of a block. Panics where `i` is not below `BLOCK / V::LEN`.
 #[inline(always)]
 pub fn load<S: Simd, V: SimdBase<S>>(simd: S, x: &[V::Element; BLOCK], i: usize) -> V {

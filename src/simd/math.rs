@@ -14,13 +14,8 @@ use std::f32::consts::{FRAC_1_PI, FRAC_1_SQRT_2, LOG2_E};
 ///
 /// The polynomial is that of Cephes' `exp2f` on -1/2..1/2.
 #[inline(always)]
-pub fn exp2<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
-    exp2_within(simd, x.max(-126.0).min(127.0))
-}
-
-/// [`exp2`] without the clamp, for -126 <= `x` <= 127 only.
-#[inline(always)]
-pub fn exp2_within<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
+pub fn exp2<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
+    let x = x.max(-126.0).min(127.0);
     let whole = (x + 0.5).floor();
     let f = x - whole;
     // Terms in pairs rather than Horner's chain, here and in `log2`: a chain, in which each operation waits for the

@@ -6,7 +6,7 @@
 
 use super::dome::{Dome, Quantity, evaluate};
 use crate::frame::Tile;
-use crate::settings::{SkySettings, samples_per_axis};
+use crate::settings::SkySettings;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::to_f32;
@@ -19,24 +19,23 @@ use fearless_simd_macros::simd;
 pub struct Cells {
     /// Edge of a cell, pixels: a power of two up to 64. At 1 every pixel is evaluated.
     size: u32,
-    /// Samples along each axis of a pixel where every pixel is evaluated.
-    grid: usize,
+    settings: SkySettings,
 }
 
 impl Cells {
     /// The largest cells of a view that the settings allow.
     pub fn new(view: &View, settings: &SkySettings) -> Cells {
         let mut size = 64;
-        while size > 1 && size as f32 * view.pixel() > settings.cell {
+        while size > 1 && size as f32 * view.pixel() > settings.built().cell {
             size /= 2;
         }
-        Cells { size, grid: settings.grid }
+        Cells { size, settings: *settings }
     }
 
     /// Samples along each axis of a cell. Asked for where it is used, since it is the constant 1 in the 64 kB build.
     #[inline(always)]
     fn samples(self) -> u32 {
-        if self.size > 1 { 1 } else { samples_per_axis(self.grid) as u32 }
+        if self.size > 1 { 1 } else { self.settings.built().grid as u32 }
     }
 
     /// How far the middle of a cell's first pixel is from where its light is taken, pixels along each axis: 1/2 from a

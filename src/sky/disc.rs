@@ -109,7 +109,7 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
         }
         if moon {
             let [x, y, z] = &points;
-            noise::octaves_block(simd, [x, y, z], 4, false, None, &mut spots);
+            noise::octaves_block(simd, [x, y, z], 4, false, BLOCK, None, &mut spots);
         }
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

@@ -105,7 +105,7 @@ impl Dome {
             sun_size: 2.0,
             moon_size: 2.0,
             shimmer: 0.0,
-            steps: settings.steps,
+            steps: settings.built().steps,
             again: Vec3::ZERO,
             lights,
         };

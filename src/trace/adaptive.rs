@@ -24,7 +24,6 @@ use super::grid::{Grid, Square, same_path};
 use super::job::Job;
 use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
 use crate::frame::Tile;
-use crate::settings::samples_per_axis;
 use crate::simd::lanes::F;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
@@ -37,8 +36,8 @@ const LEVELS: usize = 7;
 /// Memory for drawing a tile, passed from tile to tile. No value in it survives a tile.
 #[derive(Default)]
 pub struct Scratch {
-    /// The objects that eye rays may meet.
-    pub visible: Vec<u32>,
+    /// The bits of the objects that eye rays may meet.
+    pub visible: Vec<u64>,
     grid: Grid,
     /// Squares to be examined, by size from the coarsest.
     work: [Vec<Square>; LEVELS],
@@ -65,7 +64,7 @@ impl Scratch {
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
     scratch.deferred.begin(job.context.world.objects.len(), job.settings.subpixel > 0);
     tile.clear();
-    let across = samples_per_axis(job.settings.grid);
+    let across = job.settings.built().grid;
     let step = 1.0 / to_f32(across);
     let mut count = 0;
     for n in 0..across * across {
@@ -96,7 +95,7 @@ pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch)
 fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     let Scratch { grid, work, whole, edges, .. } = scratch;
     let unit = job.unit();
-    let coarsest = job.settings.cell * unit;
+    let coarsest = job.settings.built().cell * unit;
     let cutter = Cutter { coarsest, unit, end: (tile.width * unit, tile.height * unit) };
     whole.clear();
     edges.clear();
@@ -302,7 +301,7 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
         level += 0.5 * (gain[0] + gain[1] + gain[2]);
     }
     // The eye sees differences on the encoded scale, whose slope falls about with the root of the light.
-    error <= job.settings.threshold * (level * (1.0 / 3.0)).max(1.0 / 64.0).sqrt()
+    error <= job.settings.built().threshold * (level * (1.0 / 3.0)).max(1.0 / 64.0).sqrt()
 }
 
 /// What a displacement of a texture by one pixel counts, as a share of the texture's contrast.

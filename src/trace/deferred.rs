@@ -7,7 +7,7 @@ use super::sample::{GAIN, REMEMBERED, Sample, hit_point};
 use super::world::World;
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, Block3, load, store};
-use crate::simd::lanes::F;
+use crate::simd::lanes::{Bits, F};
 use crate::texture;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -29,6 +29,8 @@ struct TextureQueue {
 #[derive(Default)]
 pub struct Deferred {
     queues: Vec<TextureQueue>,
+    /// The bits of objects that hits may wait for, 64 to a word: among many few are seen in a tile.
+    used: Vec<u64>,
     /// Whether textures are averaged over their footprint.
     filter: bool,
 }
@@ -41,6 +43,7 @@ impl Deferred {
             let (pixel, footprint) = ([0; BLOCK], [0.0; BLOCK]);
             self.queues.push(TextureQueue { count: 0, pixel, gain: black, point: black, footprint });
         }
+        self.used.resize(self.queues.len().div_ceil(64), 0);
         self.filter = filter;
     }
 
@@ -58,6 +61,7 @@ impl Deferred {
         footprint: &[f32; REMEMBERED],
     ) {
         for ((object, hit), &footprint) in sample.hits().zip(footprint) {
+            self.used[object as usize / 64] |= 1 << (object % 64);
             let queue = &mut self.queues[object as usize];
             let at = queue.count & (BLOCK - 1);
             let point = hit_point(hit);
@@ -88,6 +92,7 @@ impl Deferred {
         point: &Block3,
         footprint: &[f32; BLOCK],
     ) {
+        self.used[object as usize / 64] |= 1 << (object % 64);
         let queue = &mut self.queues[object as usize];
         let mut done = 0;
         while done < pixels.len() {
@@ -108,9 +113,13 @@ impl Deferred {
 
     /// Looks up the hits that still wait.
     pub fn finish<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile) {
-        for (object, queue) in self.queues.iter_mut().enumerate() {
-            if queue.count > 0 {
-                flush(simd, world, queue, object as u32, self.filter, tile);
+        for (word, used) in self.used.iter_mut().enumerate() {
+            for bit in Bits(std::mem::take(used)) {
+                let object = word * 64 + bit;
+                let queue = &mut self.queues[object];
+                if queue.count > 0 {
+                    flush(simd, world, queue, object as u32, self.filter, tile);
+                }
             }
         }
     }
@@ -124,7 +133,14 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32,
     let last = queue.footprint[0];
     queue.footprint[queue.count..].fill(last);
     let footprint = filter.then_some(&queue.footprint);
-    texture::shade(simd, &world.objects[object as usize].material.albedo, &queue.point, footprint, &mut color);
+    texture::shade(
+        simd,
+        &world.objects[object as usize].material.albedo,
+        &queue.point,
+        queue.count,
+        footprint,
+        &mut color,
+    );
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

@@ -268,7 +268,7 @@ fn add_texture<S: Simd>(
     light: &mut [[f32; BLOCK]; PLAIN],
 ) {
     let mut color = [[0.0; BLOCK]; 3];
-    texture::shade(simd, albedo, points, footprint, &mut color);
+    texture::shade(simd, albedo, points, BLOCK, footprint, &mut color);
     for k in 0..3 {
         let mut i = 0;
         while i * F::<S>::LEN < BLOCK {

@@ -8,11 +8,14 @@
 //! Images in round mirrors, and the highlights on round and flat bodies, which are images of the lights, are only made
 //! sure to be met by a sample, with squares of half their radius; from there their edges are followed.
 //!
-//! Not guarded are images in the sides of blocks and cylinders, and images of images.
+//! Not guarded are images in the sides of blocks and cylinders, images of images, and in worlds of more than 64 bodies
+//! images in round mirrors, of which there are as many as pairs.
 
+use super::bounds::{Bounds, Extent, Shaft, Start, WORD};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::{FAR, Shape};
-use super::world::{Emitter, Light, Object, World};
+use super::world::{Emitter, Light, Material, Object, World};
+use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::level;
 use crate::view::View;
@@ -24,8 +27,8 @@ use glam::Vec3;
 const BLOCK: usize = 8;
 /// Most balls that stand for one long body.
 const MOST_BALLS: f32 = 64.0;
-/// Share of its peak to which a highlight has fallen where it ceases to be guarded.
-const SKIRT: f32 = 0.125;
+/// Twice the logarithm of 8: a highlight is guarded as far as it has an eighth of its peak.
+const SKIRT: f32 = 4.158_883;
 
 /// What is asked of the rim of a small thing.
 #[derive(Clone, Copy)]
@@ -45,18 +48,28 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard of a `world` as a view shows it. `all` lists every object.
-    pub fn new(world: &World, all: &[u32], view: &View) -> Guard {
+    /// The guard of a `world` as a view shows it. `bounds` has boxes around all objects.
+    pub fn new(world: &World, bounds: &Bounds, view: &View) -> Guard {
         let (columns, rows) = (view.width().div_ceil(BLOCK), view.height().div_ceil(BLOCK));
         let mut guard = Guard { columns, finest: vec![u8::MAX; columns * rows] };
         let eye = view.camera().eye;
+        let many = cuts::MANY_BODIES && world.objects.len() > WORD;
+        let mut mirrors = Vec::new();
+        for (index, body) in world.objects.iter().enumerate() {
+            let flat = matches!(body.shape, Shape::Plane { .. });
+            // Not every ball in every ball where there are many.
+            if mirrors_light(&body.material) && (flat || !many) {
+                mirrors.push(index);
+            }
+        }
         for (index, body) in world.objects.iter().filter(|_| !cfg!(without = "guard")).enumerate() {
             for light in &world.lights {
                 guard.highlight(view, body, position(light, eye));
             }
             for (center, radius) in (0..).map_while(|n| ball(&body.shape, n)) {
                 guard.protect(view, center, radius, Rim::Exact);
-                for (other, mirror) in world.objects.iter().enumerate() {
+                for &other in &mirrors {
+                    let mirror = &world.objects[other];
                     if other != index
                         && let Some((image, radius)) = reflected(eye, mirror, center, radius)
                     {
@@ -66,7 +79,7 @@ impl Guard {
                 }
                 if body.casts_shadow {
                     for light in &world.lights {
-                        guard.shadow(world, all, view, index, light, center, radius);
+                        guard.shadow(world, bounds, view, index, light, center, radius);
                     }
                 }
             }
@@ -85,7 +98,7 @@ impl Guard {
     fn shadow(
         &mut self,
         world: &World,
-        all: &[u32],
+        bounds: &Bounds,
         view: &View,
         caster: usize,
         light: &Light,
@@ -107,7 +120,7 @@ impl Guard {
             }
             let through = center + offset * radius;
             let direction = toward(through);
-            let landing = dispatch!(level::best(), simd => landing(simd, world, all, caster, through, direction));
+            let landing = dispatch!(level::best(), simd => landing(simd, world, bounds, caster, through, direction));
             let Some((point, normal)) = landing else { continue };
             let grown = point.distance(source) / through.distance(source).max(1e-6);
             // The shadow is longer than wide by 1 / slope; at most 8 of it counts.
@@ -124,7 +137,8 @@ impl Guard {
         }
         let Some(point) = mirror_point(view.camera().eye, &body.shape, source) else { return };
         // Half the angle of the lobe, since turning a normal turns the mirrored ray by twice as much.
-        let angle = 0.5 * SKIRT.powf(1.0 / material.exponent.max(1.0)).acos();
+        // A lobe cos(a)^n is all but the Gaussian exp(-n a^2 / 2), and never wider.
+        let angle = 0.5 * (SKIRT / material.exponent.max(1.0)).sqrt();
         let radius = match body.shape {
             Shape::Sphere { radius, .. } => radius * angle,
             _ => 2.0 * angle * point.distance(view.camera().eye),
@@ -163,14 +177,18 @@ impl Guard {
 fn landing<S: Simd>(
     simd: S,
     world: &World,
-    all: &[u32],
+    bounds: &Bounds,
     from: usize,
     origin: Vec3,
     direction: Vec3,
 ) -> Option<(Vec3, Vec3)> {
-    let (from, inward) = (U::<S>::splat(simd, from as u32), M::<S>::splat(simd, false));
-    let ray = RayPacket { origin: V3::splat(simd, origin), direction: V3::splat(simd, direction), from, inward };
-    let (object, t) = nearest(simd, world, all, &ray, !inward, F::<S>::splat(simd, FAR), Search::Nearest);
+    let from = from as u32;
+    let inward = M::<S>::splat(simd, false);
+    let (start, along) = (V3::splat(simd, origin), V3::splat(simd, direction));
+    let ray = RayPacket { origin: start, direction: along, from: U::<S>::splat(simd, from), inward };
+    let shaft = Shaft::new(simd, Start { origins: Extent::point(origin), leaves: from }, Extent::point(direction));
+    let far = F::<S>::splat(simd, FAR);
+    let (object, t) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;
     let point = ray.origin + ray.direction * Lane(t);
     Some((point.first(), body.shape.normal(simd, point).first()))
@@ -247,13 +265,14 @@ fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
     }
 }
 
+/// Whether anything is seen in a body of the material.
+fn mirrors_light(material: &Material) -> bool {
+    material.reflectance.max_element() != 0.0 || material.fresnel != 0.0 || material.is_glass()
+}
+
 /// The image of a ball in a mirror: a point that is seen in the same direction, and the radius that it appears to have
-/// there; none where the body does not mirror.
+/// there; none where its shape makes none that is simple.
 fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(Vec3, f32)> {
-    let material = &mirror.material;
-    if material.reflectance.max_element() == 0.0 && material.fresnel == 0.0 && !material.is_glass() {
-        return None;
-    }
     match mirror.shape {
         Shape::Plane { normal, offset } if normal.dot(eye) > offset => {
             Some((center - normal * (2.0 * (normal.dot(center) - offset)), radius))

@@ -1,25 +1,28 @@
 //! The ray tracer as a layer of a picture.
 
 use super::adaptive::{self, Scratch};
+use super::bounds::{Bounds, WORD};
 use super::guard::Guard;
 use super::job::Job;
 use super::packet::{Limits, TraceContext};
 use super::surface::{self, SurfaceNumbers};
 use super::world::World;
+use crate::cuts;
 use crate::frame::cache::Kept;
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::TraceSettings;
+use crate::simd::lanes::Bits;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
+use glam::Vec3;
 
 /// A world as a view shows it. The layer fills every pixel and writes inverse depth and coverage, so it comes first.
 pub struct TraceLayer {
     world: World,
     surfaces: Vec<SurfaceNumbers>,
-    /// The index of every object.
-    all: Vec<u32>,
+    bounds: Bounds,
     variation: Vec<Variation>,
     view: View,
     guard: Guard,
@@ -40,39 +43,44 @@ impl TraceLayer {
     ///
     /// The world is taken as it is: see [`world`](super::world) for what it must keep to.
     pub fn new(world: World, view: &View, settings: &TraceSettings) -> TraceLayer {
-        let all: Vec<u32> = (0..world.objects.len() as u32).collect();
-        let guard = Guard::new(&world, &all, view);
+        let bounds = Bounds::new(&world);
+        let guard = Guard::new(&world, &bounds, view);
         let surfaces = world.objects.iter().map(|o| surface::numbers(&o.material)).collect();
         let variation = world.objects.iter().map(|o| o.material.albedo.variation()).collect();
         // What counts is light, not weight: a faint ray may meet a lamp's glare.
         let brightest = world.lights.iter().map(|l| l.color.max_element()).fold(1.0, f32::max);
-        let TraceSettings { min_weight, min_detail, light_samples, .. } = *settings;
+        let TraceSettings { min_weight, min_detail, light_samples, .. } = settings.built();
         let limits = Limits { min_weight: min_weight / brightest, min_detail: min_detail / brightest, light_samples };
-        TraceLayer { world, surfaces, all, variation, view: *view, guard, limits, settings: *settings, memory: None }
+        TraceLayer { world, surfaces, bounds, variation, view: *view, guard, limits, settings: *settings, memory: None }
     }
 
     /// Lists the objects that eye rays through a tile may meet: those whose bounds touch the cone around the tile.
-    fn visible(&self, tile: &Tile, visible: &mut Vec<u32>) {
+    fn visible(&self, tile: &Tile, visible: &mut Vec<u64>) {
         let eye = self.view.camera().eye;
         let (x, y) = (to_f32(tile.x), to_f32(tile.y));
         let half = Tile::SIZE as f32 * 0.5;
         // Corners of the grid reach one pixel beyond the tile.
         let cone = Cone::new(&self.view, (x + half, y + half), half + 1.0);
         visible.clear();
-        for (index, body) in self.world.objects.iter().enumerate() {
-            let (center, radius) = body.shape.bound();
-            if cone.may_meet(center - eye, radius) {
-                visible.push(index as u32);
+        for (word, &all) in self.bounds.all.iter().enumerate() {
+            let mut bits = 0;
+            let meets = |(center, radius): (Vec3, f32)| cone.may_meet(center - eye, radius);
+            if !cuts::MANY_BODIES || self.bounds.all.len() == 1 || meets(self.bounds.around(word)) {
+                for bit in Bits(all) {
+                    let body = &self.world.objects[self.bounds.index(word * WORD + bit)];
+                    bits |= (meets(body.shape.bound()) as u64) << bit;
+                }
             }
+            visible.push(bits);
         }
     }
 
     /// Draws a tile; returns the number of eye rays.
     fn draw_in(&self, level: Level, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-        let TraceLayer { world, surfaces, all, variation, view, guard, limits, settings, .. } = self;
+        let TraceLayer { world, surfaces, bounds, variation, view, guard, limits, settings, .. } = self;
         let mut visible = std::mem::take(&mut scratch.visible);
         self.visible(tile, &mut visible);
-        let context = TraceContext { world, surfaces, view, visible: &visible, all, limits: *limits };
+        let context = TraceContext { world, surfaces, view, bounds, visible: &visible, limits: *limits };
         let job = Job { context, variation, guard, settings };
         let samples = dispatch!(level, simd => adaptive::draw(simd, &job, tile, scratch));
         scratch.visible = visible;
@@ -86,6 +94,7 @@ impl Layer for TraceLayer {
     }
 
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
+        // A layer that was not prepared draws too, with memory of its own.
         let mut scratch = self.memory.as_ref().and_then(|memory| memory.lock().0.pop()).unwrap_or_default();
         let samples = self.draw_in(level, tile, &mut scratch);
         if let Some(memory) = &self.memory {

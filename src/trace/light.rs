@@ -1,5 +1,6 @@
 //! What a point sees of the lights, and what a ray sees of the background.
 
+use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::shape::FAR;
 use super::world::{Background, Emitter, Light, World};
@@ -34,15 +35,16 @@ pub fn aim<S: Simd>(simd: S, light: &Light, point: V3<S>) -> Aim<S> {
 
 /// The share of a light that each lane sees: 0 or 1 for a point, the share of `samples` points for a light with a radius.
 ///
-/// Shadow rays leave the points `point` on the bodies `from`. Lanes that are not `wanted` see nothing.
+/// Shadow rays leave the points `point` on the bodies `from`, which are what `start` says. Lanes that are not `wanted` see nothing.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub fn visibility<S: Simd>(
     simd: S,
     world: &World,
-    all: &[u32],
+    bounds: &Bounds,
     samples: u32,
     light: &Light,
+    start: Start,
     point: V3<S>,
     aim: Aim<S>,
     from: U<S>,
@@ -75,7 +77,13 @@ pub fn visibility<S: Simd>(
         }
         // A lit point of a convex body is never in that body's own shadow.
         let ray = RayPacket { origin: point, direction, from, inward: M::<S>::splat(simd, false) };
-        let (object, _) = nearest(simd, world, all, &ray, wanted, distance, Search::Shadow);
+        let shaft = match light.emitter {
+            Emitter::Point(position) if !soft => Shaft::to(simd, start, position),
+            Emitter::Directional(towards) if !soft => Shaft::new(simd, start, Extent::point(towards)),
+            _ => Shaft::new(simd, start, Extent::new(simd, direction, wanted)),
+        };
+        let (object, _) =
+            nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);
         seen += (wanted & object.simd_eq(U::<S>::splat(simd, NOWHERE))).select(one, zero);
     }
     seen * (1.0 / samples as f32)
@@ -89,18 +97,30 @@ fn disc_point(k: u32, n: u32) -> (f32, f32) {
     (radius * cos, radius * sin)
 }
 
-/// The background's light in a unit direction.
+/// The background's light in a unit direction; in lanes that are not `wanted` it may lack the glow.
 #[inline(always)]
-pub fn background<S: Simd>(simd: S, background: &Background, direction: V3<S>) -> V3<S> {
+pub fn background<S: Simd>(simd: S, background: &Background, direction: V3<S>, wanted: M<S>) -> V3<S> {
     let zero = F::<S>::splat(simd, 0.0);
     let Background { horizon, zenith, glow } = *background;
     let base = V3::splat(simd, horizon) + V3::splat(simd, zenith - horizon) * Lane(direction.y.max(zero));
     if glow.exponent == 0.0 {
         return base;
     }
+    let cosine = direction.dot1(glow.direction);
+    let near = noticeable(simd, cosine, F::<S>::splat(simd, glow.exponent));
+    if !(wanted & near).any_true() {
+        return base;
+    }
     // The floor keeps the logarithm finite; below it nothing of the glow is left.
-    let cosine = direction.dot1(glow.direction).max(F::<S>::splat(simd, 1e-6));
-    base + V3::splat(simd, glow.color) * Lane(math::powf(simd, cosine, glow.exponent))
+    let cosine = cosine.max(F::<S>::splat(simd, 1e-6));
+    base + V3::splat(simd, glow.color) * Lane(near.select(math::powf(simd, cosine, glow.exponent), zero))
+}
+
+/// Where the power of a cosine can be seen: it is less than e^-24 elsewhere, since `g^n <= e^(n (g - 1))`. That is below
+/// half an ulp of whatever light it is added to, and most highlights and glows are that far from most directions.
+#[inline(always)]
+pub fn noticeable<S: Simd>(simd: S, cosine: F<S>, exponent: F<S>) -> M<S> {
+    ((F::<S>::splat(simd, 1.0) - cosine) * exponent).simd_lt(F::<S>::splat(simd, 24.0))
 }
 
 /// Cross product.

@@ -8,7 +8,7 @@
 //! world, shape   what is there
 //! guard          which squares must be cut, because something small is there
 //! adaptive       which rays are traced (grid: their samples; job: what a tile reads)
-//! packet         what they see (ray: the nearest body; surface: its material; light: the lights)
+//! packet         what they see (ray: the nearest body; bounds: which bodies may be it; surface: its material; light: the lights)
 //! fill, edge     from samples to pixels
 //! deferred       textures, at each pixel's own hit point
 //! layer          all of it as a layer of a picture
@@ -48,6 +48,7 @@
 //! ```
 
 mod adaptive;
+pub mod bounds;
 mod deferred;
 mod edge;
 mod fill;

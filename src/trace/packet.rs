@@ -15,7 +15,8 @@
 //! carries (`gain`); [`super::deferred`] looks the colours up later, full blocks at a time. Approximations are the two
 //! thresholds of [`Limits`] and the points on soft lights; [`super::reference`] is the recursion without any.
 
-use super::light::{Aim, aim, background, visibility};
+use super::bounds::{Bounds, Extent, Shaft, Start};
+use super::light::{Aim, aim, background, noticeable, visibility};
 use super::ray::{NOWHERE, RayPacket, Search, nearest};
 use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
 use super::shape::FAR;
@@ -39,10 +40,10 @@ pub struct TraceContext<'a> {
     pub surfaces: &'a [SurfaceNumbers],
     /// The view.
     pub view: &'a View,
-    /// The objects that eye rays of the tile may meet.
-    pub visible: &'a [u32],
-    /// Every object, for all other rays.
-    pub all: &'a [u32],
+    /// Boxes around the objects.
+    pub bounds: &'a Bounds,
+    /// The bits of the objects that eye rays of the tile may meet.
+    pub visible: &'a [u64],
     /// Limits of the recursion.
     pub limits: Limits,
 }
@@ -67,6 +68,7 @@ struct Node<S: Simd> {
     /// Lanes too faint to be traced. They are guessed to see the background: half the error of leaving them black.
     faint: M<S>,
     ray: RayPacket<S>,
+    start: Start,
     /// Share of the ray's light that reaches the eye.
     weight: V3<S>,
     /// Length of the path up to the ray's origin, metres.
@@ -84,6 +86,8 @@ struct Hit<S: Simd> {
     /// Those of them on glass.
     glass: M<S>,
     object: U<S>,
+    /// Of rays that leave the hits outwards.
+    start: Start,
     /// Length of the path up to here, metres.
     length: F<S>,
     point: V3<S>,
@@ -119,6 +123,9 @@ const UNLIT: u32 = 0;
 const LIT: u32 = 1;
 const HIGHLIT: u32 = 2;
 const PARTLY_LIT: u32 = 3;
+
+/// Bodies of which all are tested, since finding those that matter takes as long.
+const FEW: u32 = 5;
 
 /// Most lanes of any SIMD level.
 const MOST_LANES: usize = 16;
@@ -182,7 +189,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
         let lanes = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
         let missed = (active & !lanes) | node.faint;
         if missed.any_true() {
-            let behind = background(simd, &world.background, node.ray.direction);
+            let behind = background(simd, &world.background, node.ray.direction, missed);
             light = light + behind.mulv(weight).masked(simd, missed);
         }
         let mut states = U::<S>::splat(simd, UNLIT);
@@ -239,6 +246,7 @@ impl<S: Simd> Node<S> {
             active,
             faint: nothing,
             ray: RayPacket { origin: V3::splat(simd, eye), direction, from, inward: nothing },
+            start: Start { origins: Extent::point(eye), leaves: NOWHERE },
             weight: V3 { x: one, y: one, z: one },
             length: F::<S>::splat(simd, 0.0),
             level: 1,
@@ -254,8 +262,14 @@ fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>
     if !node.active.any_true() {
         return (U::<S>::splat(simd, NOWHERE), far);
     }
-    let list = if node.level == 1 { context.visible } else { context.all };
-    nearest(simd, context.world, list, &node.ray, node.active, far, Search::Nearest)
+    let TraceContext { world, bounds, visible, .. } = *context;
+    let Node { ray, active, .. } = node;
+    if node.level == 1 && visible.iter().map(|word| word.count_ones()).sum::<u32>() <= FEW {
+        return nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
+    }
+    let list = if node.level == 1 { visible } else { &bounds.all };
+    let shaft = Shaft::new(simd, node.start, Extent::new(simd, ray.direction, *active));
+    nearest(simd, world, bounds, list, Some(&shaft), ray, *active, far, Search::Nearest)
 }
 
 impl<S: Simd> Hit<S> {
@@ -263,14 +277,15 @@ impl<S: Simd> Hit<S> {
     #[inline(always)]
     fn new(simd: S, context: &TraceContext, node: &Node<S>, object: U<S>, t: F<S>, lanes: M<S>) -> Hit<S> {
         let zero = F::<S>::splat(simd, 0.0);
-        let (t, point, surface) = resolve(simd, context.world, context.surfaces, &node.ray, object, t, lanes);
+        let (t, point, surface, leaves) = resolve(simd, context.world, context.surfaces, &node.ray, object, t, lanes);
         let facing = -node.ray.direction.dot(surface.normal);
         let inside = facing.simd_lt(zero);
         let cosine = facing.abs();
         let normal = V3::select(inside, -surface.normal, surface.normal);
         let glass = lanes & surface.numbers[IOR].simd_gt(zero);
         let mirror = surface.mirror(simd, cosine);
-        Hit { lanes, glass, object, length: node.length + t, point, surface, normal, cosine, inside, mirror }
+        let start = Start { origins: Extent::new(simd, point, lanes), leaves };
+        Hit { lanes, glass, object, start, length: node.length + t, point, surface, normal, cosine, inside, mirror }
     }
 }
 
@@ -295,12 +310,23 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         if !front.any_true() {
             continue;
         }
-        let seen =
-            visibility(simd, world, context.all, samples, source, point, Aim { direction, reach }, object, front);
+        let seen = visibility(
+            simd,
+            world,
+            context.bounds,
+            samples,
+            source,
+            hit.start,
+            point,
+            Aim { direction, reach },
+            object,
+            front,
+        );
         let lit = front & seen.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
-        let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero);
+        let near = noticeable(simd, glint, hit.surface.numbers[EXPONENT]);
+        let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero) & near;
         let mut shine = zero;
         if shiny.any_true() {
             let power = math::exp2(simd, math::log2(simd, glint) * hit.surface.numbers[EXPONENT]);
@@ -342,7 +368,8 @@ fn spawn<S: Simd>(simd: S, min_weight: f32, node: &Node<S>, hit: &Hit<S>, stack:
         let (active, faint) = strength(simd, glass & passes, through, least);
         if (active | faint).any_true() {
             let ray = RayPacket { direction: refracted, inward: !inside, ..leaving };
-            stack.push(Node { active, faint, ray, weight: through, path: path * 2 + 1, ..child });
+            let start = hit.start.without(simd, active & !inside);
+            stack.push(Node { active, faint, ray, start, weight: through, path: path * 2 + 1, ..child });
         }
         reflected = V3::select(glass, weight * Lane(share), reflected);
         stays_inside = glass & inside;
@@ -352,7 +379,8 @@ fn spawn<S: Simd>(simd: S, min_weight: f32, node: &Node<S>, hit: &Hit<S>, stack:
         return None;
     }
     let ray = RayPacket { direction: mirrored, inward: stays_inside, ..leaving };
-    Some(Node { active, faint, ray, weight: reflected, path: path * 2, ..child })
+    let start = hit.start.without(simd, stays_inside);
+    Some(Node { active, faint, ray, start, weight: reflected, path: path * 2, ..child })
 }
 
 /// The `wanted` lanes whose weight is more than `least` and that are traced, and those that have less but some.
@@ -399,7 +427,7 @@ fn remember<S: Simd>(
         late &= !here;
         let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
         point.store(&mut points, 0);
-        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, None, &mut color);
+        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, F::<S>::LEN, None, &mut color);
         for lane in Bits(here) {
             let [red, green, blue, ..] = &mut out[lane].numbers;
             *red += color[0][lane] * gain.x[lane];

@@ -1,11 +1,12 @@
 //! Rays in packets of one per lane, and the nearest body that each of them meets.
 //!
-//! There is no search structure: every ray is tried against every body of a list, which suits worlds of some tens of
-//! bodies. The scalar code that this must equal is [`super::reference`].
+//! Every ray is tried against every body that [`super::bounds`] leaves. The scalar code that this must equal is
+//! [`super::reference`].
 
+use super::bounds::{Bounds, Shaft, WORD};
 use super::shape::Ball;
 use super::world::World;
-use crate::simd::lanes::{F, M, U, V3};
+use crate::simd::lanes::{Bits, F, M, U, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 
@@ -35,15 +36,20 @@ pub enum Search {
     Shadow,
 }
 
-/// For every lane the nearest of the bodies in `list`, or [`NOWHERE`], and its distance but for a few ulps.
+/// For every lane the nearest of the bodies whose bits are set in `list`, or [`NOWHERE`], and its distance but for a few
+/// ulps. Of several at the same distance it is the first by bit.
 ///
 /// Only surfaces at distances above 0 and below `reach` count, both ends excluded. A ray that only touches a round body
-/// misses it. Lanes that are not `active`, and rays with a NaN, have unspecified results.
+/// misses it. Lanes that are not `active`, and rays with a NaN, have unspecified results. If there is a shaft, all active
+/// rays lie in it up to their `reach`.
 #[simd]
+#[allow(clippy::too_many_arguments)]
 pub fn nearest<S: Simd>(
     simd: S,
     world: &World,
-    list: &[u32],
+    bounds: &Bounds,
+    list: &[u64],
+    shaft: Option<&Shaft>,
     ray: &RayPacket<S>,
     active: M<S>,
     reach: F<S>,
@@ -54,29 +60,48 @@ pub fn nearest<S: Simd>(
     let nowhere = U::<S>::splat(simd, NOWHERE);
     let (mut best, mut object) = (reach, nowhere);
     let ball = if shadow { Ball::Middle } else { Ball::Rough };
-    for &index in list {
-        let body = &world.objects[index as usize];
-        if shadow && !body.casts_shadow {
-            continue;
-        }
-        let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
-        if !(hit & active).any_true() {
-            continue;
-        }
-        let id = U::<S>::splat(simd, index);
-        let other = !ray.from.simd_eq(id);
-        if shadow {
-            object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
-            if !(active & object.simd_eq(nowhere)).any_true() {
-                break;
+    let leaves = shaft.map_or(NOWHERE, |shaft| shaft.leaves);
+    let mut row = 0;
+    'rows: while row * WORD < list.len() {
+        let words = match shaft {
+            Some(shaft) => bounds.words(simd, shaft, row),
+            None => u64::MAX >> (WORD - WORD.min(list.len() - row * WORD)),
+        };
+        for word in Bits(words) {
+            let word = row * WORD + word;
+            let mut bodies = list[word];
+            if let Some(shaft) = shaft
+                && bodies != 0
+            {
+                bodies &= bounds.bodies(simd, shaft, word);
             }
-        } else {
-            // Outwards the body that the ray leaves does not count; inwards only its far side does.
-            let t = (t0.simd_gt(zero) & other).select(t0, t1);
-            let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
-            best = meets.select(t, best);
-            object = meets.select(id, object);
+            for bit in Bits(bodies) {
+                let index = bounds.index(word * WORD + bit) as u32;
+                if index == leaves {
+                    continue;
+                }
+                let body = &world.objects[index as usize];
+                let (t0, t1, hit) = body.shape.span(simd, ray.origin, ray.direction, ball);
+                if !(hit & active).any_true() {
+                    continue;
+                }
+                let id = U::<S>::splat(simd, index);
+                let other = !ray.from.simd_eq(id);
+                if shadow {
+                    object = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(id, object);
+                    if !(active & object.simd_eq(nowhere)).any_true() {
+                        break 'rows;
+                    }
+                } else {
+                    // Outwards the body that the ray leaves does not count; inwards only its far side does.
+                    let t = (t0.simd_gt(zero) & other).select(t0, t1);
+                    let meets = hit & t.simd_gt(zero) & t.simd_lt(best) & (other | ray.inward);
+                    best = meets.select(t, best);
+                    object = meets.select(id, object);
+                }
+            }
         }
+        row += 1;
     }
     (object, best)
 }

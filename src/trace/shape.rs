@@ -4,8 +4,9 @@
 //! meets only its far side. The test against hitting oneself therefore compares identities and needs no epsilon; a
 //! constant epsilon fails on 3 to 36 % of secondary rays, depending on the scale of the scene.
 //!
-//! The same arithmetic in scalar code is in [`super::reference`]; `tests/shapes.rs` holds both against exact numbers.
+//! The same arithmetic in scalar code is in [`super::reference`]; `tests/trace/shapes.rs` holds both against exact numbers.
 
+use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -82,7 +83,7 @@ impl Shape {
         match *self {
             Shape::Sphere { center, radius } => (center, radius),
             Shape::Block { center, half, .. } => (center, half.length()),
-            Shape::Cylinder { center, half, radius, .. } => (center, half.hypot(radius)),
+            Shape::Cylinder { center, half, radius, .. } => (center, (half * half + radius * radius).sqrt()),
             Shape::Plane { .. } => (Vec3::ZERO, f32::INFINITY),
             #[cfg(feature = "full")]
             Shape::Globe { .. } => (Vec3::ZERO, f32::INFINITY),
@@ -146,10 +147,8 @@ impl Shape {
             }
             Shape::Cylinder { center, axis, half, radius } => {
                 let q = o.sub1(center);
-                let (qa, da) = (q.dot1(axis), d.dot1(axis));
+                let ((qa, q), (da, d)) = (split(simd, q, axis), split(simd, d, axis));
                 let (c0, c1) = slab(simd, qa, da, half);
-                let q = q - V3::splat(simd, axis) * Lane(qa);
-                let d = d - V3::splat(simd, axis) * Lane(da);
                 // Along the axis the round side is never crossed: then all of the line is inside it or none.
                 let a = d.dot(d).max(F::<S>::splat(simd, 1e-12));
                 let b = -q.dot(d) / a;
@@ -188,9 +187,7 @@ impl Shape {
                 turned(turn.transpose(), local)
             }
             Shape::Cylinder { center, axis, half, radius } => {
-                let q = p.sub1(center);
-                let h = q.dot1(axis);
-                let round = q - V3::splat(simd, axis) * Lane(h);
+                let (h, round) = split(simd, p.sub1(center), axis);
                 let cap = (h.abs() * (1.0 / half)).simd_ge(round.dot(round).sqrt() * (1.0 / radius));
                 let up = F::<S>::splat(simd, 1.0).copysign(h);
                 V3::select(cap, V3::splat(simd, axis) * Lane(up), unit(simd, round))
@@ -236,8 +233,21 @@ fn slab<S: Simd>(simd: S, o: F<S>, d: F<S>, half: f32) -> (F<S>, F<S>) {
     (a.min(b), a.max(b))
 }
 
+/// The part of the vector of every lane along a unit axis, and the vector across it that is left.
+#[inline(always)]
+fn split<S: Simd>(simd: S, v: V3<S>, axis: Vec3) -> (F<S>, V3<S>) {
+    if !cuts::ASKEW {
+        return (v.y, V3 { y: F::<S>::splat(simd, 0.0), ..v });
+    }
+    let along = v.dot1(axis);
+    (along, v - V3::splat(simd, axis) * Lane(along))
+}
+
 /// The vector of every lane, through one matrix.
 #[inline(always)]
 fn turned<S: Simd>(m: Mat3, v: V3<S>) -> V3<S> {
+    if !cuts::ASKEW {
+        return v;
+    }
     V3 { x: v.dot1(m.row(0)), y: v.dot1(m.row(1)), z: v.dot1(m.row(2)) }
 }

@@ -3,7 +3,7 @@
 //! Lanes of a packet may hit different bodies. What shading needs of a material is therefore laid out as a row of
 //! numbers per object, of which each lane selects its own.
 
-use super::ray::RayPacket;
+use super::ray::{NOWHERE, RayPacket};
 use super::shape::{Ball, Shape};
 use super::world::{Material, World};
 use crate::simd::lanes::{F, Lane, M, U, V3};
@@ -75,7 +75,7 @@ impl<S: Simd> Surface<S> {
     }
 }
 
-/// Distance, point and surface of the hit of every lane in `hit`, given the object that [`nearest`] found and its rough
+/// Distance, point and surface of the hit of every lane in `hit`, and the body if it is one for all of them, given the object that [`nearest`] found and its rough
 /// distance `t`.
 ///
 /// Runs once for each of the few bodies that a packet meets.
@@ -90,16 +90,20 @@ pub fn resolve<S: Simd>(
     object: U<S>,
     mut t: F<S>,
     hit: M<S>,
-) -> (F<S>, V3<S>, Surface<S>) {
+) -> (F<S>, V3<S>, Surface<S>, u32) {
     let zero = F::<S>::splat(simd, 0.0);
     let black = V3::splat(simd, Vec3::ZERO);
     let mut point = black;
     let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();
+    let mut only = NOWHERE;
+    let mut first = true;
     while todo != 0 {
         let id = object[todo.trailing_zeros() as usize];
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
+        only = if first && todo == 0 { id } else { NOWHERE };
+        first = false;
         let body = &world.objects[id as usize];
         if let Shape::Sphere { .. } = body.shape {
             let (t0, t1, _) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);
@@ -118,7 +122,7 @@ pub fn resolve<S: Simd>(
             *number = here.select(F::<S>::splat(simd, value), *number);
         }
     }
-    (t, point, surface)
+    (t, point, surface, only)
 }
 
 /// Fresnel reflectance of a dielectric for unpolarised light, the cosine of the refracted ray, and the lanes in which light

@@ -240,12 +240,12 @@ fn check_levels(points: &[Vec3; BLOCK]) {
     };
     for (name, level) in testkit::levels() {
         let mut out = [0.0; BLOCK];
-        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, &mut out));
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut out));
         same("noise", name, &out, &noise);
         for octaves in [0, 1, 5] {
-            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, None, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, BLOCK, None, &mut out));
             same("fbm", name, &out, &|p| fbm(p, octaves));
-            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, None, &mut out));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, true, BLOCK, None, &mut out));
             same("turbulence", name, &out, &|p| turbulence(p, octaves));
         }
     }
@@ -276,6 +276,27 @@ fn every_level_gives_the_same_bits_of_specials() {
                 let z = all[(i + k) % all.len()];
                 if k % 2 == 0 { Vec3::new(x, y, 0.3) } else { Vec3::new(y, 0.7, z) }
             }));
+        }
+    }
+}
+
+/// Points as pixels have them: along a line, so that cells are shared by runs of any length, and there and back, so that
+/// cells are met again. For every count of points that matter.
+#[test]
+fn every_level_gives_the_same_bits_along_lines() {
+    let mut random = Random(6);
+    for round in 0..2000 {
+        let (start, step) = (random.within(300.0), random.within(1.0) * 10f32.powf(random.next() as f32 * 4.0 - 3.0));
+        let row = 1 + (random.next() * BLOCK as f64) as usize;
+        let points = core::array::from_fn(|i| start + (i % row) as f32 * step);
+        check_levels(&points);
+        let count = round % BLOCK + 1;
+        let [x, y, z] = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
+        for (name, level) in testkit::levels() {
+            let (mut all, mut some) = ([0.0; BLOCK], [0.0; BLOCK]);
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], 3, false, BLOCK, None, &mut all));
+            dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], 3, false, count, None, &mut some));
+            assert_eq!(all[..count], some[..count], "{name}: {count} points");
         }
     }
 }

@@ -1,22 +1,14 @@
 //! Lookups of a depth map against the area of the lit texels around a point.
 
 use fearless_simd::{Simd, dispatch, prelude::*};
-use paprsek::frame::Tile;
 use paprsek::raster::depth_map::{DepthMap, MapPoints};
 use paprsek::simd::lanes::F;
 use testkit::random::Random;
 
 /// Two views of random depths.
 fn map(random: &mut Random, size: usize) -> (DepthMap, [Vec<f32>; 2]) {
-    let mut map = DepthMap::default();
-    map.resize(size, 2);
     let depths = [0, 1].map(|_| (0..size * size).map(|_| random.unit() as f32).collect::<Vec<_>>());
-    // Views one after the other, each in rows of tiles.
-    let mut rows = depths.iter().flat_map(|depths| depths.chunks(size * Tile::SIZE));
-    for band in map.bands() {
-        band.copy_from_slice(rows.next().unwrap());
-    }
-    assert!(rows.next().is_none());
+    let map = DepthMap::of(size, &depths);
     (map, depths)
 }
 

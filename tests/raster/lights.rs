@@ -78,16 +78,16 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
             let color = vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
             let position =
                 vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
-            let plan = |views| Some(ShadowViews { smooth: k % 2 == 0, ..ShadowViews::new(views, bias) });
+            let shadow_views = |views| Some(ShadowViews { smooth: k % 2 == 0, ..ShadowViews::new(views, bias) });
             match k % 4 {
                 0 => {
                     let towards = random.direction().with_y(0.7).normalize();
                     let views = vec![Projection::parallel(towards, Vec3::ZERO, 26.0, 256)];
-                    Light { shadow: plan(views), ..Light::sun(towards, color) }
+                    Light { shadow: shadow_views(views), ..Light::sun(towards, color) }
                 }
                 1 => {
                     let views = (0..6).map(|face| Projection::face(face, position, 128)).collect();
-                    Light { shadow: plan(views), ..lamp(position, vec2(0.1, 0.2), 8.0, color) }
+                    Light { shadow: shadow_views(views), ..lamp(position, vec2(0.1, 0.2), 8.0, color) }
                 }
                 2 => lamp(position, vec2(0.0, 1.0), 3.0, color),
                 _ => lamp(position, vec2(0.2, 0.1), f32::INFINITY, color),
@@ -140,9 +140,9 @@ fn a_light_out_of_reach_changes_no_bit() {
             for (at, kind) in [(0, 0), (4, 0), (0, 1), (4, 2)] {
                 let bias = Bias { constant: 0.01, slope: 2.0, normal: 0.0 };
                 let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
-                let plan = ShadowViews { traced: kind == 2, ..ShadowViews::new(views, bias) };
+                let shadow_views = ShadowViews { traced: kind == 2, ..ShadowViews::new(views, bias) };
                 let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6));
-                light.shadow = (kind > 0).then_some(plan);
+                light.shadow = (kind > 0).then_some(shadow_views);
                 let mut lights = few.clone();
                 lights.insert(at, light);
                 let planes = draw(&World { lights, ..stage() }, camera(), SIZE, Quality::DEFAULT, level);

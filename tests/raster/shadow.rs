@@ -70,7 +70,7 @@ impl Sunny {
         (if self.elevation < 10.0 { BOX.0.with_y(0.0) } else { BOX.0 }, BOX.1)
     }
 
-    fn plan(&self) -> ShadowViews {
+    fn shadow_views(&self) -> ShadowViews {
         let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
         ShadowViews { back_faces, traced, smooth, ..ShadowViews::new(vec![view], bias) }
@@ -79,7 +79,7 @@ impl Sunny {
     fn draw(&self, camera: Camera) -> Planes {
         let (low, high) = self.block();
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
-        let lights = vec![Light::sun(self.towards().as_vec3(), Vec3::ONE).with_shadow(self.plan())];
+        let lights = vec![Light::sun(self.towards().as_vec3(), Vec3::ONE).with_shadow(self.shadow_views())];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     }
 
@@ -202,14 +202,14 @@ fn a_plan_without_views_is_no_shadow() {
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, testkit::levels()[0].1);
     for traced in [false, true] {
         let bias = Bias { constant: 0.0, slope: 0.0, normal: 0.0 };
-        let plan = ShadowViews { traced, ..ShadowViews::new(Vec::new(), bias) };
-        assert_eq!(picture(Some(plan)).differs(&picture(None)), None);
+        let shadow_views = ShadowViews { traced, ..ShadowViews::new(Vec::new(), bias) };
+        assert_eq!(picture(Some(shadow_views)).differs(&picture(None)), None);
     }
 }
 
 #[test]
 fn bodies_before_the_first_that_casts_hide_nothing() {
-    // The box comes first: it hides the ground unless the plan begins after it.
+    // The box comes first: it hides the ground unless the shadow begins after it.
     let picture = |shadow| {
         let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
         let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
@@ -220,8 +220,8 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
         let hidden = |from| {
             let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
             let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
-            let plan = ShadowViews { traced, first_caster: from, ..ShadowViews::new(views, bias) };
-            let found = picture(Some(plan));
+            let shadow_views = ShadowViews { traced, first_caster: from, ..ShadowViews::new(views, bias) };
+            let found = picture(Some(shadow_views));
             let pairs = found.color.iter().zip(&truth.color);
             pairs.filter(|(found, truth)| (**found - **truth).length() > 1e-5).count()
         };
@@ -239,7 +239,7 @@ fn beyond_the_map_is_light() {
         let (texels, width) = (64, 2.5);
         let (back_faces, traced) = (true, false);
         let scene = Sunny { elevation: 9.0, texels, width, bias, smooth, back_faces, traced };
-        let view = scene.plan().views[0];
+        let view = scene.shadow_views().views[0];
         let (mut beyond, mut dark, mut cut) = (0, 0, 0);
         for (p, share) in scene.receivers(cameras()[0]) {
             let at = view.matrix().project_point3(p.as_vec3());
@@ -265,14 +265,14 @@ fn the_finest_map_that_reaches_is_looked_up() {
     let (fine, wide) = (scene(6.0), scene(44.0));
     let camera = cameras()[0];
     let both = {
-        let mut plan = fine.plan();
-        plan.views.extend(wide.plan().views);
+        let mut shadow_views = fine.shadow_views();
+        shadow_views.views.extend(wide.shadow_views().views);
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
-        let lights = vec![Light::sun(fine.towards().as_vec3(), Vec3::ONE).with_shadow(plan)];
+        let lights = vec![Light::sun(fine.towards().as_vec3(), Vec3::ONE).with_shadow(shadow_views)];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     };
     let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
-    let view = fine.plan().views[0];
+    let view = fine.shadow_views().views[0];
     let (mut inside, mut outside) = (0, 0);
     for pixel in 0..both.color.len() {
         if both.inv_depth[pixel] == 0.0 {
@@ -318,8 +318,8 @@ fn kept_maps_change_no_frame() {
         let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
         let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
         let lamp = Light::lamp(position, Vec3::X, Vec2::new(0.0, 0.1), 20.0);
-        let lamp = lamp.with_shadow(ShadowViews { views, ..scene.plan() });
-        let mut lights = vec![Light::sun(scene.towards().as_vec3(), Vec3::ONE).with_shadow(scene.plan()), lamp];
+        let lamp = lamp.with_shadow(ShadowViews { views, ..scene.shadow_views() });
+        let mut lights = vec![Light::sun(scene.towards().as_vec3(), Vec3::ONE).with_shadow(scene.shadow_views()), lamp];
         if k % 4 == 3 {
             lights.reverse();
         }

@@ -15,8 +15,8 @@ const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
 /// Dark ground, as of a meadow in late autumn.
 const GROUND: Vec3 = vec3(0.16, 0.14, 0.05);
 
-/// A plan of one view straight down, `width` metres wide.
-fn plan(width: f32, texels: u32) -> ShadowViews {
+/// A shadow of one view straight down, `width` metres wide.
+fn shadow_views(width: f32, texels: u32) -> ShadowViews {
     let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)];
     ShadowViews::new(views, Bias { constant: 0.05, slope: 2.0, normal: 0.0 })
 }
@@ -183,7 +183,7 @@ fn what_stands_above_keeps_snow_off() {
     ] {
         let texel = 24.0 / texels as f64;
         let bare = picture(&world, camera);
-        let planes = picture(&World { snow: snow(1.0, Some(plan(24.0, texels))), ..world.clone() }, camera);
+        let planes = picture(&World { snow: snow(1.0, Some(shadow_views(24.0, texels))), ..world.clone() }, camera);
         let mut seen = [0; 3];
         for pixel in 0..planes.color.len() {
             let Spot { ray, depth, point: p, grain } = spot(&camera, pixel, DVec3::Y);
@@ -228,8 +228,13 @@ fn no_snow_is_as_before_bit_for_bit() {
     for (name, level) in testkit::levels() {
         for quality in [Quality::FAST, Quality::DEFAULT] {
             let bare = draw(&world, camera, SIZE, quality, level);
-            let none =
-                draw(&World { snow: snow(0.0, Some(plan(24.0, 64))), ..world.clone() }, camera, SIZE, quality, level);
+            let none = draw(
+                &World { snow: snow(0.0, Some(shadow_views(24.0, 64))), ..world.clone() },
+                camera,
+                SIZE,
+                quality,
+                level,
+            );
             assert_eq!(none.differs(&bare), None, "{name}");
         }
     }
@@ -238,7 +243,8 @@ fn no_snow_is_as_before_bit_for_bit() {
 #[test]
 fn more_snow_is_nowhere_less_white() {
     let (world, camera) = stage();
-    let snowy = |amount: f32| picture(&World { snow: snow(amount, Some(plan(24.0, 64))), ..world.clone() }, camera);
+    let snowy =
+        |amount: f32| picture(&World { snow: snow(amount, Some(shadow_views(24.0, 64))), ..world.clone() }, camera);
     let end = snowy(1.0);
     let gaps = |planes: &Planes| -> Vec<f32> {
         planes.color.iter().zip(&end.color).map(|(color, end)| (*end - *color).abs().max_element()).collect()
@@ -257,14 +263,14 @@ fn every_level_gives_the_same_bits_with_a_kept_map_too() {
     let (world, camera) = stage();
     let cache = Cache::default();
     for quality in [Quality::FAST, Quality::DEFAULT] {
-        let world = World { snow: snow(0.6, Some(plan(24.0, 128))), ..world.clone() };
+        let world = World { snow: snow(0.6, Some(shadow_views(24.0, 128))), ..world.clone() };
         let truth = draw(&world, camera, SIZE, quality, testkit::levels()[0].1);
         for (name, level) in testkit::levels() {
             for _ in 0..2 {
                 assert_eq!(draw_with(&cache, &world, camera, SIZE, quality, level).differs(&truth), None, "{name}");
             }
             // Other snow in between.
-            let other = World { snow: snow(0.6, Some(plan(12.0, 64))), ..world.clone() };
+            let other = World { snow: snow(0.6, Some(shadow_views(12.0, 64))), ..world.clone() };
             draw_with(&cache, &other, camera, SIZE, quality, level);
         }
     }

@@ -42,8 +42,8 @@ fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, came
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
-    let plan = ShadowViews { smooth, ..ShadowViews::new(views, bias) };
-    let lights = vec![Light::lamp(torch, Vec3::ONE, Vec2::ZERO, f32::INFINITY).with_shadow(plan)];
+    let shadow_views = ShadowViews { smooth, ..ShadowViews::new(views, bias) };
+    let lights = vec![Light::lamp(torch, Vec3::ONE, Vec2::ZERO, f32::INFINITY).with_shadow(shadow_views)];
     let mut bodies = vec![body(room(half))];
     bodies.extend(boxes.iter().map(|b| body(block(b.0, b.1))));
     let world = World { lights, ..dark(bodies) };

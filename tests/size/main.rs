@@ -4,6 +4,7 @@ mod budget;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod intro;
 mod layering;
+mod paths;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -2,6 +2,7 @@
 //! adaptive picture against every pixel traced.
 
 mod adaptive;
+mod bounds;
 mod exact;
 mod shapes;
 mod span;

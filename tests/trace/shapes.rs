@@ -8,6 +8,7 @@ use super::span::{Crossing, span as exact_span};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::simd::lanes::{F, M, U, V3};
+use paprsek::trace::bounds::Bounds;
 use paprsek::trace::ray::{NOWHERE, RayPacket, Search, nearest};
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{Ball, FAR, Shape};
@@ -45,7 +46,9 @@ fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let world = alone(case.shape, Material::plain(Vec3::ONE), 1);
     let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
     let ray = RayPacket { origin: o, direction: d, from, inward };
-    let (object, _) = nearest(simd, &world, &[0], &ray, !inward, F::<S>::splat(simd, reach), Search::Shadow);
+    let bounds = Bounds::new(&world);
+    let (reach, list) = (F::<S>::splat(simd, reach), &bounds.casters);
+    let (object, _) = nearest(simd, &world, &bounds, list, None, &ray, !inward, reach, Search::Shadow);
     object[0] != NOWHERE
 }
 

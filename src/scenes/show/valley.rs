@@ -257,9 +257,10 @@ pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, fr
 #[inline(never)]
 pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<ShadowViews> {
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
-    let size = if spec.quality.raster.shadow_map == 0 { 1024 } else { spec.quality.raster.shadow_map };
+    let shadow_map = spec.quality.raster.built().shadow_map;
+    let size = if shadow_map == 0 { 1024 } else { shadow_map };
     // The curve of docs/report/shadows.md has its knee here.
     let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
     let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), bias);
-    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0, ..shadow })
+    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, ..shadow })
 }

@@ -96,20 +96,20 @@ impl Stage {
     fn light(&self, kind: Kind, index: usize, count: usize) -> Light {
         let time = self.count as f32 * 0.01;
         let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
-        let plan = |views| ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
+        let shadow_views = |views| ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
             let towards = vec3(cos, 0.8, sin).normalize();
             let view = Projection::parallel(towards, Vec3::ZERO, 1.5 * FIELD, MAP);
             let color = Vec3::splat(1.0 / count as f32);
-            return Light::sun(towards, color).with_shadow(plan(vec![view]));
+            return Light::sun(towards, color).with_shadow(shadow_views(vec![view]));
         }
         // A spiral of equal areas, which turns.
         let radius = 0.45 * FIELD * ((index as f32 + 0.5) / count as f32).sqrt();
         let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
         let position = vec3(radius * cos, 2.5, radius * sin);
         let (reach, shadow) = match kind {
-            Kind::CubeLamps(reach) => (reach, Some(plan(fit::cube(position, 256)))),
+            Kind::CubeLamps(reach) => (reach, Some(shadow_views(fit::cube(position, 256)))),
             Kind::Lamps(reach) => (reach, None),
             Kind::Suns => unreachable!("suns are made above"),
         };

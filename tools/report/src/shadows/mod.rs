@@ -97,8 +97,8 @@ const COLUMNS: &str = "wrong, % | acne | leaks | far, lost | far, won | light of
 const LINE: &str = "--:|--:|--:|--:|--:|--:|";
 
 /// The errors of shadow views of the sun.
-fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, plan: ShadowViews) -> Score {
-    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan))]);
+fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, shadow_views: ShadowViews) -> Score {
+    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views))]);
     Score::of(pixels, |pixel| shot.pixels[pixel.index][0] / pixel.cosine)
 }
 
@@ -114,22 +114,23 @@ fn heights(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut St
         for elevation in ELEVATIONS {
             let towards = sun(set, elevation);
             let (mut pixels, tracer) = truth::pixels(set, renderer, towards);
-            let plans: Vec<_> = effort.maps.iter().map(|&size| set.plan(set.views(towards, None, size))).collect();
-            let traced = ShadowViews { traced: true, ..set.plan(set.views(towards, None, 1024)) };
-            let mut times = vec![[vec![], vec![], vec![]]; plans.len()];
+            let all_views: Vec<_> =
+                effort.maps.iter().map(|&size| set.shadow_views(set.views(towards, None, size))).collect();
+            let traced = ShadowViews { traced: true, ..set.shadow_views(set.views(towards, None, 1024)) };
+            let mut times = vec![[vec![], vec![], vec![]]; all_views.len()];
             for _ in 0..effort.rounds {
                 let slow = set.draw(renderer, &[(towards, Vec3::ONE, Some(traced.clone()))]).all;
-                for (plan, times) in plans.iter().zip(&mut times) {
-                    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan.clone()))]);
+                for (shadow_views, times) in all_views.iter().zip(&mut times) {
+                    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views.clone()))]);
                     for (times, value) in times.iter_mut().zip([shot.maps, shot.all, slow / shot.all]) {
                         times.push(value);
                     }
                 }
             }
             let mut curve = Curve { name: format!("sun at {elevation}°"), points: Vec::new() };
-            for ((plan, times), size) in plans.into_iter().zip(times).zip(effort.maps) {
-                truth::mark(&mut pixels, &tracer, towards, &plan.views);
-                let score = mapped(set, renderer, &pixels, towards, plan);
+            for ((shadow_views, times), size) in all_views.into_iter().zip(times).zip(effort.maps) {
+                truth::mark(&mut pixels, &tracer, towards, &shadow_views.views);
+                let score = mapped(set, renderer, &pixels, towards, shadow_views);
                 let [maps, all, ratio] = times.map(median);
                 writeln!(text, "| {elevation}° | {size} | {} | {maps:.1} | {all:.1} | {ratio:.2} |", score.cells())
                     .unwrap();
@@ -190,7 +191,7 @@ fn warps(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut Stri
                 total.0.add(&score);
                 write!(total.2, "{:.2} ", score.missed()).unwrap();
                 if cascades.is_some() {
-                    total.3.add(&mapped(set, renderer, &pixels, towards, set.plan(views.clone())));
+                    total.3.add(&mapped(set, renderer, &pixels, towards, set.shadow_views(views.clone())));
                 }
             }
             eprintln!("{} warped at {elevation} degrees", set.name);
@@ -255,8 +256,9 @@ fn biases(effort: &Effort, set: &Set, renderer: &mut Renderer, text: &mut String
         truth::mark(&mut pixels, &tracer, towards, &views);
         for ((_, row), scores) in families.iter().zip(&mut scores) {
             for ((_, bias, back_faces), score) in row.iter().zip(scores) {
-                let plan = ShadowViews { bias: *bias, back_faces: *back_faces, ..set.plan(views.clone()) };
-                score.add(&mapped(set, renderer, &pixels, towards, plan));
+                let shadow_views =
+                    ShadowViews { bias: *bias, back_faces: *back_faces, ..set.shadow_views(views.clone()) };
+                score.add(&mapped(set, renderer, &pixels, towards, shadow_views));
             }
         }
     }

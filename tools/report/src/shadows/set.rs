@@ -135,7 +135,7 @@ impl Set {
     }
 
     /// Shadow views with the scene's bias.
-    pub fn plan(&self, views: Vec<Projection>) -> ShadowViews {
+    pub fn shadow_views(&self, views: Vec<Projection>) -> ShadowViews {
         ShadowViews { smooth: self.smooth, ..ShadowViews::new(views, self.bias) }
     }
 

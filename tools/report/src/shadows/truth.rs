@@ -73,8 +73,8 @@ pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>,
     // Traced shadows keep a 32nd of the bias, here a centimetre. That is more than the rounding of f32 some kilometres away,
     // while a millimetre would be less.
     let bias = Bias { constant: 0.32, slope: 1.0, normal: 1.0 };
-    let plan = ShadowViews { bias, traced: true, ..set.plan(set.views(towards, None, SIZE)) };
-    let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(plan.clone()))]);
+    let shadow_views = ShadowViews { bias, traced: true, ..set.shadow_views(set.views(towards, None, SIZE)) };
+    let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views.clone()))]);
     let view = set.view();
     let mut pixels = Vec::new();
     for (index, light) in traced.pixels.iter().enumerate() {
@@ -86,7 +86,7 @@ pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>,
             pixels.push(Pixel { point, normal, cosine, lit: light[0] > 0.5 * cosine, far: false, index });
         }
     }
-    (pixels, Tracer::new(set, plan.views))
+    (pixels, Tracer::new(set, shadow_views.views))
 }
 
 /// Marks the pixels that are farther than 1.5 texels of their view from a shadow's edge.
