@@ -44,7 +44,7 @@ pub const SOFT_LIGHTS: bool = FULL;
 /// Whether pictures can be encoded by another curve than sRGB's.
 pub const TRANSFERS: bool = FULL;
 
-/// Whether the ray tracer groups bodies, which pays from a hundred on. The show has some tens.
+/// Whether the ray tracer's worlds can have more than 64 bodies, which it then finds in groups. The show has some tens.
 pub const MANY_BODIES: bool = FULL;
 
 /// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.

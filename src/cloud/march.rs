@@ -109,10 +109,10 @@ pub fn march<S: Simd>(
             transmittance = passes;
             let through = transmittance.simd_ge(opaque);
             end = (goes & !through).select((way + along + length * 0.5) * cloud.size, end);
-            goes = goes & through;
+            goes &= through;
         }
         step += (leap.max(zero) * reach).floor() + one;
-        goes = goes & step.simd_lt(steps);
+        goes &= step.simd_lt(steps);
     }
     let upper = (height + hidden) * 0.5;
     Passage { hidden, upper, lit, transmittance, end }

@@ -28,14 +28,8 @@ impl Default for Visible {
 }
 
 impl Visible {
-    /// Shows nothing anywhere, at the depth of the background.
-    pub fn clear(&mut self, inv_depth: f32) {
-        self.inv_depth.fill(inv_depth);
-        self.id.fill(NOTHING);
-    }
-
-    /// The same at a depth of each pixel's own, beyond which nothing will be shown.
-    pub fn clear_to(&mut self, inv_depth: &[f32; Tile::AREA]) {
+    /// Shows nothing anywhere, at a depth of each pixel's own, beyond which nothing will be shown.
+    pub fn clear(&mut self, inv_depth: &[f32; Tile::AREA]) {
         self.inv_depth.copy_from_slice(inv_depth);
         self.id.fill(NOTHING);
     }

@@ -95,7 +95,7 @@ impl RasterLayer {
                         1 => spread(k as u32, count as u32),
                         _ => cell([pass % grid, pass / grid], grid),
                     };
-                    visible.clear_to(&tile.hidden);
+                    visible.clear(&tile.hidden);
                     fill(simd, &raster.meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
                 }
                 fragments += collect(simd, &context, planes, queues, tile);

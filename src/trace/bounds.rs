@@ -82,6 +82,9 @@ impl Bounds {
             bounds.boxes.push(boxes);
             bounds.all.push(all);
             bounds.casters.push(casters);
+            if !cuts::MANY_BODIES {
+                break;
+            }
             first += WORD;
         }
         bounds

@@ -5,6 +5,7 @@
 
 use super::sample::{GAIN, REMEMBERED, Sample, hit_point};
 use super::world::World;
+use crate::cuts;
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{Bits, F};
@@ -43,7 +44,9 @@ impl Deferred {
             let (pixel, footprint) = ([0; BLOCK], [0.0; BLOCK]);
             self.queues.push(TextureQueue { count: 0, pixel, gain: black, point: black, footprint });
         }
-        self.used.resize(self.queues.len().div_ceil(64), 0);
+        if cuts::MANY_BODIES {
+            self.used.resize(self.queues.len().div_ceil(64), 0);
+        }
         self.filter = filter;
     }
 
@@ -61,7 +64,7 @@ impl Deferred {
         footprint: &[f32; REMEMBERED],
     ) {
         for ((object, hit), &footprint) in sample.hits().zip(footprint) {
-            self.used[object as usize / 64] |= 1 << (object % 64);
+            self.mark(object);
             let queue = &mut self.queues[object as usize];
             let at = queue.count & (BLOCK - 1);
             let point = hit_point(hit);
@@ -92,7 +95,7 @@ impl Deferred {
         point: &Block3,
         footprint: &[f32; BLOCK],
     ) {
-        self.used[object as usize / 64] |= 1 << (object % 64);
+        self.mark(object);
         let queue = &mut self.queues[object as usize];
         let mut done = 0;
         while done < pixels.len() {
@@ -111,10 +114,23 @@ impl Deferred {
         }
     }
 
+    /// Notes that hits of an object may wait.
+    #[inline(always)]
+    fn mark(&mut self, object: u32) {
+        if cuts::MANY_BODIES {
+            self.used[object as usize / 64] |= 1 << (object % 64);
+        }
+    }
+
     /// Looks up the hits that still wait.
     pub fn finish<S: Simd>(&mut self, simd: S, world: &World, tile: &mut Tile) {
-        for (word, used) in self.used.iter_mut().enumerate() {
-            for bit in Bits(std::mem::take(used)) {
+        let words = if cuts::MANY_BODIES { self.used.len() } else { 1 };
+        for word in 0..words {
+            let used = match self.used.get_mut(word) {
+                Some(used) if cuts::MANY_BODIES => std::mem::take(used),
+                _ => u64::MAX >> (64 - self.queues.len()),
+            };
+            for bit in Bits(used) {
                 let object = word * 64 + bit;
                 let queue = &mut self.queues[object];
                 if queue.count > 0 {

@@ -69,9 +69,11 @@ pub fn nearest<S: Simd>(
     let (mut best, mut object) = (reach, nowhere);
     let ball = if shadow { Ball::Middle } else { Ball::Rough };
     let leaves = shaft.map_or(NOWHERE, |shaft| shaft.leaves);
+    let rows = if cuts::MANY_BODIES { list.len().div_ceil(WORD) } else { 1 };
     let mut row = 0;
-    'rows: while row * WORD < list.len() {
+    'rows: while row < rows {
         let words = match shaft {
+            _ if !cuts::MANY_BODIES => 1,
             Some(shaft) => bounds.words(simd, shaft, row),
             None => u64::MAX >> (WORD - WORD.min(list.len() - row * WORD)),
         };

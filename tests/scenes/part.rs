@@ -51,6 +51,15 @@ fn a_frame_has_no_history() {
     assert!(first.iter().eq(again.iter().rev()));
 }
 
+/// The 64 kB build finds bodies in one word of 64 bits.
+#[test]
+fn bodies_fit_a_word() {
+    for number in 0..(LUMEN.duration * 4.0) as u32 {
+        let bodies = stage(number as f64 / 4.0).0.objects.len();
+        assert!((1..=64).contains(&bodies), "{bodies} bodies at {} s", number as f64 / 4.0);
+    }
+}
+
 #[test]
 fn it_starts_in_colours() {
     let mut colours = render(&mut Renderer::new(0).unwrap(), 0.0);
