@@ -112,6 +112,16 @@ fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]
             assert!(marks(simd, bounds, &to, index).0, "{:?} of {rays:?} to {target}", body.shape);
         }
     }
+}
+
+/// Holds what is found in the shaft of rays against what is found among all bodies.
+#[inline(always)]
+fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2]) {
+    let lanes = F::<S>::LEN;
+    let active = M::<S>::from_bitmask(simd, (1u64 << (lanes - 1)) - 1);
+    let (origin, direction) = (load(simd, &rays[0]), load(simd, &rays[1]));
+    let start = Start { origins: Extent::new(simd, origin, active), leaves: NOWHERE };
+    let along = Shaft::new(simd, start, Extent::new(simd, direction, active));
     let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
     let ray = RayPacket { origin, direction, from, inward };
     let far = F::<S>::splat(simd, 1e30);
@@ -139,6 +149,22 @@ fn no_body_is_left_out_that_a_ray_meets() {
             let (rays, target) = (random.packet(), random.vector() * 12.0);
             for (_, level) in testkit::levels() {
                 dispatch!(level, simd => check(simd, &world, &bounds, &rays, target));
+            }
+        }
+    }
+}
+
+/// From some hundreds of bodies on packets may be taken apart.
+#[test]
+fn the_same_bodies_are_found_among_few_and_many() {
+    for count in [1, 9, 64, 65, 2000] {
+        let mut random = Random(1000 * count as u32);
+        let world = random.world(count);
+        let bounds = Bounds::new(&world);
+        for _ in 0..PACKETS {
+            let rays = random.packet();
+            for (_, level) in testkit::levels() {
+                dispatch!(level, simd => find(simd, &world, &bounds, &rays));
             }
         }
     }
