@@ -7,7 +7,7 @@
 //! linear in the body's sides, so that a vector of bodies takes six multiplications. What is left is one bit per body.
 //!
 //! No body that a ray meets is ever left out: boxes and directions are taken a little larger than they are
-//! ([`SLACK`]), so that roundings in [`Shape::span`](super::shape::Shape::span) do not matter. So culling changes what a
+//! (`SLACK`), so that roundings in [`Shape::span`](super::shape::Shape::span) do not matter. So culling changes what a
 //! frame costs, and none of its bytes.
 
 use super::ray::NOWHERE;
