@@ -4,8 +4,9 @@
 //! texels are a window that moves with the point and meets 4x4 texels, whose borders count by how much of them it covers:
 //! bilinear interpolation of the averages. It is an approximation of `exact_shadow`.
 
+use super::project::Projection;
 use super::rasters::LightView;
-use super::shadow_maps::MapKey;
+use super::world::Body;
 use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
@@ -22,6 +23,19 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 pub const EMPTY: f32 = f32::from_bits(0xfefe_fefe);
 /// The depths of a tile, row by row.
 type Texels = Box<[f32; Tile::AREA]>;
+
+/// What a depth map shows: maps of equal keys are equal.
+#[derive(PartialEq)]
+pub struct MapKey {
+    /// Index of the light in the world's list, or the number of lights for falling snow. Each slot keeps one map.
+    pub slot: usize,
+    /// The light's views.
+    pub views: Vec<Projection>,
+    /// Whether faces that look away from the light are drawn.
+    pub back_faces: bool,
+    /// What casts shadows. Bodies hold their meshes, so no other mesh can come to lie at the same address meanwhile.
+    pub casters: Vec<Body>,
+}
 
 /// The depths of all views of a light.
 ///

@@ -2,12 +2,12 @@
 
 use super::collect::collect;
 use super::context::{ShadeContext, ShadowLookup};
+use super::depth_map::MapKey;
 use super::fill::{SubPixel, fill};
 use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
 use super::rasters::Raster;
 use super::shade::flush;
-use super::shadow_maps::MapKey;
 use super::shadow_views::ShadowViews;
 use super::triangle::SUB;
 use super::world::World;

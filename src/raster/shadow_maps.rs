@@ -2,23 +2,8 @@
 //!
 //! A map depends on nothing but its key, so a frame has the same bytes whether or not its maps were kept.
 
-use super::depth_map::DepthMap;
-use super::project::Projection;
-use super::world::Body;
+use super::depth_map::{DepthMap, MapKey};
 use std::sync::Arc;
-
-/// What a depth map shows: maps of equal keys are equal.
-#[derive(PartialEq)]
-pub struct MapKey {
-    /// Index of the light in the world's list, or the number of lights for falling snow. Each slot keeps one map.
-    pub slot: usize,
-    /// The light's views.
-    pub views: Vec<Projection>,
-    /// Whether faces that look away from the light are drawn.
-    pub back_faces: bool,
-    /// What casts shadows. Bodies hold their meshes, so no other mesh can come to lie at the same address meanwhile.
-    pub casters: Vec<Body>,
-}
 
 /// The latest map of each slot.
 #[derive(Default)]

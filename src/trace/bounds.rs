@@ -10,9 +10,8 @@
 //! (`SLACK`), so that roundings in [`Shape::span`](super::shape::Shape::span) do not matter. So culling changes what a
 //! frame costs, and none of its bytes.
 
-use super::ray::NOWHERE;
 use super::shape::{FAR, Shape};
-use super::world::World;
+use super::world::{NOWHERE, World};
 use crate::cuts;
 use crate::simd::block::{BLOCK, load};
 use crate::simd::lanes::{Bits, F, M, V3};

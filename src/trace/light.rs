@@ -1,9 +1,9 @@
 //! What a point sees of the lights, and what a ray sees of the background.
 
 use super::bounds::{Bounds, Extent, Shaft, Start};
-use super::ray::{NOWHERE, RayPacket, Search, nearest};
+use super::ray::{RayPacket, Search, nearest};
 use super::shape::FAR;
-use super::world::{Background, Emitter, Light, World};
+use super::world::{Background, Emitter, Light, NOWHERE, World};
 use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::math;

@@ -17,11 +17,11 @@
 
 use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::light::{Aim, aim, background, noticeable, visibility};
-use super::ray::{NOWHERE, RayPacket, Search, nearest};
+use super::ray::{RayPacket, Search, nearest};
 use super::sample::{HIT, HIT_INV_DEPTH, PLAIN, POINT, REMEMBERED, Sample};
 use super::shape::FAR;
 use super::surface::{ALBEDO, EXPONENT, FILTER, IOR, SPECULAR, Surface, SurfaceNumbers, TEXTURED, fresnel, resolve};
-use super::world::World;
+use super::world::{NOWHERE, World};
 use crate::simd::block::BLOCK;
 use crate::simd::lanes::{Bits, F, Lane, M, U, V3};
 use crate::simd::math;

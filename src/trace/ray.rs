@@ -5,14 +5,11 @@
 
 use super::bounds::{Bounds, Extent, Shaft, Start, WORD};
 use super::shape::Ball;
-use super::world::World;
+use super::world::{NOWHERE, World};
 use crate::cuts;
 use crate::simd::lanes::{Bits, F, M, U, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-
-/// The index that stands for no body.
-pub const NOWHERE: u32 = u32::MAX;
 
 /// One ray per lane, and the body whose surface it leaves.
 #[derive(Clone, Copy)]

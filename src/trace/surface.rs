@@ -3,9 +3,9 @@
 //! Lanes of a packet may hit different bodies. What shading needs of a material is therefore laid out as a row of
 //! numbers per object, of which each lane selects its own.
 
-use super::ray::{NOWHERE, RayPacket};
+use super::ray::RayPacket;
 use super::shape::{Ball, Shape};
-use super::world::{Material, World};
+use super::world::{Material, NOWHERE, World};
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::texture::Pattern;
 use fearless_simd::prelude::*;

@@ -8,6 +8,9 @@ use super::shape::Shape;
 use crate::texture::Texture;
 use glam::Vec3;
 
+/// The index that stands for no body.
+pub const NOWHERE: u32 = u32::MAX;
+
 /// How a surface answers light: Phong's model over a solid texture with a mirror on top, or clear glass.
 ///
 /// A matte surface reflects `albedo` times the light that falls on it by Lambert's law, and adds a highlight

@@ -6,7 +6,8 @@ use glam::{Mat3, Quat, Vec3, vec3};
 use paprsek::simd::hash::pcg;
 use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::trace::bounds::{Bounds, Extent, Shaft, Start};
-use paprsek::trace::ray::{NOWHERE, RayPacket, Search, nearest};
+use paprsek::trace::ray::{RayPacket, Search, nearest};
+use paprsek::trace::world::NOWHERE;
 use paprsek::trace::{Material, Object, Shape, World};
 
 /// Most lanes of any level.
