@@ -14,7 +14,7 @@ pub const SCENES: bool = FULL;
 /// Whether two eyes can be rendered side by side.
 pub const STEREO: bool = FULL;
 
-/// Whether there are qualities beside fast and default, such as one that has a grid of samples per pixel.
+/// Whether there are qualities beside fast and default, such as one that has a grid of samples per pixel: 0.1 kB packed.
 pub const QUALITIES: bool = FULL;
 
 /// Whether scenes can be changed by their parameters.
@@ -41,13 +41,15 @@ pub const BACKGROUND: bool = FULL;
 /// Whether lights of the ray tracer can have a radius. What the show has of it has hard shadows.
 pub const SOFT_LIGHTS: bool = FULL;
 
-/// Whether pictures can be encoded by another curve than sRGB's.
+/// Whether pictures can be encoded by another curve than sRGB's: 30 bytes packed.
 pub const TRANSFERS: bool = FULL;
 
-/// Whether the ray tracer's worlds can have more than 64 bodies, which it then finds in groups. The show has some tens.
+/// Whether the ray tracer's worlds can have more than 64 bodies, which it then finds in groups. The show has some tens:
+/// 0.3 kB packed.
 pub const MANY_BODIES: bool = FULL;
 
-/// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes.
+/// Whether blocks and cylinders of the ray tracer can stand askew. Those of the show stand upright, along the axes: 0.2 kB
+/// packed.
 pub const ASKEW: bool = FULL;
 
 /// Whether textures can be checkers: the show has none.
