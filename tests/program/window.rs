@@ -198,19 +198,20 @@ fn digits_jump_to_parts() {
     let directory = tempfile::tempdir().unwrap();
     let child = display.play_in(directory.path(), &["--at", "2"]);
     let mut before = display.picture();
-    let mut expected = vec![];
     for (number, (start, _)) in PARTS.iter().enumerate().take(9).rev() {
         display.xdotool(&["key", &(number + 1).to_string()]);
-        if start > &0.0 && before.iter().all(|byte| *byte == 0) {
-            // From black to black: no sign of it but the still's name.
-            sleep(Duration::from_secs(1));
-        } else {
+        // From black to black there is no sign of it but the still's name.
+        if *start == 0.0 || before.iter().any(|byte| *byte != 0) {
             before = display.after(&before);
         }
-        let name = format!("paprsek-intro-{start}.ppm");
-        display.xdotool(&["key", "s"]);
-        wait_for(&directory.path().join(&name));
-        expected.push(name);
+        // A jump that has not been shown yet has no still, so S is pressed until it has.
+        let path = directory.path().join(format!("paprsek-intro-{start}.ppm"));
+        let began = Instant::now();
+        while !path.exists() {
+            assert!(began.elapsed() < PATIENCE, "no {}", path.display());
+            display.xdotool(&["key", "s"]);
+            sleep(Duration::from_secs(1));
+        }
     }
     // The last picture may have been seen while it was being put there.
     let began = Instant::now();
@@ -228,8 +229,8 @@ fn digits_jump_to_parts() {
     sleep(Duration::from_millis(300));
     assert!(PARTS.len() >= 9 || display.picture() == before);
     display.xdotool(&["key", "Escape"]);
-    succeeds(ending(child, AT_ONCE));
-    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), expected.len());
+    // It says of stills that were asked for again that they are there.
+    assert!(ending(child, AT_ONCE).status.success());
 }
 
 #[test]
