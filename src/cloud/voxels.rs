@@ -1,8 +1,8 @@
 //! Density and light of a cloud in a cube of voxels, and lookups of both for a vector of points.
 //!
 //! A lookup is trilinear, and takes two reads of memory per point: the bytes of both values at two neighbours are packed
-//! into one word, and two words lie side by side. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how far around it nothing is, so
-//! that rays can leap over emptiness.
+//! into one word, and two words lie side by side. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how
+//! far around it nothing is, so that rays can leap over emptiness.
 
 use crate::simd::lanes::{F, U, V3};
 use crate::simd::math::to_f32;

@@ -1,7 +1,8 @@
 //! What a light gives to points: Lambert's cosine, the fading of lamps, and shadows, looked up or traced.
 //!
 //! All lights are summed up in one pass over the visible points, each as far as it reaches, instead of one pass over the
-//! scene per light. The formulas are checked in f64 by `tests/raster/lights.rs`, `tests/raster/shadow.rs` and `tests/raster/torch.rs`.
+//! scene per light. The formulas are checked in f64 by `tests/raster/lights.rs`, `tests/raster/shadow.rs` and
+//! `tests/raster/torch.rs`.
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::depth_map::MapPoints;

@@ -45,11 +45,11 @@ struct Caster {
     body: Body,
     /// First and last column, first and last row of tiles that it may touch.
     bound: [f32; 4],
-    piece: OnceLock<Piece>,
+    binned: OnceLock<BinnedMesh>,
 }
 
 /// A body that has been set up, and its triangles by tile.
-struct Piece(SetupMesh, Bins);
+struct BinnedMesh(SetupMesh, Bins);
 
 impl LightView {
     /// A view of those bodies that may show in it.
@@ -60,7 +60,7 @@ impl LightView {
             let (center, radius) = body.bound;
             if !projection.misses(center, radius) {
                 let bound = projection.tiles(center, radius);
-                casters.push(Caster { body: body.clone(), bound, piece: OnceLock::new() });
+                casters.push(Caster { body: body.clone(), bound, binned: OnceLock::new() });
             }
         }
         LightView { setup, casters }
@@ -76,16 +76,16 @@ impl LightView {
             if x < x0 || x > x1 || y < y0 || y > y1 {
                 return None;
             }
-            let Piece(mesh, bins) = caster.piece.get_or_init(|| self.set_up(&caster.body));
+            let BinnedMesh(mesh, bins) = caster.binned.get_or_init(|| self.set_up(&caster.body));
             Some((mesh, bins.of(column, row)))
         })
     }
 
     #[inline(never)] // Not compiled anew for each SIMD level.
-    fn set_up(&self, body: &Body) -> Piece {
+    fn set_up(&self, body: &Body) -> BinnedMesh {
         let mesh = self.setup.set_up(&body.mesh, &body.place);
         let bins = Bins::new(slice::from_ref(&mesh), self.setup.projection.size);
-        Piece(mesh, bins)
+        BinnedMesh(mesh, bins)
     }
 
     /// Draws the nearest depths of a tile over what is there.

@@ -104,14 +104,15 @@ impl Bounds {
         if radius.is_finite() { (0.5 * (low + high), radius) } else { (Vec3::ZERO, f32::INFINITY) }
     }
 
-    /// The bits of the words, of which 64 make a row, that hold bodies which a ray of a shaft may meet.
+    /// The bits of the words, of which 64 make a row, that hold bodies which a ray of a shaft may meet; of all words
+    /// without a shaft.
     #[inline(always)]
-    pub fn words<S: Simd>(&self, simd: S, shaft: &Shaft, row: usize) -> u64 {
-        let count = WORD.min(self.all.len() - row * WORD);
-        if cuts::MANY_BODIES && count > 1 {
-            shaft.meets(simd, &self.words[row], count) & u64::MAX >> (WORD - count)
-        } else {
-            u64::MAX >> (WORD - count)
+    pub fn words<S: Simd>(&self, simd: S, shaft: Option<&Shaft>, row: usize) -> u64 {
+        let count = if cuts::MANY_BODIES { WORD.min(self.all.len() - row * WORD) } else { 1 };
+        let all = u64::MAX >> (WORD - count);
+        match shaft {
+            Some(shaft) if count > 1 => shaft.meets(simd, &self.words[row], count) & all,
+            _ => all,
         }
     }
 

@@ -69,12 +69,7 @@ pub fn nearest<S: Simd>(
     let rows = if cuts::MANY_BODIES { list.len().div_ceil(WORD) } else { 1 };
     let mut row = 0;
     'rows: while row < rows {
-        let words = match shaft {
-            _ if !cuts::MANY_BODIES => 1,
-            Some(shaft) => bounds.words(simd, shaft, row),
-            None => u64::MAX >> (WORD - WORD.min(list.len() - row * WORD)),
-        };
-        for word in Bits(words) {
+        for word in Bits(bounds.words(simd, shaft, row)) {
             let word = row * WORD + word;
             let mut bodies = list[word];
             if let Some(shaft) = shaft
@@ -122,7 +117,7 @@ const MANY: usize = 8;
 fn scattered<S: Simd>(simd: S, bounds: &Bounds, shaft: &Shaft, active: M<S>) -> bool {
     let mut words = 0;
     for row in 0..bounds.all.len().div_ceil(WORD) {
-        words += bounds.words(simd, shaft, row).count_ones() as usize;
+        words += bounds.words(simd, Some(shaft), row).count_ones() as usize;
     }
     // More words, dearer searches for single rays.
     words > MANY + bounds.all.len() / 16 && active.to_bitmask().count_ones() > 1

@@ -75,8 +75,8 @@ impl<S: Simd> Surface<S> {
     }
 }
 
-/// Distance, point and surface of the hit of every lane in `hit`, and the body if it is one for all of them, given the object that [`nearest`] found and its rough
-/// distance `t`.
+/// Distance, point and surface of the hit of every lane in `hit`, given the object that [`nearest`] found and its rough
+/// distance `t`; and the index of the object if it is one for all of them.
 ///
 /// Runs once for each of the few bodies that a packet meets.
 ///
@@ -97,13 +97,11 @@ pub fn resolve<S: Simd>(
     let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();
     let mut only = NOWHERE;
-    let mut first = true;
     while todo != 0 {
         let id = object[todo.trailing_zeros() as usize];
         let here = object.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
-        only = if first && todo == 0 { id } else { NOWHERE };
-        first = false;
+        only = if (hit & !here).any_true() { NOWHERE } else { id };
         let body = &world.objects[id as usize];
         if let Shape::Sphere { .. } = body.shape {
             let (t0, t1, _) = body.shape.span(simd, ray.origin, ray.direction, Ball::Exact);

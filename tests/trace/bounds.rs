@@ -2,27 +2,30 @@
 
 use crate::span::{Crossing, span};
 use fearless_simd::{Simd, dispatch, prelude::*};
-use glam::{Mat3, Quat, Vec3, vec3};
-use paprsek::simd::hash::pcg;
+use glam::{Mat3, Vec3, vec3};
 use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::trace::bounds::{Bounds, Extent, Shaft, Start};
 use paprsek::trace::ray::{RayPacket, Search, nearest};
 use paprsek::trace::world::NOWHERE;
 use paprsek::trace::{Material, Object, Shape, World};
+use testkit::random::Random;
 
 /// Most lanes of any level.
 const LANES: usize = 16;
 /// Packets per world.
 const PACKETS: usize = 150;
 
-/// Random numbers, as many as are asked for.
-struct Random(u32);
+/// Random worlds and packets.
+struct Cases(Random);
 
-impl Random {
+impl Cases {
+    fn of(seed: usize) -> Cases {
+        Cases(Random(seed as u64))
+    }
+
     /// From -1 to 1.
     fn number(&mut self) -> f32 {
-        self.0 += 1;
-        (pcg(self.0) >> 8) as f32 * (2.0 / 16_777_215.0) - 1.0
+        self.0.range(-1.0, 1.0) as f32
     }
 
     fn vector(&mut self) -> Vec3 {
@@ -38,8 +41,8 @@ impl Random {
     fn shape(&mut self) -> Shape {
         let (center, size) = (self.vector() * 10.0, 0.02 + self.number().powi(4) * 2.0);
         let half = self.vector().abs() * size + 1e-3;
-        let turn = Mat3::from_quat(Quat::from_axis_angle(self.direction(), 3.0 * self.number()));
-        match pcg(self.0) % 16 {
+        let turn = self.0.turn();
+        match (self.0.unit() * 16.0) as u32 {
             0..6 => Shape::Sphere { center, radius: size },
             6..9 => Shape::Block { center, half, turn: Mat3::IDENTITY },
             9..11 => Shape::Block { center, half, turn },
@@ -79,7 +82,7 @@ fn load<S: Simd>(simd: S, v: &[Vec3; LANES]) -> V3<S> {
 fn marks<S: Simd>(simd: S, bounds: &Bounds, shaft: &Shaft, body: usize) -> (bool, u32) {
     let (mut marked, mut count) = (false, 0);
     for word in 0..bounds.all.len() {
-        if bounds.words(simd, shaft, word / 64) >> (word % 64) & 1 == 0 {
+        if bounds.words(simd, Some(shaft), word / 64) >> (word % 64) & 1 == 0 {
             continue;
         }
         let bits = bounds.bodies(simd, shaft, word) & bounds.all[word];
@@ -94,15 +97,22 @@ fn meets(shape: &Shape, o: Vec3, d: Vec3, reach: f64) -> bool {
     span(shape, o, d, 0.0).is_some_and(|[Crossing { t: t0, .. }, Crossing { t: t1, .. }]| t1 > 0.0 && t0 < reach)
 }
 
-/// Holds the shafts of rays, of rays to a target, and what is found in them against all bodies.
+/// The lanes of a packet that count, which are all but the last, its rays, where they begin, and their shaft.
 #[inline(always)]
-fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2], target: Vec3) {
-    let lanes = F::<S>::LEN;
-    // The last lane is off, and must not count.
-    let active = M::<S>::from_bitmask(simd, (1u64 << (lanes - 1)) - 1);
+fn packet<S: Simd>(simd: S, rays: &[[Vec3; LANES]; 2]) -> (M<S>, RayPacket<S>, Start, Shaft) {
+    let active = M::<S>::from_bitmask(simd, (1u64 << (F::<S>::LEN - 1)) - 1);
     let (origin, direction) = (load(simd, &rays[0]), load(simd, &rays[1]));
     let start = Start { origins: Extent::new(simd, origin, active), leaves: NOWHERE };
     let along = Shaft::new(simd, start, Extent::new(simd, direction, active));
+    let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
+    (active, RayPacket { origin, direction, from, inward }, start, along)
+}
+
+/// Holds the shafts of rays, and of rays to a target, against all bodies.
+#[inline(always)]
+fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2], target: Vec3) {
+    let lanes = F::<S>::LEN;
+    let (_, _, start, along) = packet(simd, rays);
     let to = Shaft::to(simd, start, target);
     for (index, body) in world.objects.iter().enumerate() {
         let lane = |lane: usize| (rays[0][lane], rays[1][lane]);
@@ -118,19 +128,13 @@ fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]
 /// Holds what is found in the shaft of rays against what is found among all bodies.
 #[inline(always)]
 fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2]) {
-    let lanes = F::<S>::LEN;
-    let active = M::<S>::from_bitmask(simd, (1u64 << (lanes - 1)) - 1);
-    let (origin, direction) = (load(simd, &rays[0]), load(simd, &rays[1]));
-    let start = Start { origins: Extent::new(simd, origin, active), leaves: NOWHERE };
-    let along = Shaft::new(simd, start, Extent::new(simd, direction, active));
-    let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
-    let ray = RayPacket { origin, direction, from, inward };
+    let (active, ray, _, along) = packet(simd, rays);
     let far = F::<S>::splat(simd, 1e30);
     let list = &bounds.all;
     for search in [Search::Nearest, Search::Shadow] {
         let (culled, t) = nearest(simd, world, bounds, list, Some(&along), &ray, active, far, search);
         let (all, u) = nearest(simd, world, bounds, list, None, &ray, active, far, search);
-        for lane in 0..lanes - 1 {
+        for lane in 0..F::<S>::LEN - 1 {
             match search {
                 Search::Nearest => assert_eq!((culled[lane], t[lane]), (all[lane], u[lane])),
                 Search::Shadow => assert_eq!(culled[lane] == NOWHERE, all[lane] == NOWHERE),
@@ -143,7 +147,7 @@ fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES];
 fn no_body_is_left_out_that_a_ray_meets() {
     // Less than a word, words that are partly filled.
     for count in [1, 9, 64, 65, 200] {
-        let mut random = Random(1000 * count as u32);
+        let mut random = Cases::of(1000 * count);
         let world = random.world(count);
         let bounds = Bounds::new(&world);
         for _ in 0..PACKETS / (1 + count / 20) {
@@ -159,7 +163,7 @@ fn no_body_is_left_out_that_a_ray_meets() {
 #[test]
 fn the_same_bodies_are_found_among_few_and_many() {
     for count in [1, 9, 64, 65, 2000] {
-        let mut random = Random(1000 * count as u32);
+        let mut random = Cases::of(1000 * count);
         let world = random.world(count);
         let bounds = Bounds::new(&world);
         for _ in 0..PACKETS {
@@ -174,7 +178,7 @@ fn the_same_bodies_are_found_among_few_and_many() {
 #[test]
 fn every_body_has_one_bit() {
     for count in [0, 1, 64, 65, 129, 5000] {
-        let bounds = Bounds::new(&Random(7).world(count));
+        let bounds = Bounds::new(&Cases::of(7).world(count));
         let mut seen = vec![0; count];
         for (word, &all) in bounds.all.iter().enumerate() {
             for bit in (0..64).filter(|bit| all >> bit & 1 != 0) {
@@ -189,7 +193,7 @@ fn every_body_has_one_bit() {
 #[test]
 fn few_bodies_are_marked() {
     for (count, most) in [(30, 1.5), (1000, 8.0), (10_000, 30.0)] {
-        let mut random = Random(count);
+        let mut random = Cases::of(count);
         let radius = 10.0 * (1e-3 / count as f32 * 6.0 / std::f32::consts::PI).cbrt();
         let ball = |center| Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3::ONE));
         let world = World::new((0..count).map(|_| ball(random.vector() * 10.0)).collect());
