@@ -13,14 +13,25 @@ use crate::simd::math::to_f32;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+use glam::Vec3;
+use std::sync::OnceLock;
 
-/// How finely the dome is evaluated on the screen.
-#[derive(Clone, Copy, Debug)]
+/// How finely the dome is evaluated on the screen, and what has been.
 pub struct Cells {
     /// Edge of a cell, pixels: a power of two up to 64. At 1 every pixel is evaluated.
     size: u32,
     settings: SkySettings,
+    /// Number of runs in a line of corners.
+    runs: usize,
+    /// Light at the corners of cells, or the mean of each pixel's samples: lines of [`Run`]s from the picture's top left
+    /// corner on. A run is evaluated when a tile first needs it. It serves all tiles that meet there.
+    light: Vec<OnceLock<Run>>,
 }
+
+/// Corners in a run: a full vector at every SIMD level.
+const RUN: usize = 16;
+/// The light of neighbouring corners of a line.
+type Run = [[f32; RUN]; 3];
 
 impl Cells {
     /// The largest cells of a view that the settings allow.
@@ -29,37 +40,38 @@ impl Cells {
         while size > 1 && size as f32 * view.pixel() > settings.built().cell {
             size /= 2;
         }
-        Cells { size, settings: *settings }
+        let corners = |pixels: usize| pixels.next_multiple_of(Tile::SIZE) / size as usize + 1;
+        let runs = corners(view.width()).div_ceil(RUN);
+        Cells { size, settings: *settings, runs, light: vec![OnceLock::new(); runs * corners(view.height())] }
     }
 
     /// Samples along each axis of a cell. Asked for where it is used, since it is the constant 1 in the 64 kB build.
     #[inline(always)]
-    fn samples(self) -> u32 {
+    fn samples(&self) -> u32 {
         if self.size > 1 { 1 } else { self.settings.built().grid as u32 }
     }
 
     /// How far the middle of a cell's first pixel is from where its light is taken, pixels along each axis: 1/2 from a
     /// corner, and 0 where the cell is one pixel, whose light is taken in its middle.
-    fn middle(self) -> f32 {
+    fn middle(&self) -> f32 {
         if self.size > 1 { 0.5 } else { 0.0 }
     }
 }
 
 /// Adds the dome to what solids have left of a tile.
 #[simd]
-pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut Tile) {
+pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, tile: &mut Tile) {
     if tile.coverage.iter().all(|c| *c >= 1.0) {
         return;
     }
     let size = cells.size;
-    let (left, top) = (to_f32(tile.x), to_f32(tile.y));
     // The rows of corners above and below a row of pixels, already interpolated along x.
     let mut lines = [[[0.0; BLOCK]; 3]; 2];
-    line(simd, dome, view, cells, left, top, &mut lines[1]);
+    line(simd, dome, view, cells, [tile.x, tile.y], &mut lines[1]);
     for y in 0..tile.height as u32 {
         if y % size == 0 {
             lines[0] = lines[1];
-            line(simd, dome, view, cells, left, top + (y + size) as f32, &mut lines[1]);
+            line(simd, dome, view, cells, [tile.x, tile.y + (y + size) as usize], &mut lines[1]);
         }
         let share = ((y % size) as f32 + cells.middle()) / size as f32;
         let [a, b] = &lines;
@@ -72,37 +84,64 @@ pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut
     }
 }
 
-/// The light of 64 pixels from the point (`left`, `top`) of the picture on: interpolated between the corners of cells
-/// that lie on this line, or the mean of each pixel's samples.
+/// The light of 64 pixels from a point of the picture on: interpolated between the corners of cells that lie on this
+/// line, or the mean of each pixel's samples.
 #[simd]
-fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, left: f32, top: f32, out: &mut Block3) {
-    let (size, grid) = (cells.size, cells.samples());
-    let step = 1.0 / grid as f32;
-    let mut x = [0.0; BLOCK];
-    for (i, x) in x.iter_mut().enumerate() {
-        *x = left + (i as u32 * size) as f32;
-    }
-    let mut sum = [[0.0; BLOCK]; 3];
-    for sample in 0..grid * grid {
-        let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
-        let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
-        let mut i = 0;
-        // One corner more than there are cells.
-        while i < BLOCK / F::<S>::LEN && i * F::<S>::LEN <= BLOCK / size as usize {
-            let ray = view.rays(simd, load::<S, F<S>>(simd, &x, i) + dx, F::<S>::splat(simd, top + dy));
-            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
-            let light = evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
-            (V3::load(simd, &sum, i) + light).store(&mut sum, i);
-            i += 1;
+fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, [left, top]: [usize; 2], out: &mut Block3) {
+    let size = cells.size as usize;
+    let (first, row) = (left / size, top / size);
+    // The corners, one more than there are cells.
+    let mut sum = [[0.0; BLOCK + 1]; 3];
+    for i in 0..BLOCK / size + 1 {
+        let (run, corner) = ((first + i) / RUN, (first + i) % RUN);
+        let light = match cells.light[row * cells.runs + run].get() {
+            Some(light) => light,
+            None => light_of(simd, dome, view, cells, run, row),
+        };
+        for (sum, light) in sum.iter_mut().zip(light) {
+            sum[i] = light[corner];
         }
     }
     for (sum, out) in sum.iter().zip(out) {
         for (i, out) in out.iter_mut().enumerate() {
-            let cell = i / size as usize;
-            let (a, b) = (sum[cell], sum[(cell + 1) % BLOCK]);
-            *out = a + (b - a) * ((i as u32 % size) as f32 + cells.middle()) / size as f32;
+            let cell = i / size;
+            let (a, b) = (sum[cell], sum[cell + 1]);
+            *out = a + (b - a) * ((i % size) as u32 as f32 + cells.middle()) / size as u32 as f32;
         }
     }
+}
+
+/// Evaluates a run of corners in a row of them.
+#[simd]
+#[cold] // Once per run.
+#[inline(never)]
+fn light_of<'a, S: Simd>(simd: S, dome: &Dome, view: &View, cells: &'a Cells, run: usize, row: usize) -> &'a Run {
+    cells.light[row * cells.runs + run].get_or_init(|| {
+        let (size, grid) = (cells.size, cells.samples());
+        let step = 1.0 / grid as f32;
+        let (first, top) = (to_f32(run * RUN), to_f32(row * size as usize));
+        let mut sum = [[0.0; RUN]; 3];
+        let lanes = F::<S>::LEN;
+        for at in (0..RUN).step_by(lanes) {
+            let mut x = [0.0; RUN];
+            for (i, x) in x.iter_mut().enumerate() {
+                *x = (first + (at + i) as u32 as f32) * size as f32;
+            }
+            let x = F::<S>::from_slice(simd, &x[..lanes]);
+            let mut light = V3::splat(simd, Vec3::ZERO);
+            for sample in 0..grid * grid {
+                let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
+                let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
+                let ray = view.rays(simd, x + dx, F::<S>::splat(simd, top + dy));
+                let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
+                light = light + evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
+            }
+            for (sum, light) in sum.iter_mut().zip([light.x, light.y, light.z]) {
+                light.store_slice(&mut sum[at..at + lanes]);
+            }
+        }
+        sum
+    })
 }
 
 /// Adds light to what solids have left of vector `i` of a row of pixels.
