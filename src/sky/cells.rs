@@ -14,24 +14,24 @@ use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3;
-use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// How finely the dome is evaluated on the screen, and what has been.
 pub struct Cells {
     /// Edge of a cell, pixels: a power of two up to 64. At 1 every pixel is evaluated.
     size: u32,
     settings: SkySettings,
-    /// Number of runs in a line of corners.
+    /// Number of runs of corners in a line.
     runs: usize,
-    /// Light at the corners of cells, or the mean of each pixel's samples: lines of [`Run`]s from the picture's top left
-    /// corner on. A run is evaluated when a tile first needs it. It serves all tiles that meet there.
-    light: Vec<OnceLock<Run>>,
+    /// Light at the corners of cells, or the mean of each pixel's samples, as bits; 0 where it has not been evaluated.
+    /// In lines from the picture's top left corner on, which hold red, green and blue of one [`RUN`] after the other.
+    /// Whichever tile needs a run first has it evaluated for all that meet there. Two threads may do so at once, and
+    /// write the same.
+    light: Vec<AtomicU32>,
 }
 
-/// Corners in a run: a full vector at every SIMD level.
+/// Neighbouring corners that are evaluated together: a full vector at every SIMD level.
 const RUN: usize = 16;
-/// The light of neighbouring corners of a line.
-type Run = [[f32; RUN]; 3];
 
 impl Cells {
     /// The largest cells of a view that the settings allow.
@@ -42,7 +42,8 @@ impl Cells {
         }
         let corners = |pixels: usize| pixels.next_multiple_of(Tile::SIZE) / size as usize + 1;
         let runs = corners(view.width()).div_ceil(RUN);
-        Cells { size, settings: *settings, runs, light: vec![OnceLock::new(); runs * corners(view.height())] }
+        let light = (0..runs * corners(view.height()) * 3 * RUN).map(|_| AtomicU32::new(0)).collect();
+        Cells { size, settings: *settings, runs, light }
     }
 
     /// Samples along each axis of a cell. Asked for where it is used, since it is the constant 1 in the 64 kB build.
@@ -94,12 +95,13 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, [left, top]: 
     let mut sum = [[0.0; BLOCK + 1]; 3];
     for i in 0..BLOCK / size + 1 {
         let (run, corner) = ((first + i) / RUN, (first + i) % RUN);
-        let light = match cells.light[row * cells.runs + run].get() {
-            Some(light) => light,
-            None => light_of(simd, dome, view, cells, run, row),
-        };
-        for (sum, light) in sum.iter_mut().zip(light) {
-            sum[i] = light[corner];
+        let at = (row * cells.runs + run) * 3 * RUN + corner;
+        // Red is written last.
+        if cells.light[at].load(Ordering::Acquire) == 0 {
+            evaluate_run(simd, dome, view, cells, run, row);
+        }
+        for (k, sum) in sum.iter_mut().enumerate() {
+            sum[i] = f32::from_bits(cells.light[at + k * RUN].load(Ordering::Relaxed));
         }
     }
     for (sum, out) in sum.iter().zip(out) {
@@ -115,33 +117,32 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, [left, top]: 
 #[simd]
 #[cold] // Once per run.
 #[inline(never)]
-fn light_of<'a, S: Simd>(simd: S, dome: &Dome, view: &View, cells: &'a Cells, run: usize, row: usize) -> &'a Run {
-    cells.light[row * cells.runs + run].get_or_init(|| {
-        let (size, grid) = (cells.size, cells.samples());
-        let step = 1.0 / grid as f32;
-        let (first, top) = (to_f32(run * RUN), to_f32(row * size as usize));
-        let mut sum = [[0.0; RUN]; 3];
-        let lanes = F::<S>::LEN;
-        for at in (0..RUN).step_by(lanes) {
-            let mut x = [0.0; RUN];
-            for (i, x) in x.iter_mut().enumerate() {
-                *x = (first + (at + i) as u32 as f32) * size as f32;
-            }
-            let x = F::<S>::from_slice(simd, &x[..lanes]);
-            let mut light = V3::splat(simd, Vec3::ZERO);
-            for sample in 0..grid * grid {
-                let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
-                let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
-                let ray = view.rays(simd, x + dx, F::<S>::splat(simd, top + dy));
-                let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
-                light = light + evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
-            }
-            for (sum, light) in sum.iter_mut().zip([light.x, light.y, light.z]) {
-                light.store_slice(&mut sum[at..at + lanes]);
+fn evaluate_run<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, run: usize, row: usize) {
+    let (size, grid) = (cells.size, cells.samples());
+    let step = 1.0 / grid as f32;
+    let top = to_f32(row * size as usize);
+    let lanes = F::<S>::LEN;
+    for at in (0..RUN).step_by(lanes) {
+        let mut x = [0.0; RUN];
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = to_f32((run * RUN + at + i) * size as usize);
+        }
+        let x = F::<S>::from_slice(simd, &x[..lanes]);
+        let mut light = V3::splat(simd, Vec3::ZERO);
+        for sample in 0..grid * grid {
+            let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
+            let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
+            let ray = view.rays(simd, x + dx, F::<S>::splat(simd, top + dy));
+            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
+            light = light + evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
+        }
+        let out = &cells.light[(row * cells.runs + run) * 3 * RUN + at..];
+        for (k, light) in [light.x, light.y, light.z].into_iter().enumerate().rev() {
+            for (out, light) in out[k * RUN..].iter().zip(light.as_slice()) {
+                out.store(light.to_bits(), Ordering::Release);
             }
         }
-        sum
-    })
+    }
 }
 
 /// Adds light to what solids have left of vector `i` of a row of pixels.
