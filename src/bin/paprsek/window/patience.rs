@@ -53,6 +53,7 @@ pub fn begin() -> io::Result<()> {
 }
 
 /// Ends the process well if the call of this moment, or a later one, lasts.
+#[cfg(not(feature = "wayland"))]
 pub fn leave() {
     LEAVING.store(true, Ordering::Relaxed);
 }
