@@ -19,8 +19,11 @@ pub struct TraceSettings {
     /// Hits whose weight is below this share of the light in front of them are interpolated whatever they hit, with
     /// mean textures. At 0 none is.
     pub min_detail: f32,
-    /// Anti-aliasing of pixels that an edge crosses: 0 is off, 1 cuts the pixel into halves, 2 into quarters.
-    pub subpixel: u32,
+    /// Whether pixels that an edge crosses are anti-aliased, by samples half a pixel apart.
+    pub antialias: bool,
+    /// An edge has samples within its pixels where the light of their corners differs by more than this, on the scale of
+    /// `threshold`. Elsewhere the corners alone say how much of the pixel each surface takes.
+    pub contrast: f32,
     /// Samples along each axis of every pixel: 1, or 8 for the reference.
     pub grid: usize,
     /// Shadow rays towards a light that has a size: from what the eye sees directly, and from what it sees mirrored or
@@ -103,7 +106,8 @@ impl Quality {
             threshold: 0.03,
             min_weight: 1.0 / 64.0,
             min_detail: 1.0 / 5.0,
-            subpixel: 0,
+            antialias: false,
+            contrast: 0.06,
             grid: 1,
             light_samples: [16, 4],
         },
@@ -125,7 +129,7 @@ impl Quality {
 
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality {
-        trace: TraceSettings { min_detail: 1.0 / 6.0, subpixel: 1, ..Quality::FAST.trace },
+        trace: TraceSettings { min_detail: 1.0 / 8.0, antialias: true, ..Quality::FAST.trace },
         raster: RasterSettings { coverage: 4, ..Quality::FAST.raster },
         ..Quality::FAST
     };
@@ -137,7 +141,8 @@ impl Quality {
             threshold: 0.0,
             min_weight: 0.0,
             min_detail: 0.0,
-            subpixel: 0,
+            antialias: false,
+            contrast: 0.0,
             grid: 1,
             light_samples: [64, 64],
         },
@@ -203,8 +208,8 @@ impl TraceSettings {
     /// These settings; in the 64 kB build all but two are those of [`Quality::FAST`].
     #[inline(always)]
     pub const fn built(&self) -> TraceSettings {
-        let TraceSettings { min_detail, subpixel, .. } = *self;
-        if cuts::QUALITIES { *self } else { TraceSettings { min_detail, subpixel, ..Quality::FAST.trace } }
+        let TraceSettings { min_detail, antialias, .. } = *self;
+        if cuts::QUALITIES { *self } else { TraceSettings { min_detail, antialias, ..Quality::FAST.trace } }
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! A tile is cut into squares. The corners of each, which neighbours share, and its centre are traced. Where all five
 //! have the same path signature (the objects on every path, the state of every light at each hit) and the centre is what
-//! the corners foretell, the square is interpolated; else it is cut in four, down to one pixel and, with anti-aliasing,
-//! below. Departures from the thesis:
+//! the corners foretell, the square is interpolated; else it is cut in four, down to one pixel. With anti-aliasing, pixels
+//! that an edge runs through have samples within. Departures from the thesis:
 //!
 //! * Light, gain and hit point are interpolated; textures are evaluated at every pixel ([`super::deferred`]).
 //! * The test measures the error of the interpolation itself, at the centre where it is largest, rather than the
@@ -20,18 +20,20 @@
 use super::deferred::Deferred;
 use super::edge::Groups;
 use super::fill::{self, Ramps};
-use super::grid::{Grid, Square, same_path};
+use super::grid::{Grid, Place, SIDES, Square, same_path};
 use super::job::Job;
 use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
+use super::surface::ALBEDO;
 use crate::frame::Tile;
 use crate::simd::lanes::F;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+use glam::Vec3;
 
-/// The number of sizes of squares, from 16 pixels down to a quarter.
-const LEVELS: usize = 7;
+/// The number of sizes of squares, from 16 pixels down to one.
+const LEVELS: usize = 5;
 
 /// Memory for drawing a tile, passed from tile to tile. No value in it survives a tile.
 #[derive(Default)]
@@ -62,14 +64,14 @@ impl Scratch {
 /// With a grid of samples per pixel, as in the reference, the tile is drawn once per grid point with a share of the light.
 #[simd]
 pub fn draw<S: Simd>(simd: S, job: &Job, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
-    scratch.deferred.begin(job.context.world.objects.len(), job.settings.subpixel > 0);
+    scratch.deferred.begin(job.context.world.objects.len(), job.settings.antialias);
     tile.clear();
     let across = job.settings.built().grid;
     let step = 1.0 / to_f32(across);
     let mut count = 0;
     for n in 0..across * across {
         // Lattice points are centres of pixels, or corners of them.
-        let middle = if job.settings.subpixel > 0 { 0.0 } else { 0.5 };
+        let middle = if job.settings.antialias { 0.0 } else { 0.5 };
         let [dx, dy] = [n % across, n / across].map(|n| (to_f32(n) + middle) * step);
         scratch.grid.begin(job, tile, dx, dy);
         subdivide(simd, job, tile, scratch);
@@ -113,18 +115,25 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
             grid.trace(simd, job);
             for &square in &squares {
                 match judge(simd, job, tile, grid, square) {
-                    Verdict::Done => {}
                     Verdict::Whole => whole.push(square),
-                    Verdict::Cut => cutter.cut(work, square),
+                    Verdict::Cut => {
+                        if square.size == 2 * unit {
+                            foretell_sides(simd, job, tile, grid, square);
+                        }
+                        cutter.cut(work, square);
+                    }
+                    Verdict::FaintEdge => edges.push(square),
                     Verdict::Edge => {
                         edges.push(square);
-                        cutter.cut(work, square);
+                        want_within(job, tile, grid, square);
                     }
                 }
             }
             work[level] = squares;
             work[level].clear();
         }
+        // Within pixels.
+        grid.trace(simd, job);
         if !follow(grid, &cutter, work, whole) {
             break;
         }
@@ -147,32 +156,63 @@ fn want(grid: &mut Grid, Square { x, y, size }: Square, unit: usize) {
     }
 }
 
+/// Asks for the samples within a pixel that an edge runs through: its centre, and the middle of every side that the edge
+/// crosses.
+fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
+    grid.want(pixel.x + 1, pixel.y + 1);
+    for (middle, ends) in SIDES {
+        if !uncrossed(job, tile, grid, pixel, ends) {
+            let (x, y) = pixel.point(middle);
+            grid.want(x, y);
+        }
+    }
+}
+
+/// Foretells the middle of every side that the edge which runs through a square of two pixels does not cross, so that it is
+/// not traced.
+fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, square: Square) {
+    if !job.settings.antialias || same_path(grid.corners(square)) {
+        return;
+    }
+    for (middle, ends) in SIDES {
+        let (x, y) = square.point(middle);
+        if !grid.has(x, y) && uncrossed(job, tile, grid, square, ends) {
+            let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y));
+            grid.foretell(x, y, mean(simd, [a, b, a, b]));
+        }
+    }
+}
+
+/// Whether a side of a square of one or two pixels is taken for one surface, because its ends are of one. Nothing small may
+/// be there, and at a contrast of 0 every sample is traced.
+fn uncrossed(job: &Job, tile: &Tile, grid: &Grid, square: Square, ends: [Place; 2]) -> bool {
+    let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y).path_signature);
+    a == b && finest(job, tile, square) > 1 && job.settings.built().contrast > 0.0
+}
+
 /// What becomes of a square.
 enum Verdict {
-    /// It needs nothing more.
-    Done,
     /// It is interpolated, or it is a pixel that is traced itself.
     Whole,
     /// It is cut.
     Cut,
-    /// It is a pixel that an edge runs through. It is cut for the shares of its surfaces.
+    /// It is a pixel that an edge runs through, and gets more samples for the shares of its surfaces.
     Edge,
+    /// It is such a pixel, and its corners are enough to tell the shares.
+    FaintEdge,
 }
 
 /// Judges a square whose samples are there.
 #[inline(always)]
 fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) -> Verdict {
-    let Square { x, y, size } = square;
+    let size = square.size;
     let unit = job.unit();
     if size == 1 {
-        return if unit == 1 { Verdict::Whole } else { Verdict::Done };
+        return Verdict::Whole;
     }
     let corners = grid.corners(square);
     let same = same_path(corners);
-    if size < unit {
-        return if same { Verdict::Done } else { Verdict::Cut };
-    }
-    let finest = job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y));
+    let finest = finest(job, tile, square);
     // A pixel whose corners have one signature is their mean, however much light and point differ.
     let agree = same
         && if size == unit {
@@ -182,9 +222,16 @@ fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) 
         };
     match agree {
         true => Verdict::Whole,
+        false if size == unit && !same && faint(job, corners) => Verdict::FaintEdge,
         false if size == unit => Verdict::Edge,
         false => Verdict::Cut,
     }
+}
+
+/// Edge of the largest square that the guard lets pass where a square is, pixels.
+#[inline(always)]
+fn finest(job: &Job, tile: &Tile, Square { x, y, .. }: Square) -> usize {
+    job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y))
 }
 
 /// Cuts the squares that were to be interpolated but that an edge enters from a neighbour. Returns whether there were any.
@@ -238,7 +285,7 @@ impl Cutter {
 fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut Scratch) {
     let Scratch { grid, whole, edges, deferred, ramps, .. } = scratch;
     let unit = job.unit();
-    ramps.prepare(job.settings.subpixel > 0);
+    ramps.prepare(job.settings.antialias);
     for &square in whole.iter() {
         let Square { x, y, size } = square;
         if size > unit {
@@ -248,9 +295,7 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
         } else {
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
-            let Sample { path_signature, count, object, .. } = *corners[0];
-            let mean = Sample { path_signature, count, object, numbers: foretell(simd, corners) };
-            fill::add(simd, job, tile, deferred, square, &mean, share, &footprint);
+            fill::add(simd, job, tile, deferred, square, &mean(simd, corners), share, &footprint);
         }
     }
     let mut groups = Groups::default();
@@ -273,6 +318,13 @@ fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
         sample::store::<S>(sum * 0.25, &mut mean, i);
     }
     mean
+}
+
+/// The sample in the middle of samples that have one path signature.
+#[inline(always)]
+fn mean<S: Simd>(simd: S, samples: [&Sample; 4]) -> Sample {
+    let Sample { path_signature, count, object, .. } = *samples[0];
+    Sample { path_signature, count, object, numbers: foretell(simd, samples) }
 }
 
 /// Whether a square of `size` pixels may be interpolated whose corners have one path signature.
@@ -300,8 +352,28 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
         error += distance(gain, guess) + gain[0].max(gain[1]).max(gain[2]) * texture;
         level += 0.5 * (gain[0] + gain[1] + gain[2]);
     }
-    // The eye sees differences on the encoded scale, whose slope falls about with the root of the light.
-    error <= job.settings.built().threshold * (level * (1.0 / 3.0)).max(1.0 / 64.0).sqrt()
+    error <= job.settings.built().threshold * visible(level)
+}
+
+/// Whether the light of a pixel's corners differs so little that the shares of its surfaces need not be exact.
+fn faint(job: &Job, corners: [&Sample; 4]) -> bool {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for corner in corners {
+        let mut light = Vec3::from_slice(&corner.numbers);
+        for (object, hit) in corner.hits() {
+            light +=
+                Vec3::from_slice(&hit[GAIN..]) * Vec3::from_slice(&job.context.surfaces[object as usize][ALBEDO..]);
+        }
+        (low, high) = (low.min(light), high.max(light));
+    }
+    (high - low).max_element() <= job.settings.built().contrast * visible(0.5 * (low + high).element_sum())
+}
+
+/// The scale of differences that are seen beside a level of light, given as the sum of its colours: the slope of the encoded
+/// scale falls about with the root of the light.
+#[inline(always)]
+fn visible(level: f32) -> f32 {
+    (level * (1.0 / 3.0)).max(1.0 / 64.0).sqrt()
 }
 
 /// What a displacement of a texture by one pixel counts, as a share of the texture's contrast.

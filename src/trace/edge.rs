@@ -3,13 +3,15 @@
 //! Samples with the same path signature are of one surface. They are averaged before textures are looked up, so that each
 //! surface in a pixel has its textures evaluated once.
 
-use super::grid::{Grid, Square, same_path};
+use super::grid::{Grid, SIDES, Square};
 use super::sample::{self, NUMBERS, Sample};
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 
-/// Most lattice points along the edge of a pixel: at quarter pixels, with both ends.
-const POINTS: usize = 5;
+/// Lattice points in a pixel.
+const POINTS: usize = 9;
+/// A share of a pixel.
+const SIXTEENTH: f32 = 1.0 / 16.0;
 
 /// One surface in a pixel.
 #[derive(Clone, Copy)]
@@ -23,28 +25,40 @@ pub struct Group {
 /// The surfaces in one pixel, with memory for as many as there can be.
 pub struct Groups {
     count: usize,
-    list: [Group; POINTS * POINTS],
+    list: [Group; POINTS],
 }
 
 impl Default for Groups {
     fn default() -> Groups {
-        Groups { count: 0, list: [Group { share: 0.0, mean: Sample::default() }; POINTS * POINTS] }
+        Groups { count: 0, list: [Group { share: 0.0, mean: Sample::default() }; POINTS] }
     }
 }
 
 impl Groups {
-    /// The surfaces in a pixel, given as a square of the lattice that has been cut.
+    /// The surfaces in a pixel, given as a square of two lattice steps.
     #[inline(always)]
     pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square) -> &[Group] {
-        let mut weights = Weights::default();
-        for part in pixel.quarters() {
-            weigh(grid, part, 0.25, pixel, &mut weights);
-        }
+        let Square { x, y, .. } = pixel;
         self.count = 0;
-        for (row, weights) in weights[..=pixel.size].iter().enumerate() {
-            for (column, &weight) in weights[..=pixel.size].iter().enumerate() {
+        // The centre stands for a quarter of the pixel, the middle of a side for an eighth, a corner for a sixteenth. Sides
+        // without a sample see what their ends see, and leave their share to them.
+        let centre = grid.has(x + 1, y + 1);
+        let corner = if centre { SIXTEENTH } else { 2.0 * SIXTEENTH };
+        let mut weights = [[corner, 0.0, corner], [0.0; 3], [corner, 0.0, corner]];
+        weights[1][1] = if centre { 4.0 * SIXTEENTH } else { 0.0 };
+        for ((column, row), ends) in SIDES {
+            if grid.has(x + column, y + row) {
+                weights[row][column] = 2.0 * SIXTEENTH;
+            } else {
+                for (column, row) in ends {
+                    weights[row][column] += SIXTEENTH;
+                }
+            }
+        }
+        for (row, weights) in weights.iter().enumerate() {
+            for (column, &weight) in weights.iter().enumerate() {
                 if weight > 0.0 {
-                    self.add(simd, grid.at(pixel.x + column, pixel.y + row), weight);
+                    self.add(simd, grid.at(x + column, y + row), weight);
                 }
             }
         }
@@ -81,24 +95,5 @@ impl Groups {
             let number = sample::load(simd, &sample.numbers, i);
             sample::store::<S>(sum + number * weight, &mut group.mean.numbers, i);
         }
-    }
-}
-
-/// Weights of the lattice points of a pixel, by row and column.
-type Weights = [[f32; POINTS]; POINTS];
-
-/// Adds the weights of the samples in a part of a pixel: each square that is not cut further gives a quarter of its own
-/// `weight` to each corner.
-fn weigh(grid: &Grid, square: Square, weight: f32, pixel: Square, weights: &mut Weights) {
-    let Square { x, y, size } = square;
-    if size > 1 && !same_path(grid.corners(square)) {
-        for part in square.quarters() {
-            weigh(grid, part, weight * 0.25, pixel, weights);
-        }
-        return;
-    }
-    let (column, row) = (x - pixel.x, y - pixel.y);
-    for (column, row) in [(column, row), (column + size, row), (column, row + size), (column + size, row + size)] {
-        weights[row][column] += weight * 0.25;
     }
 }

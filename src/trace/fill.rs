@@ -220,7 +220,7 @@ pub fn interpolate<S: Simd>(
     let patch = Patch::new(simd, corners);
     let size = job.pixels(square.size);
     let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
-    let filter = job.settings.subpixel > 0;
+    let filter = job.settings.antialias;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         let mut plain = [[0.0; BLOCK]; PLAIN];

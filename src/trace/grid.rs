@@ -1,4 +1,4 @@
-//! The samples of a tile, on a lattice whose steps are pixels, halves or quarters of pixels.
+//! The samples of a tile, on a lattice whose steps are pixels or halves of pixels.
 
 use super::job::Job;
 use super::packet;
@@ -7,8 +7,18 @@ use crate::frame::Tile;
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 
-/// Most lattice points along a tile's edge: at quarter pixels, with both ends.
-const LATTICE: usize = Tile::SIZE * 4 + 1;
+/// Most lattice points along a tile's edge: at half pixels, with both ends.
+const LATTICE: usize = Tile::SIZE * 2 + 1;
+
+/// The bit of an index that is set for samples which are foretold and not traced.
+const FORETOLD: u32 = 1 << 31;
+
+/// A place in a square, halves of its edge from its top left.
+pub type Place = (usize, usize);
+
+/// The sides of a square: middle and ends.
+pub const SIDES: [(Place, [Place; 2]); 4] =
+    [((1, 0), [(0, 0), (2, 0)]), ((0, 1), [(0, 0), (0, 2)]), ((2, 1), [(2, 0), (2, 2)]), ((1, 2), [(0, 2), (2, 2)])];
 
 /// A square of the lattice. All numbers are lattice steps from the tile's top left.
 #[derive(Clone, Copy)]
@@ -22,10 +32,10 @@ pub struct Square {
 }
 
 impl Square {
-    /// Its four parts. The edge has to be even.
-    pub fn quarters(self) -> [Square; 4] {
-        let (Square { x, y, .. }, size) = (self, self.size / 2);
-        [(x, y), (x + size, y), (x, y + size), (x + size, y + size)].map(|(x, y)| Square { x, y, size })
+    /// The lattice point at a place in it. The edge has to be even.
+    #[inline(always)]
+    pub fn point(self, place: Place) -> (usize, usize) {
+        (self.x + place.0 * (self.size / 2), self.y + place.1 * (self.size / 2))
     }
 }
 
@@ -43,6 +53,8 @@ pub struct Grid {
     /// Samples, of which the first `count` are of this tile.
     samples: Vec<Sample>,
     count: usize,
+    /// Samples that are foretold.
+    foretold: Vec<Sample>,
     /// Where the samples lie, pixels from the picture's top left; behind the last sample, the points that are wanted.
     xs: Vec<f32>,
     ys: Vec<f32>,
@@ -58,6 +70,7 @@ impl Grid {
         }
         self.generation = self.generation.wrapping_add(1).max(1);
         self.count = 0;
+        self.foretold.clear();
         self.xs.clear();
         self.ys.clear();
     }
@@ -66,9 +79,21 @@ impl Grid {
     #[inline(always)]
     pub fn want(&mut self, x: usize, y: usize) {
         // Most corners are there, from a neighbour, so that this test alone is inlined.
-        if self.lattice[y * LATTICE + x].0 != self.generation {
+        if !self.has(x, y) {
             self.add(x, y);
         }
+    }
+
+    /// Whether there is a sample at a lattice point, or one is wanted.
+    #[inline(always)]
+    pub fn has(&self, x: usize, y: usize) -> bool {
+        self.lattice[y * LATTICE + x].0 == self.generation
+    }
+
+    /// Puts a sample at a lattice point that has none, instead of tracing it.
+    pub fn foretell(&mut self, x: usize, y: usize, sample: Sample) {
+        self.lattice[y * LATTICE + x] = (self.generation, self.foretold.len() as u32 | FORETOLD);
+        self.foretold.push(sample);
     }
 
     fn add(&mut self, x: usize, y: usize) {
@@ -88,9 +113,11 @@ impl Grid {
         self.xs.iter().copied().zip(self.ys.iter().copied())
     }
 
-    /// The sample at a lattice point, which must have been traced.
+    /// The sample at a lattice point, which must be there.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
-        &self.samples[self.lattice[y * LATTICE + x].1 as usize]
+        let index = self.lattice[y * LATTICE + x].1;
+        let samples = if index & FORETOLD == 0 { &self.samples } else { &self.foretold };
+        &samples[(index & !FORETOLD) as usize]
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
@@ -123,7 +150,7 @@ impl Grid {
             return false;
         }
         let middle = (x + dx * half, y + dy * half);
-        if self.lattice[middle.1 * LATTICE + middle.0].0 != self.generation {
+        if !self.has(middle.0, middle.1) {
             return false;
         }
         self.at(middle.0, middle.1).path_signature != path_signature

@@ -22,12 +22,12 @@ impl Job<'_> {
     /// Lattice steps per pixel.
     #[inline(always)]
     pub fn unit(&self) -> usize {
-        1 << self.settings.subpixel
+        1 + self.settings.antialias as usize
     }
 
     /// The whole pixels in a number of lattice steps.
     #[inline(always)]
     pub fn pixels(&self, steps: usize) -> usize {
-        steps >> self.settings.subpixel
+        steps >> self.settings.antialias as u32
     }
 }

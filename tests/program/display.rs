@@ -1,7 +1,9 @@
 //! X servers that are silent, odd or strict, against a fake one: every wait is over in 5 s and ends in one line, and Esc
 //! is heard. Where there is no window the plain build does something else, and the 64 kB build ends.
 
-use crate::fake::{Client, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, agreed, entry, refusal, set_up};
+use crate::fake::{
+    Client, DESTROY_WINDOW, ESC, Fake, KEYBOARD_MAPPING, MAP_WINDOW, PUT_IMAGE, S, agreed, entry, refusal, set_up,
+};
 use crate::paprsek;
 use std::fs;
 use std::io::Result;
@@ -9,6 +11,8 @@ use std::net::Shutdown;
 use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::{self, sleep};
 use std::time::{Duration, Instant};
@@ -25,8 +29,10 @@ const PATIENCE: Duration = Duration::from_secs(30);
 const AT_ONCE: Duration = Duration::from_secs(1);
 /// The method of cookies that X servers use.
 const COOKIES: &str = "MIT-MAGIC-COOKIE-1";
-/// Largest side of a picture, pixels.
-const MAX_SIDE: usize = 16384;
+/// Largest side of a picture, pixels: no drawing in X reaches further.
+const MAX_SIDE: usize = 32767;
+/// A still, which stays until Esc.
+const STILL: [&str; 7] = ["lumen", "--at", "1", "--size", "16x9", "--threads", "1"];
 /// Where there is no authority file.
 const NONE: &str = "/nowhere";
 
@@ -55,8 +61,12 @@ impl Drop for Running {
 
 /// Shows a still on that display, which stays until Esc.
 fn show(fake: &Fake, authority: &Path) -> Running {
-    let mut command = paprsek();
-    command.args(PLAIN.then_some("lumen")).args(["--at", "1", "--size", "16x9", "--threads", "1"]);
+    // The packed file knows no scene by its name.
+    start(paprsek().args(&STILL[usize::from(!PLAIN)..]), fake, authority)
+}
+
+/// Starts the program on that display.
+fn start(command: &mut Command, fake: &Fake, authority: &Path) -> Running {
     command.env("DISPLAY", &fake.name).env("XAUTHORITY", authority).env_remove("XMODIFIERS");
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     Running(Some(command.spawn().unwrap()))
@@ -100,7 +110,7 @@ fn a_polite_server_gets_a_window() {
     let (child, _fake) = against(|mut client| {
         client.agree()?;
         client.serve_until_shown()?;
-        client.press_esc()?;
+        client.press(ESC)?;
         client.serve_until(0)
     });
     assert!(succeeds(child.end(PATIENCE)).is_empty());
@@ -243,18 +253,24 @@ fn esc_is_heard_while_the_server_does_not_read() {
     if !has_a_window_system() {
         return;
     }
-    // Xlib hears nothing while it waits, but no longer than 5 s.
-    if PLAIN {
-        return;
-    }
     let (sender, pressed) = channel();
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
-        client.serve_until(MAP_WINDOW)?;
-        client.resize(1600, 900)?;
-        sleep(AT_ONCE);
-        client.press_esc()?;
-        sender.send(()).unwrap();
+        // minifb hears nothing while Xlib waits, so the plain build listens over a connection of its own too. A true
+        // server gives a key to every client that listens to the window.
+        let draws = client.serve_until_mapped()?;
+        if draws {
+            if PLAIN {
+                // To open its window Xlib waits for answers.
+                client.serve_until_shown()?;
+            }
+            client.resize(1600, 900)?;
+        }
+        if draws != PLAIN {
+            sleep(2 * AT_ONCE);
+            client.press(ESC)?;
+            sender.send(()).unwrap();
+        }
         sleep(2 * PATIENCE);
         Ok(())
     });
@@ -263,45 +279,166 @@ fn esc_is_heard_while_the_server_does_not_read() {
 }
 
 #[test]
-fn the_largest_window_gets_a_smaller_picture_and_esc_ends_at_once() {
+fn esc_lets_a_still_be_saved_while_the_server_does_not_read() {
     if !has_a_window_system() {
         return;
     }
-    // minifb makes a picture of its own of the window's size.
-    if PLAIN {
+    let blocked = Arc::new(AtomicBool::new(false));
+    let fake = Fake::open(move |mut client| {
+        client.agree()?;
+        let draws = client.serve_until_mapped()?;
+        if draws {
+            // A frame, and not the light that comes before it.
+            client.serve_until_shows(|request| request[24..].iter().any(|byte| *byte > 0x40))?;
+            client.press(S)?;
+            // It has been heard when the next picture begins, whose first rows are at 0.
+            client.serve_until_shows(|request| request[18..20] == [0; 2])?;
+            blocked.store(true, Ordering::Relaxed);
+        }
+        if draws != PLAIN {
+            while !blocked.load(Ordering::Relaxed) {
+                sleep(Duration::from_millis(1));
+            }
+            client.press(ESC)?;
+        }
+        sleep(2 * PATIENCE);
+        Ok(())
+    });
+    let directory = tempfile::tempdir().unwrap();
+    // A still that takes longer than the process waits for Xlib.
+    let quality = if PLAIN { "reference" } else { "default" };
+    let words = ["--size", "640x360", "--quality", quality, "--at", "12.345", "--threads", "1"];
+    let child = start(paprsek().args(words).current_dir(directory.path()), &fake, NONE.as_ref());
+    assert!(succeeds(child.end(PATIENCE)).is_empty());
+    let still = fs::read(directory.path().join("paprsek-intro-12.345.ppm")).unwrap();
+    assert_eq!(still.len(), "P6\n640 360\n255\n".len() + 3 * 640 * 360);
+}
+
+#[test]
+fn esc_is_heard_once_though_the_window_does_not_close() {
+    if !has_a_window_system() {
         return;
     }
+    // To close its display Xlib waits for an answer, which it would do for ever.
+    let (child, _fake) = against(|mut client| {
+        client.agree()?;
+        if client.serve_until_mapped()? {
+            client.serve_until_shown()?;
+            client.press(ESC)?;
+            if PLAIN {
+                client.serve_until(DESTROY_WINDOW)?;
+            }
+        }
+        sleep(2 * PATIENCE);
+        Ok(())
+    });
+    let output = child.end(PATIENCE);
+    // Only minifb has heard Esc here.
+    if PLAIN { assert!(fails(&output, 1).contains("does not answer")) } else { assert!(succeeds(output).is_empty()) }
+}
+
+/// The places of the first `count` pictures of a window of that size, as left, top, width and height. Then Esc ends at
+/// once.
+fn places(size: [u16; 2], count: usize) -> Vec<[usize; 4]> {
     let (tell, told) = channel();
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
         client.serve_until(MAP_WINDOW)?;
-        client.resize(u16::MAX, u16::MAX)?;
-        let mut count = 0;
+        client.resize(size[0], size[1])?;
+        let mut rest = count;
         loop {
             let request = client.request()?;
-            if request[0] == PUT_IMAGE {
-                tell.send(request[..24].to_vec()).unwrap();
-                count += 1;
-            }
-            if count == 100 {
-                client.press_esc()?;
-                tell.send(vec![]).unwrap();
+            // What was put before the new size had been heard does not count.
+            let number = |at: usize| usize::from(u16::from_le_bytes([request[at], request[at + 1]]));
+            if request[0] == PUT_IMAGE && number(12) > 16 {
+                tell.send((number(2), [number(16), number(18), number(12), number(14)])).unwrap();
+                rest = rest.saturating_sub(1);
+                if rest == 0 {
+                    client.press(ESC)?;
+                }
             }
         }
     });
-    let mut widest = 0;
-    loop {
-        let request = told.recv_timeout(PATIENCE).unwrap();
-        if request.is_empty() {
-            break;
-        }
-        let number = |at: usize| usize::from(u16::from_le_bytes([request[at], request[at + 1]]));
-        let (words, width, height, left, top) = (number(2), number(12), number(14), number(16), number(18));
+    let mut places = Vec::new();
+    for _ in 0..count {
+        let (words, [left, top, width, height]) = told.recv_timeout(PATIENCE).unwrap();
         assert_eq!(words, 6 + width * height);
-        assert!(left + width <= MAX_SIDE && top + height <= MAX_SIDE);
-        widest = widest.max(width);
+        places.push([left, top, width, height]);
     }
-    assert_eq!(widest, MAX_SIDE);
+    succeeds(child.end(AT_ONCE));
+    places
+}
+
+#[test]
+fn the_largest_windows_get_a_scaled_picture_and_esc_ends_at_once() {
+    if !has_a_window_system() {
+        return;
+    }
+    // minifb has a picture of its own of the window's size.
+    if PLAIN {
+        return;
+    }
+    // A frame has at most 16,384 pixels a side, and X counts them up to 32,767.
+    for (size, [left, top, width]) in [
+        ([20_000, 20_000], [0, 4375, 20_000]),
+        ([32_000, 9_000], [8_000, 0, 16_000]),
+        ([u16::MAX, u16::MAX], [0, 7168, MAX_SIDE]),
+    ] {
+        let mut row = top;
+        for place in places(size, 20) {
+            assert_eq!([place[0], place[1], place[2]], [left, row, width]);
+            row += place[3];
+            assert!(place[3] > 0 && left + width <= MAX_SIDE && row <= MAX_SIDE);
+        }
+    }
+}
+
+#[test]
+fn a_window_that_is_too_large_costs_no_memory() {
+    if !has_a_window_system() {
+        return;
+    }
+    // The picture that minifb keeps would have 17 GB.
+    if !PLAIN {
+        return;
+    }
+    for (width, height) in [(u16::MAX, u16::MAX), (40_000, 20_000)] {
+        let fake = Fake::open(move |mut client| {
+            client.agree()?;
+            if client.serve_until_mapped()? {
+                client.resize(width, height)?;
+            }
+            client.serve_until(0)
+        });
+        // Enough for anything else, so that the machine that runs this does not lack it.
+        let child = start(crate::after("ulimit -v 4000000").args(STILL), &fake, NONE.as_ref());
+        let said = fails(&child.end(PATIENCE), 1);
+        assert_eq!(said, "paprsek: the window is too large\n");
+    }
+}
+
+#[test]
+fn esc_is_heard_while_a_large_window_is_drawn() {
+    if !has_a_window_system() {
+        return;
+    }
+    // 16,384 pixels a side, which take minifb a while: a gigabyte.
+    let (sender, pressed) = channel();
+    let (child, _fake) = against(move |mut client| {
+        client.agree()?;
+        let draws = client.serve_until_mapped()?;
+        if draws {
+            client.resize(16_384, 16_384)?;
+        }
+        // As above.
+        if draws != PLAIN {
+            sleep(AT_ONCE);
+            client.press(ESC)?;
+            sender.send(()).unwrap();
+        }
+        client.serve_until(0)
+    });
+    pressed.recv_timeout(PATIENCE).unwrap();
     succeeds(child.end(AT_ONCE));
 }
 
@@ -313,7 +450,7 @@ fn with_authority(prepare: impl Fn(&Path, &str)) -> Output {
         }
         client.say(&set_up(24, 32))?;
         client.serve_until_shown()?;
-        client.press_esc()?;
+        client.press(ESC)?;
         client.serve_until(0)
     });
     let directory = tempfile::tempdir().unwrap();

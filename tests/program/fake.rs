@@ -12,7 +12,9 @@ use std::thread;
 
 /// Codes of requests (X11/Xproto.h).
 const CREATE_WINDOW: u8 = 1;
+const CHANGE_WINDOW_ATTRIBUTES: u8 = 2;
 const WINDOW_ATTRIBUTES: u8 = 3;
+pub const DESTROY_WINDOW: u8 = 4;
 pub const MAP_WINDOW: u8 = 8;
 pub const PUT_IMAGE: u8 = 72;
 const INTERN_ATOM: u8 = 16;
@@ -23,9 +25,10 @@ const ANSWERED: [u8; 41] = [
     98, 99, 101, 103, 106, 108, 110, 114, 116, 117, 118, 119,
 ];
 
-/// The first key that there may be, and which one is Esc.
+/// The first key that there may be, and which ones there are.
 const FIRST_KEY: u8 = 8;
-const ESC: u8 = 9;
+pub const ESC: u8 = 9;
+pub const S: u8 = 10;
 
 /// A server; it stops listening at the end of the test.
 pub struct Fake {
@@ -73,7 +76,7 @@ impl Drop for Fake {
     }
 }
 
-/// A connection, how many requests it has made, and the window that it has made last.
+/// A connection, how many requests it has made, and the window that it has made last or else listens to.
 pub struct Client {
     pub stream: UnixStream,
     asked: u16,
@@ -110,11 +113,31 @@ impl Client {
 
     /// Serves until there is a picture in the window.
     pub fn serve_until_shown(&mut self) -> Result<()> {
+        self.serve_until_shows(|_| true)
+    }
+
+    /// Serves until there is such a picture in the window: it is told the request.
+    pub fn serve_until_shows(&mut self, what: impl Fn(&[u8]) -> bool) -> Result<()> {
         loop {
             let request = self.request()?;
             self.answer(&request)?;
-            if request[0] == PUT_IMAGE && request[4..8] == self.window {
+            if request[0] == PUT_IMAGE && request[4..8] == self.window && what(&request) {
                 return Ok(());
+            }
+        }
+    }
+
+    /// Serves until the client has put its window on the screen, or listens to another client's. Which of the two?
+    pub fn serve_until_mapped(&mut self) -> Result<bool> {
+        let mut made = false;
+        loop {
+            let request = self.request()?;
+            self.answer(&request)?;
+            match request[0] {
+                CREATE_WINDOW => made = true,
+                MAP_WINDOW => return Ok(true),
+                CHANGE_WINDOW_ATTRIBUTES if !made => return Ok(false),
+                _ => {}
             }
         }
     }
@@ -125,7 +148,7 @@ impl Client {
         let words = usize::from(u16::from_le_bytes([request[2], request[3]]));
         request.extend(self.hear(4 * words.max(1) - 4)?);
         self.asked = self.asked.wrapping_add(1);
-        if request[0] == CREATE_WINDOW {
+        if request[0] == CREATE_WINDOW || request[0] == CHANGE_WINDOW_ATTRIBUTES && self.window == [0; 4] {
             self.window.copy_from_slice(&request[4..8]);
         }
         Ok(request)
@@ -150,7 +173,12 @@ impl Client {
                 let (first, count) = (request[4], request[5]);
                 (answer[1], answer[4]) = (1, count);
                 for place in 0..count {
-                    answer.extend(if first + place == ESC { 0xff1b_u32 } else { 0 }.to_le_bytes());
+                    let symbol: u32 = match first + place {
+                        ESC => 0xff1b,
+                        S => u32::from(b's'),
+                        _ => 0,
+                    };
+                    answer.extend(symbol.to_le_bytes());
                 }
             }
             _ => {}
@@ -158,10 +186,10 @@ impl Client {
         self.say(&answer)
     }
 
-    /// Presses Esc and lets it go.
-    pub fn press_esc(&mut self) -> Result<()> {
-        self.event(2, ESC, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())?;
-        self.event(3, ESC, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())
+    /// Presses a key and lets it go.
+    pub fn press(&mut self, key: u8) -> Result<()> {
+        self.event(2, key, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())?;
+        self.event(3, key, &[&[0; 8][..], &self.window, &[0; 14], &[1]].concat())
     }
 
     /// The window has another size.

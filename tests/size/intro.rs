@@ -79,3 +79,15 @@ fn a_damaged_file_says_so() {
         assert!(said.contains("damaged"), "{said}");
     }
 }
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn a_processor_without_avx2_is_told_so() {
+    if !needs(&[Tool::Qemu]) {
+        return;
+    }
+    let Some(intro) = intro() else { return };
+    // The tests of the packer have more of them.
+    let output = Command::new("qemu-x86_64").args(["-cpu", "max,-avx2"]).arg(&intro).arg("--help").output().unwrap();
+    assert_eq!(fails(&output, 126), "paprsek: needs a processor with AVX2\n");
+}

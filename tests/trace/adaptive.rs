@@ -2,7 +2,7 @@
 //! corners of a square, pushed through it in steps of an eighth of a pixel.
 
 use fearless_simd::Level;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3, Vec3, dvec3, vec3};
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::scenes::bench::spheres;
@@ -86,9 +86,12 @@ fn object(shape: Shape, color: Vec3) -> Object {
     Object::new(shape, Material::plain(color))
 }
 
+/// Light of [`flat`]'s sky.
+const SKY: f64 = 0.4;
+
 /// An even grey sky and light from everywhere: flat colours, and whatever differs is the thing itself.
 fn flat(objects: Vec<Object>) -> World {
-    let background = Background::even(Vec3::splat(0.4));
+    let background = Background::even(Vec3::splat(SKY as f32));
     World { objects, lights: vec![], ambient: Vec3::ONE, background, max_level: 3 }
 }
 
@@ -172,6 +175,59 @@ fn places() -> impl Iterator<Item = (f64, f64)> {
 }
 
 const RADII: [f64; 12] = [0.1, 0.2, 0.35, 0.5, 0.71, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0];
+
+/// How far the shares that balls of `light` before [`flat`]'s sky take of pixels are from the areas, by exact arithmetic in
+/// 32 x 32 points per pixel: the most of all pixels, and the mean of those that a rim crosses.
+fn shares(light: f64, contrast: f32) -> (f64, f64) {
+    const POINTS: usize = 32;
+    let mut quality = Quality::DEFAULT;
+    quality.trace.contrast = contrast;
+    let (mut most, mut sum, mut count) = (0.0f64, 0.0, 0);
+    for radius in RADII.into_iter().skip(6).chain([12.0, 20.0]) {
+        for (column, row) in places().step_by(5) {
+            let center = on_screen(38.0 + column, 26.0 + row);
+            let world = flat(vec![object(Shape::Sphere { center, radius: radius as f32 }, Vec3::splat(light as f32))]);
+            let found = traced(&world, before_the_screen(), SMALL, quality, Level::new());
+            // A ray meets the ball where its angle to the centre is less than the rim's.
+            let center = center.as_dvec3();
+            let cosine = (1.0 - radius * radius / center.length_squared()).sqrt();
+            for (at, pixel) in found.pixels.iter().enumerate() {
+                let (x, y) = ((at % SMALL.0) as f64, (at / SMALL.0) as f64);
+                if (x - 38.0 - column).hypot(y - 26.0 - row) > radius + 4.0 {
+                    continue;
+                }
+                let meets = |k: usize| {
+                    let [dx, dy] = [k % POINTS, k / POINTS].map(|k| (k as f64 + 0.5) / POINTS as f64);
+                    let right = x + dx - SMALL.0 as f64 * 0.5;
+                    let up = SMALL.1 as f64 * 0.5 - y - dy;
+                    dvec3(right, up, -SCREEN as f64).normalize().dot(center) > cosine * center.length()
+                };
+                let area = (0..POINTS * POINTS).filter(|&k| meets(k)).count() as f64 / (POINTS * POINTS) as f64;
+                let off = ((pixel.x as f64 - SKY) / (light - SKY) - area).abs();
+                most = most.max(off);
+                if area > 0.0 && area < 1.0 {
+                    sum += off;
+                    count += 1;
+                }
+            }
+        }
+    }
+    println!("light {light}, contrast {contrast}: {most:.3} at most, {:.4} in the mean of {count}", sum / count as f64);
+    (most, sum / count as f64)
+}
+
+#[test]
+fn edges_take_their_share_of_pixels() {
+    let contrast = Quality::DEFAULT.trace.contrast;
+    let (most, mean) = shares(1.0, contrast);
+    assert!(most < 0.25 && mean < 0.07);
+    // Beside the sky this is less than the contrast that is seen: the corners alone tell the share.
+    let (faint, faint_mean) = shares(SKY + 0.03, contrast);
+    assert!(faint < 0.6 && faint_mean < 0.2);
+    // No contrast is too small for samples within pixels.
+    let (exact, exact_mean) = shares(SKY + 0.03, 0.0);
+    assert!(exact < 0.25 && exact_mean < 0.07);
+}
 
 /// Balls about a place of the picture.
 fn balls(column: f64, row: f64) -> Tally {

@@ -65,11 +65,22 @@ mod system {
     }
 
     pub fn write_out(bytes: &[u8]) -> Result<(), i32> {
+        #[cfg(all(target_os = "linux", feature = "minifb"))]
+        check_stdout()?;
         write_all(stdout(), bytes)
     }
 
     pub fn stream(pieces: impl Iterator<Item = Vec<u8>>) -> Result<(), i32> {
+        #[cfg(all(target_os = "linux", feature = "minifb"))]
+        check_stdout()?;
         write_pieces(stdout(), pieces)
+    }
+
+    /// The error of a stdout that was closed when the program started, and that leads to `/dev/null` by now. The 64 kB
+    /// build leaves it closed.
+    #[cfg(all(target_os = "linux", feature = "minifb"))]
+    fn check_stdout() -> Result<(), i32> {
+        if crate::raw::stdout_was_closed() { Err(Errno::BADF.raw_os_error()) } else { Ok(()) }
     }
 
     /// A copy of stderr from the time before calls into Xlib redirect it.

@@ -13,6 +13,8 @@ mod io;
 #[cfg(feature = "full")]
 mod parameters;
 mod play;
+#[cfg(feature = "minifb")]
+mod raw;
 #[cfg(all(unix, feature = "terminal"))]
 mod terminal;
 mod text;

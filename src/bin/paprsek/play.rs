@@ -9,6 +9,8 @@ use crate::capture;
 use crate::clock::{Clock, SEEK};
 use crate::governor::{EIGHTHS, Governor, WHOLE};
 use crate::io::complain;
+#[cfg(all(unix, feature = "minifb"))]
+use crate::window;
 use crate::window::{Window, keysym};
 use paprsek::frame::{Frame, Renderer, pool};
 use std::mem::{swap, take};
@@ -67,19 +69,23 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     if args.fullscreen && !cfg!(without = "fullscreen") {
         window.toggle_fullscreen();
     }
-    let ended = watch(window, frame, shared);
     // The window goes at once, and the process once a still that has been asked for is saved.
-    while {
+    let may_end = move || {
         let shared = lock(shared);
-        !shared.failed && (shared.saving || shared.still.is_some())
-    } {
+        shared.failed || !(shared.saving || shared.still.is_some())
+    };
+    #[cfg(all(unix, feature = "minifb"))]
+    window::leave_once(may_end);
+    let ended = watch(&mut window, frame, shared);
+    window.close();
+    while !may_end() {
         thread::park_timeout(POLL);
     }
     ended
 }
 
 /// Shows frames and hears keys until the end.
-fn watch(mut window: Window, mut frame: Frame, shared: &Mutex<Shared>) -> Result<(), Vec<u8>> {
+fn watch(window: &mut Window, mut frame: Frame, shared: &Mutex<Shared>) -> Result<(), Vec<u8>> {
     // The time of the frame that is shown, and the number of polls since it came.
     let (mut time, mut polls) = (None, 0);
     loop {

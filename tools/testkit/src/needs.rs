@@ -21,6 +21,8 @@ pub enum Tool {
     Script,
     /// Prints the tables of an executable.
     Readelf,
+    /// Runs a program on a processor that it makes up.
+    Qemu,
     /// The libraries that minifb loads at run time.
     Xlib,
 }
@@ -34,6 +36,7 @@ impl Tool {
             Tool::Import => ("ImageMagick's import", "imagemagick"),
             Tool::Script => ("script", "bsdutils"),
             Tool::Readelf => ("readelf", "binutils"),
+            Tool::Qemu => ("qemu-x86_64", "qemu-user"),
             Tool::Xlib => ("libX11 and libXcursor", "libx11-6 libxcursor1"),
         }
     }
@@ -47,7 +50,7 @@ impl Tool {
                 .output()
                 .is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("ImageMagick")),
             Tool::Xlib => ["libX11.so.6", "libXcursor.so.1"].iter().all(|name| is_in(name, &library_directories())),
-            Tool::Xvfb | Tool::Xdotool | Tool::Script | Tool::Readelf => {
+            Tool::Xvfb | Tool::Xdotool | Tool::Script | Tool::Readelf | Tool::Qemu => {
                 let path = env::var_os("PATH").unwrap_or_default();
                 is_in(self.names().0, &env::split_paths(&path).collect::<Vec<_>>())
             }

@@ -1,16 +1,17 @@
 //! minifb's window; the only file that names minifb.
 //!
 //! Each call into minifb may wait for the display or lose it, and then Xlib waits for ever or ends the process. So
-//! every call is watched (`patience.rs`, `xlib_exit.rs`), and what minifb cannot survive is looked for first
-//! (`beforehand.rs`).
+//! every call is watched (`patience.rs`, `xlib_exit.rs`), Esc is heard meanwhile (`ears.rs`), memory is bounded
+//! (`raw.rs`), and what minifb cannot survive is looked for first (`beforehand.rs`).
 
-#[cfg(all(unix, not(feature = "wayland")))]
-use super::beforehand;
 use super::common::{TITLE, keysym};
 #[cfg(all(unix, not(feature = "wayland")))]
 use super::protocol::Server;
+#[cfg(all(unix, not(feature = "wayland")))]
+use super::{beforehand, ears};
 #[cfg(unix)]
 use super::{patience, xlib_exit};
+use crate::raw;
 use minifb::{InputCallback, Key, ScaleMode, WindowOptions};
 use paprsek::frame::Frame;
 use std::cell::RefCell;
@@ -44,6 +45,8 @@ impl Window {
         window.set_target_fps(0);
         let keys = Keys::default();
         window.set_input_callback(Box::new(keys.clone()));
+        #[cfg(all(unix, not(feature = "wayland")))]
+        ears::listen(window.get_window_handle() as usize as u32);
         Ok(Window {
             window,
             keys,
@@ -74,6 +77,11 @@ impl Window {
     #[cfg(any(not(unix), feature = "wayland"))]
     pub fn toggle_fullscreen(&mut self) {}
 
+    /// Closes the window.
+    pub fn close(self) {
+        during(|| drop(self.window));
+    }
+
     /// The next key that has gone down, as a [`keysym`]; `None` when there are no more.
     pub fn next_key(&mut self) -> Option<u32> {
         if self.keys.0.borrow().pressed.is_empty() {
@@ -90,13 +98,13 @@ impl Window {
 /// Makes calls that may wait for the display, or lose it.
 #[cfg(unix)]
 fn during<T>(call: impl FnOnce() -> T) -> T {
-    patience::during(|| xlib_exit::during(call))
+    patience::during(|| xlib_exit::during(|| raw::bounded(call)))
 }
 
 /// Elsewhere a lost display does not end the process.
 #[cfg(not(unix))]
 fn during<T>(call: impl FnOnce() -> T) -> T {
-    call()
+    raw::bounded(call)
 }
 
 /// Hears the keys. minifb's own state loses a key that goes down and up between two polls.

@@ -7,6 +7,8 @@
 #[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
 mod beforehand;
 mod common;
+#[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
+mod ears;
 #[cfg(feature = "minifb")]
 mod minifb;
 #[cfg(all(feature = "minifb", unix))]
@@ -21,5 +23,7 @@ mod xlib_exit;
 #[cfg(feature = "minifb")]
 pub use self::minifb::Window;
 pub use common::keysym;
+#[cfg(all(unix, feature = "minifb"))]
+pub use patience::leave_once;
 #[cfg(not(feature = "minifb"))]
 pub use x11::Window;

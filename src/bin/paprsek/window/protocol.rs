@@ -29,7 +29,12 @@ pub const fn request(code: u32, detail: u32, words: u32) -> u32 {
 // Codes of requests and events (X11/Xproto.h).
 const CONFIGURE_WINDOW: u32 = 12;
 const INTERN_ATOM: u32 = 16;
+const GET_KEYBOARD_MAPPING: u32 = 101;
 const SEND_EVENT: u32 = 25;
+/// The bits of an event's code. The eighth says that another client has sent the event.
+pub const EVENT_CODE: u32 = 0x7f;
+/// The event of a key that goes down.
+pub const KEY_PRESS: u32 = 2;
 /// The event that a client sends to another.
 pub const CLIENT_MESSAGE: u32 = 33;
 
@@ -48,6 +53,8 @@ const FROM_APPLICATION: u32 = 1;
 pub const SETUP_LENGTHS: usize = 4;
 /// The number of screens, the number of formats, and the byte order of pixels, 8 bits each.
 const SETUP_COUNTS: usize = 5;
+/// The code of the first key in the third byte, and that of the last in the fourth.
+const SETUP_KEYS: usize = 6;
 /// The vendor's name. The formats of pixels follow it, and those the screens.
 const SETUP_VENDOR: usize = 8;
 /// The byte order of pixels that frames have: little-endian.
@@ -208,6 +215,18 @@ impl Server {
         self.send_bytes(name)?;
         self.send_bytes(&[0; 3][..name.len().wrapping_neg() % 4])?;
         Some(self.receive(PACKET)?[REPLY])
+    }
+
+    /// The symbols of all keys, the code of the first key, and the number of symbols per key. Not to be called when
+    /// events may come before the reply.
+    #[inline(always)]
+    pub fn keyboard(&mut self) -> Option<(Vec<u32>, u32, u32)> {
+        let codes = self.setup[SETUP_KEYS];
+        let (first, last) = (codes >> 16 & 255, codes >> 24);
+        self.send(&[request(GET_KEYBOARD_MAPPING, 0, 2), first | (last + 1).wrapping_sub(first) << 8])?;
+        // How many symbols each key has is in the second byte, how many words follow in the second word.
+        let keyboard = self.receive(PACKET)?;
+        Some((self.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255))
     }
 
     /// The root window, the black pixel and the depth (bits of a pixel that are shown) of the first screen, where its

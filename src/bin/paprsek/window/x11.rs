@@ -2,7 +2,9 @@
 //! minifb, Xlib's table of functions and what they take of the standard library are 6.
 
 use super::common::{TITLE, keysym};
-use super::protocol::{BITS_32, CLIENT_MESSAGE, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes, request};
+use super::protocol::{
+    BITS_32, CLIENT_MESSAGE, EVENT_CODE, KEY_PRESS, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes, request,
+};
 use paprsek::frame::{Frame, resample};
 use rustix::io::read;
 use std::array::from_fn;
@@ -18,11 +20,7 @@ const CLEAR_AREA: u32 = 61;
 const POLY_FILL_RECTANGLE: u32 = 70;
 const PUT_IMAGE: u32 = 72;
 const CREATE_CURSOR: u32 = 93;
-const GET_KEYBOARD_MAPPING: u32 = 101;
 
-/// The bits of an event's code. The eighth says that another client has sent the event.
-const EVENT_CODE: u32 = 0x7f;
-const KEY_PRESS: u32 = 2;
 const KEY_RELEASE: u32 = 3;
 const DESTROY_NOTIFY: u32 = 17;
 const CONFIGURE_NOTIFY: u32 = 22;
@@ -30,8 +28,6 @@ const CONFIGURE_NOTIFY: u32 = 22;
 // Words of what the server says of itself.
 /// The first of the numbers that the client may give to what it makes.
 const SETUP_ID: usize = 1;
-/// The code of the first key in the third byte, and that of the last in the fourth.
-const SETUP_KEYS: usize = 6;
 
 // Words of events.
 /// When a key was pressed or released, milliseconds.
@@ -69,9 +65,9 @@ const PEN: u32 = 4;
 
 /// Words of a PutImage request before its pixels.
 const PUT_IMAGE_HEAD: usize = 6;
-/// Largest side of what is drawn, pixels: that of a frame. In a larger window the picture is in the upper left corner,
-/// since X counts pixels up to 32,767.
-const MAX_SIDE: usize = 16384;
+/// Largest side of what is drawn, pixels: X counts them no further. In a larger window the picture is in the upper left
+/// corner. A frame has at most half of that, and is scaled.
+const MAX_SIDE: usize = 0x7fff;
 /// Most events that are heard at once, so that a server that never stops talking does not keep us.
 const EVENTS_AT_ONCE: usize = 64;
 /// Longest time from the release to the press that the server makes up while a held key repeats, milliseconds.
@@ -110,13 +106,9 @@ impl Window {
     /// The window, where the server has 32 bits per pixel, little-endian.
     fn create(mut server: Server, size: (usize, usize)) -> Option<Window> {
         let [root, black, depth] = server.screen()?;
-        let (id, codes) = (server.setup[SETUP_ID], server.setup[SETUP_KEYS]);
-        let (first, last) = (codes >> 16 & 255, codes >> 24);
+        let id = server.setup[SETUP_ID];
         let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
-        server.send(&[request(GET_KEYBOARD_MAPPING, 0, 2), first | (last + 1).wrapping_sub(first) << 8])?;
-        // How many symbols each key has is in the second byte, how many words follow in the second word.
-        let keyboard = server.receive(PACKET)?;
-        let symbols = (server.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255);
+        let symbols = server.keyboard()?;
         let [left, top, width, height] = server.place(size);
         let [context, pixmap, cursor, pen] = [id | CONTEXT, id | PIXMAP, id | CURSOR, id | PEN];
         let [name, end] = TITLE_WORDS;
@@ -243,6 +235,10 @@ impl Window {
     pub fn toggle_fullscreen(&mut self) {
         self.server.toggle_fullscreen(self.server.setup[SETUP_ID], self.usual);
     }
+
+    /// Closes the window: the server does, once the process has ended.
+    #[inline(always)]
+    pub fn close(self) {}
 
     /// The next key that has gone down, as a [`keysym`]; `None` when there are no more.
     pub fn next_key(&mut self) -> Option<u32> {

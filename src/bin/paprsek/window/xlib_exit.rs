@@ -6,6 +6,7 @@
 //! lasts. So the destructor of a thread local reads what Xlib said, and says it in the program's own words.
 
 use crate::io::{complain, keep_stderr};
+use crate::raw::TOO_LARGE;
 use rustix::io::ioctl_fionbio;
 use rustix::stdio::dup2_stderr;
 use std::cell::Cell;
@@ -51,10 +52,11 @@ impl Drop for Stderr {
         let said = self.pipe.0.read(&mut said).ok().and_then(|count| said.get(..count)).unwrap_or_default();
         // "X Error of failed request:  BadDrawable ...": the window was closed, if not in the polite way, and closing
         // it ends the program well.
-        if WINDOW_IS_GONE.iter().any(|name| said.windows(name.len()).any(|part| part == *name)) {
+        let says = |words: &[u8]| said.windows(words.len()).any(|part| part == words);
+        if WINDOW_IS_GONE.iter().any(|name| says(name)) {
             process::exit(0);
         }
-        complain(b"the display went away");
+        complain(if says(TOO_LARGE.as_bytes()) { TOO_LARGE.as_bytes() } else { b"the display went away" });
     }
 }
 

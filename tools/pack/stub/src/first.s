@@ -1,5 +1,6 @@
-// The first stage, alone in the file as it is: makes memory, decodes the second stage into it, sees that it is whole and
-// goes there, with the stack as the kernel left it. What is coded is described in the packer (src/first.rs).
+// The first stage, alone in the file as it is: sees that no part of the file is missing, makes memory, decodes the second
+// stage into it, sees that it is whole and goes there, with the stack as the kernel left it. What is coded is described in
+// the packer (src/first.rs).
 //
 //   rdi  byte being decoded: its bits so far below a leading one
 //   rbx  features of the contexts to come, eight bits each: one for each of the bytes before
@@ -8,6 +9,17 @@
 .pushsection .first, "ax"
 .globl _start
 _start:
+    // Is all of this file there? A part that is missing cannot be read without SIGBUS. MADV_POPULATE_READ tells (EFAULT)
+    // from Linux 5.14 on; before, it is an error of another kind.
+    mov     edi, {base}
+    mov     esi, [rdi + 96]
+    push    22
+    pop     rdx
+    push    28
+    pop     rax
+    syscall
+    cmp     al, -14
+    je      8f
     // mmap: readable, writable and executable; private, fixed, anonymous.
     mov     edi, offset memory
     mov     esi, offset memory_length

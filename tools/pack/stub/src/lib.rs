@@ -18,7 +18,7 @@ fn main(stack: &sys::Stack) -> ! {
     if !sys::has_avx2() {
         sys::fail(b"paprsek: needs a processor with AVX2\n");
     }
-    if !sys::is_whole() || !is_right(sys::image()) {
+    if !is_right(sys::image()) {
         sys::fail(b"paprsek: this file is damaged\n");
     }
     let (head, packed) = sys::payload();

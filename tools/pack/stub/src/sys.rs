@@ -15,6 +15,7 @@ global_asm!(
     table_bits = const first::TABLE_BITS,
     prior = const first::PRIOR,
     end = const first::END,
+    base = const BASE,
 );
 
 // The second stage. The kernel leaves the stack aligned to 16 bytes, and a call expects it so.
@@ -64,12 +65,6 @@ const SECOND: usize = 0x10000008;
 fn words() -> (usize, usize) {
     // SAFETY: the headers are mapped, as all of the file is.
     unsafe { (*((BASE + 96) as *const usize), *((BASE + 88) as *const usize)) }
-}
-
-/// Is all of this file there? A part that is missing cannot be read without SIGBUS. MADV_POPULATE_READ tells (EFAULT)
-/// from Linux 5.14 on; before, it is an error of another kind.
-pub fn is_whole() -> bool {
-    call(28, BASE, words().0, 22) != -14
 }
 
 /// This file as it is mapped, and the checksum at its end.

@@ -127,10 +127,16 @@ pub fn knobs() -> Vec<Sweep> {
             &detail,
         ),
         sweep(
-            "subpixel",
+            "antialias",
             default,
-            ("subpixel", |q| q.trace.subpixel as f32, |q, value| q.trace.subpixel = value as u32),
-            &[0.0, 1.0, 2.0],
+            ("antialias", |q| q.trace.antialias as u32 as f32, |q, value| q.trace.antialias = value > 0.0),
+            &[0.0, 1.0],
+        ),
+        sweep(
+            "contrast",
+            default,
+            ("contrast", |q| q.trace.contrast, |q, value| q.trace.contrast = value),
+            &[0.0, 0.015, 0.03, 0.06, 0.12, 0.25, 0.5],
         ),
     ];
     let coverage: Knob = ("coverage", |q| q.raster.coverage as f32, |q, value| q.raster.coverage = value as usize);
