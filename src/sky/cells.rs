@@ -8,7 +8,7 @@ use super::dome::{Dome, Quantity, evaluate};
 use crate::frame::Tile;
 use crate::settings::SkySettings;
 use crate::simd::block::{BLOCK, Block3, load, store};
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{F, Lane, STEPS, V3, float};
 use crate::simd::math::to_f32;
 use crate::view::View;
 use fearless_simd::prelude::*;
@@ -40,9 +40,12 @@ impl Cells {
         while size > 1 && size as f32 * view.pixel() > settings.built().cell {
             size /= 2;
         }
-        let corners = |pixels: usize| pixels.next_multiple_of(Tile::SIZE) / size as usize + 1;
-        let runs = corners(view.width()).div_ceil(RUN);
-        let light = (0..runs * corners(view.height()) * 3 * RUN).map(|_| AtomicU32::new(0)).collect();
+        // Up to the end of the last tiles, in 32 bits, as a division of 64 takes several times the code.
+        let [columns, rows] =
+            [view.width(), view.height()].map(|pixels| (pixels as u32).next_multiple_of(Tile::SIZE as u32) / size + 1);
+        let runs = columns.div_ceil(RUN as u32) as usize;
+        let mut light = Vec::new();
+        light.resize_with(runs * rows as usize * 3 * RUN, AtomicU32::default);
         Cells { size, settings: *settings, runs, light }
     }
 
@@ -123,11 +126,8 @@ fn evaluate_run<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, run: 
     let top = to_f32(row * size as usize);
     let lanes = F::<S>::LEN;
     for at in (0..RUN).step_by(lanes) {
-        let mut x = [0.0; RUN];
-        for (i, x) in x.iter_mut().enumerate() {
-            *x = to_f32((run * RUN + at + i) * size as usize);
-        }
-        let x = F::<S>::from_slice(simd, &x[..lanes]);
+        let number = S::u32s::from_slice(simd, &STEPS[..lanes]) + (run * RUN + at) as u32;
+        let x = float(simd, number * size);
         let mut light = V3::splat(simd, Vec3::ZERO);
         for sample in 0..grid * grid {
             let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
