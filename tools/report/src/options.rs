@@ -1,10 +1,13 @@
 //! What measurements are asked for.
 
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Of a measurement; without a type, whether it succeeded.
 pub type Result<T = ()> = std::result::Result<T, Box<dyn Error>>;
+
+/// Where tables and curves go.
+const OUT: &str = "docs/report";
 
 /// What most measurements take.
 #[derive(clap::Args, Clone, Debug)]
@@ -13,7 +16,7 @@ pub struct Common {
     #[arg(long)]
     pub quick: bool,
     /// Directory of the tables and curves.
-    #[arg(long, value_name = "DIR", default_value = "docs/report")]
+    #[arg(long, value_name = "DIR", default_value = OUT)]
     pub out: PathBuf,
 }
 
@@ -29,6 +32,7 @@ impl Common {
     /// The command line of a measurement with these options.
     pub fn command(&self, measurement: &str) -> String {
         let quick = if self.quick { " --quick" } else { "" };
-        format!("cargo run --release -p report -- {measurement}{quick}")
+        let out = if self.out == Path::new(OUT) { String::new() } else { format!(" --out {}", self.out.display()) };
+        format!("cargo run --release -p report -- {measurement}{quick}{out}")
     }
 }
