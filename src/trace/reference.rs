@@ -4,6 +4,7 @@
 //! of [`super::ray`] and [`super::world`]. The tests hold the packets against it, and it against closed forms.
 
 use super::shape::{FAR, Shape};
+use super::surface::DENSE;
 use super::world::{Background, Emitter, Light, World};
 use glam::{Mat3, Vec3};
 
@@ -146,6 +147,20 @@ impl Ray {
     }
 }
 
+/// Fresnel reflectance of a dielectric for unpolarised light, 0 to 1, and the cosine of the refracted ray; `None` where
+/// all is reflected.
+///
+/// Arguments and errors are those of [`super::fresnel`], whose bits it has.
+pub fn fresnel(eta: f32, cosine: f32) -> Option<(f32, f32)> {
+    let incident = eta * cosine;
+    let near = (1.0 - eta) * (eta + 1.0) + incident * incident;
+    let k = if eta < DENSE { near } else { 1.0 - eta * eta * (1.0 - cosine * cosine) };
+    let through = k.max(0.0).sqrt();
+    let s = (incident - through) / (incident + through);
+    let p = (eta * through - cosine) / (eta * through + cosine);
+    (k > 0.0).then_some(((s * s + p * p) * 0.5, through))
+}
+
 /// The linear light that comes back along a ray. `level` counts the rays of the path, 1 for an eye ray; beyond
 /// [`World::max_level`] it is black.
 pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
@@ -175,16 +190,11 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
 
     if material.is_glass() {
         let eta = if inside { material.ior } else { 1.0 / material.ior };
-        let k = 1.0 - eta * eta * (1.0 - cosine * cosine);
         let mirrored = Ray { from: Some((index, inside)), ..mirrored };
         let (_, shine) = local(world, index, point, normal, direction);
-        if k <= 0.0 {
+        let Some((share, through)) = fresnel(eta, cosine) else {
             return shine + radiance(world, mirrored, level + 1);
-        }
-        let through = k.sqrt();
-        let s = (eta * cosine - through) / (eta * cosine + through);
-        let p = (eta * through - cosine) / (eta * through + cosine);
-        let share = 0.5 * (s * s + p * p);
+        };
         let refracted = Ray {
             origin: point,
             direction: direction * eta + normal * (eta * cosine - through),
