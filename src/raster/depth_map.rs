@@ -11,10 +11,10 @@ use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::Workers;
-use crate::simd::lanes::{Bits, F, M};
+use crate::simd::lanes::{Bits, F, M, U};
 use crate::simd::level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x4};
+use fearless_simd::{Simd, dispatch, f32x4, f32x8};
 use fearless_simd_macros::simd;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -143,31 +143,28 @@ impl DepthMap {
         let (inner_left, inner_top) = (left & last, top & last);
         // Mostly all four rows of a window lie in one tile.
         let apart = inner_left.max(inner_top).simd_gt(S::u32s::splat(simd, Tile::SIZE as u32 - 4)).to_bitmask();
-        let (mut index, mut places, mut depths, mut sums) = ([0u32; 16], [0u32; 16], [0f32; 16], [0f32; 16]);
-        let (mut fx, mut fy) = ([0f32; 16], [0f32; 16]);
+        let (mut index, mut places, mut depths, mut windows) = ([0u32; 16], [0u32; 16], [0f32; 16], [0u32; 16]);
         tile.store_slice(&mut index[..lanes]);
         ((inner_top << 6) + inner_left).store_slice(&mut places[..lanes]);
         points.inv_depth.store_slice(&mut depths[..lanes]);
-        (x - column).store_slice(&mut fx[..lanes]);
-        (y - row).store_slice(&mut fy[..lanes]);
         for lane in Bits(points.inside.to_bitmask()) {
             let lane = lane & 15;
             let (tile, at) = (index[lane] as usize, places[lane] as usize);
-            let inv_depth = f32x4::splat(simd, depths[lane]);
             let mut window = [0.0; 16];
-            let (texels, stride) = if apart >> lane & 1 == 0 {
-                (&self.tile(simd, tile)[at..], Tile::SIZE)
+            windows[lane] = if apart >> lane & 1 == 0 {
+                passed::<S, { Tile::SIZE }>(simd, &self.tile(simd, tile)[at..], depths[lane])
             } else {
                 gather(simd, self, tile, at, &mut window);
-                (&window[..], 4)
-            };
-            sums[lane] = if smooth {
-                weighted(simd, texels, stride, inv_depth, fx[lane], fy[lane])
-            } else {
-                counted(simd, texels, stride, inv_depth)
+                passed::<S, 4>(simd, &window, depths[lane])
             };
         }
-        F::<S>::from_slice(simd, &sums[..lanes]) * (1.0 / 9.0)
+        let sums = if smooth {
+            let windows = U::<S>::from_slice(simd, &windows[..lanes]);
+            weighted(simd, windows, x - column, y - row)
+        } else {
+            counted(simd, &windows)
+        };
+        sums * (1.0 / 9.0)
     }
 }
 
@@ -203,29 +200,47 @@ fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut
     }
 }
 
-/// Area of lit texels in a window of 3x3 that begins at (`fx`, `fy`) in the first of `texels`, rows of which are `size`
-/// apart.
+/// Which texels of a window of 4x4 are not nearer than a point: a bit for each, from the lowest on row by row. Rows of
+/// `texels` are `STRIDE` apart.
 #[inline(always)]
-fn weighted<S: Simd>(simd: S, texels: &[f32], size: usize, inv_depth: f32x4<S>, fx: f32, fy: f32) -> f32 {
-    let weight = f32x4::from_slice(simd, &[1.0 - fx, 1.0, 1.0, fx]);
-    let mut sum = f32x4::splat(simd, 0.0);
+fn passed<S: Simd, const STRIDE: usize>(simd: S, texels: &[f32], inv_depth: f32) -> u32 {
+    // Cut to what is read, so that its length is looked at once.
+    let texels = &texels[..3 * STRIDE + 4];
+    let mut lit = 0;
     let mut k = 0;
     while k < 4 {
-        let row = f32x4::from_slice(simd, &texels[k * size..][..4]);
-        let share = [1.0 - fy, 1.0, 1.0, fy][k];
-        sum += row.simd_le(inv_depth).select(weight * share, f32x4::splat(simd, 0.0));
-        k += 1;
+        let row = f32x4::from_slice(simd, &texels[k * STRIDE..][..4]);
+        let rows = row.combine(f32x4::from_slice(simd, &texels[(k + 1) * STRIDE..][..4]));
+        lit |= (rows.simd_le(f32x8::splat(simd, inv_depth)).to_bitmask() as u32) << (4 * k);
+        k += 2;
     }
-    let mut four = [0.0; 4];
-    sum.store_slice(&mut four);
-    (four[0] + four[1]) + (four[2] + four[3])
+    lit
 }
 
-/// Number of lit texels among the 3x3 that begin with the first of `texels`, rows of which are `size` apart.
+/// Areas of lit texels in windows of 3x3 that begin at (`fx`, `fy`) in the first of 4x4 texels, of which a bit tells
+/// whether it is lit.
 #[inline(always)]
-fn counted<S: Simd>(simd: S, texels: &[f32], size: usize, inv_depth: f32x4<S>) -> f32 {
-    let a = f32x4::from_slice(simd, &texels[..4]).simd_le(inv_depth).to_bitmask();
-    let b = f32x4::from_slice(simd, &texels[size..][..4]).simd_le(inv_depth).to_bitmask();
-    let c = f32x4::from_slice(simd, &texels[2 * size..][..4]).simd_le(inv_depth).to_bitmask();
-    ((a & 7) | (b & 7) << 3 | (c & 7) << 6).count_ones() as f32
+fn weighted<S: Simd>(simd: S, windows: U<S>, fx: F<S>, fy: F<S>) -> F<S> {
+    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+    let none = U::<S>::splat(simd, 0);
+    // A third of the vectors of `torches` lie in full shade.
+    if windows.simd_eq(none).all_true() {
+        return zero;
+    }
+    let (across, down) = ([one - fx, one, one, fx], [one - fy, one, one, fy]);
+    let mut columns = [zero; 4];
+    let mut i = 0;
+    while i < 16 {
+        let dark = (windows & (1 << i as u32)).simd_eq(none);
+        columns[i % 4] += dark.select(zero, across[i % 4] * down[i / 4]);
+        i += 1;
+    }
+    (columns[0] + columns[1]) + (columns[2] + columns[3])
+}
+
+/// Numbers of lit texels among the first 3x3 of windows of 4x4.
+#[inline(always)]
+fn counted<S: Simd>(simd: S, windows: &[u32; 16]) -> F<S> {
+    let counts = windows.map(|window| (window & 0x777).count_ones() as f32);
+    F::<S>::from_slice(simd, &counts[..F::<S>::LEN])
 }

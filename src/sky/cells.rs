@@ -8,19 +8,30 @@ use super::dome::{Dome, Quantity, evaluate};
 use crate::frame::Tile;
 use crate::settings::SkySettings;
 use crate::simd::block::{BLOCK, Block3, load, store};
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{F, Lane, STEPS, V3, float};
 use crate::simd::math::to_f32;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+use glam::Vec3;
+use std::sync::atomic::{AtomicU32, Ordering};
 
-/// How finely the dome is evaluated on the screen.
-#[derive(Clone, Copy, Debug)]
+/// How finely the dome is evaluated on the screen, and what has been.
 pub struct Cells {
     /// Edge of a cell, pixels: a power of two up to 64. At 1 every pixel is evaluated.
     size: u32,
     settings: SkySettings,
+    /// Number of runs of corners in a line.
+    runs: usize,
+    /// Light at the corners of cells, or the mean of each pixel's samples, as bits; 0 where it has not been evaluated.
+    /// In lines from the picture's top left corner on, which hold red, green and blue of one [`RUN`] after the other.
+    /// Whichever tile needs a run first has it evaluated for all that meet there. Two threads may do so at once, and
+    /// write the same.
+    light: Vec<AtomicU32>,
 }
+
+/// Neighbouring corners that are evaluated together: a full vector at every SIMD level.
+const RUN: usize = 16;
 
 impl Cells {
     /// The largest cells of a view that the settings allow.
@@ -29,37 +40,42 @@ impl Cells {
         while size > 1 && size as f32 * view.pixel() > settings.built().cell {
             size /= 2;
         }
-        Cells { size, settings: *settings }
+        // Up to the end of the last tiles, in 32 bits, as a division of 64 takes several times the code.
+        let [columns, rows] =
+            [view.width(), view.height()].map(|pixels| (pixels as u32).next_multiple_of(Tile::SIZE as u32) / size + 1);
+        let runs = columns.div_ceil(RUN as u32) as usize;
+        let mut light = Vec::new();
+        light.resize_with(runs * rows as usize * 3 * RUN, AtomicU32::default);
+        Cells { size, settings: *settings, runs, light }
     }
 
     /// Samples along each axis of a cell. Asked for where it is used, since it is the constant 1 in the 64 kB build.
     #[inline(always)]
-    fn samples(self) -> u32 {
+    fn samples(&self) -> u32 {
         if self.size > 1 { 1 } else { self.settings.built().grid as u32 }
     }
 
     /// How far the middle of a cell's first pixel is from where its light is taken, pixels along each axis: 1/2 from a
     /// corner, and 0 where the cell is one pixel, whose light is taken in its middle.
-    fn middle(self) -> f32 {
+    fn middle(&self) -> f32 {
         if self.size > 1 { 0.5 } else { 0.0 }
     }
 }
 
 /// Adds the dome to what solids have left of a tile.
 #[simd]
-pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut Tile) {
+pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, tile: &mut Tile) {
     if tile.coverage.iter().all(|c| *c >= 1.0) {
         return;
     }
     let size = cells.size;
-    let (left, top) = (to_f32(tile.x), to_f32(tile.y));
     // The rows of corners above and below a row of pixels, already interpolated along x.
     let mut lines = [[[0.0; BLOCK]; 3]; 2];
-    line(simd, dome, view, cells, left, top, &mut lines[1]);
+    line(simd, dome, view, cells, [tile.x, tile.y], &mut lines[1]);
     for y in 0..tile.height as u32 {
         if y % size == 0 {
             lines[0] = lines[1];
-            line(simd, dome, view, cells, left, top + (y + size) as f32, &mut lines[1]);
+            line(simd, dome, view, cells, [tile.x, tile.y + (y + size) as usize], &mut lines[1]);
         }
         let share = ((y % size) as f32 + cells.middle()) / size as f32;
         let [a, b] = &lines;
@@ -72,35 +88,59 @@ pub fn fill<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, tile: &mut
     }
 }
 
-/// The light of 64 pixels from the point (`left`, `top`) of the picture on: interpolated between the corners of cells
-/// that lie on this line, or the mean of each pixel's samples.
+/// The light of 64 pixels from a point of the picture on: interpolated between the corners of cells that lie on this
+/// line, or the mean of each pixel's samples.
 #[simd]
-fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: Cells, left: f32, top: f32, out: &mut Block3) {
-    let (size, grid) = (cells.size, cells.samples());
-    let step = 1.0 / grid as f32;
-    let mut x = [0.0; BLOCK];
-    for (i, x) in x.iter_mut().enumerate() {
-        *x = left + (i as u32 * size) as f32;
-    }
-    let mut sum = [[0.0; BLOCK]; 3];
-    for sample in 0..grid * grid {
-        let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
-        let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
-        let mut i = 0;
-        // One corner more than there are cells.
-        while i < BLOCK / F::<S>::LEN && i * F::<S>::LEN <= BLOCK / size as usize {
-            let ray = view.rays(simd, load::<S, F<S>>(simd, &x, i) + dx, F::<S>::splat(simd, top + dy));
-            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
-            let light = evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
-            (V3::load(simd, &sum, i) + light).store(&mut sum, i);
-            i += 1;
+fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, [left, top]: [usize; 2], out: &mut Block3) {
+    let size = cells.size as usize;
+    let (first, row) = (left / size, top / size);
+    // The corners, one more than there are cells.
+    let mut sum = [[0.0; BLOCK + 1]; 3];
+    for i in 0..BLOCK / size + 1 {
+        let (run, corner) = ((first + i) / RUN, (first + i) % RUN);
+        let at = (row * cells.runs + run) * 3 * RUN + corner;
+        // Red is written last.
+        if cells.light[at].load(Ordering::Acquire) == 0 {
+            evaluate_run(simd, dome, view, cells, run, row);
+        }
+        for (k, sum) in sum.iter_mut().enumerate() {
+            sum[i] = f32::from_bits(cells.light[at + k * RUN].load(Ordering::Relaxed));
         }
     }
     for (sum, out) in sum.iter().zip(out) {
         for (i, out) in out.iter_mut().enumerate() {
-            let cell = i / size as usize;
-            let (a, b) = (sum[cell], sum[(cell + 1) % BLOCK]);
-            *out = a + (b - a) * ((i as u32 % size) as f32 + cells.middle()) / size as f32;
+            let cell = i / size;
+            let (a, b) = (sum[cell], sum[cell + 1]);
+            *out = a + (b - a) * ((i % size) as u32 as f32 + cells.middle()) / size as u32 as f32;
+        }
+    }
+}
+
+/// Evaluates a run of corners in a row of them.
+#[simd]
+#[cold] // Once per run.
+#[inline(never)]
+fn evaluate_run<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, run: usize, row: usize) {
+    let (size, grid) = (cells.size, cells.samples());
+    let step = 1.0 / grid as f32;
+    let top = to_f32(row * size as usize);
+    let lanes = F::<S>::LEN;
+    for at in (0..RUN).step_by(lanes) {
+        let number = S::u32s::from_slice(simd, &STEPS[..lanes]) + (run * RUN + at) as u32;
+        let x = float(simd, number * size);
+        let mut light = V3::splat(simd, Vec3::ZERO);
+        for sample in 0..grid * grid {
+            let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
+            let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();
+            let ray = view.rays(simd, x + dx, F::<S>::splat(simd, top + dy));
+            let d = ray * Lane(F::<S>::splat(simd, 1.0) / ray.dot(ray).sqrt());
+            light = light + evaluate(simd, dome, d, Quantity::Shown) * Lane(F::<S>::splat(simd, step * step));
+        }
+        let out = &cells.light[(row * cells.runs + run) * 3 * RUN + at..];
+        for (k, light) in [light.x, light.y, light.z].into_iter().enumerate().rev() {
+            for (out, light) in out[k * RUN..].iter().zip(light.as_slice()) {
+                out.store(light.to_bits(), Ordering::Release);
+            }
         }
     }
 }

@@ -44,7 +44,7 @@ impl Layer for SkyLayer {
             tile.solids_matter = true;
             tile.clear();
         }
-        dispatch!(level, simd => cells::fill(simd, &self.dome, &self.view, self.cells, tile));
+        dispatch!(level, simd => cells::fill(simd, &self.dome, &self.view, &self.cells, tile));
         if !cfg!(without = "stars") {
             stars::draw(&self.stars, tile);
         }

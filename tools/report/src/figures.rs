@@ -1,10 +1,12 @@
 //! Prints the README's table of scenes: speed, samples and error of every scene, in Markdown.
 //!
-//! It takes about two minutes on two cores. The qualities take turns frame by frame, so that other load on the machine
-//! affects them alike. Samples are eye rays, in the rasterizer's scenes shaded fragments; `sky` has none.
+//! It takes about four minutes on two cores. Qualities and SIMD levels take turns frame by frame, so that other load on the
+//! machine affects them alike. Samples are eye rays, in the rasterizer's scenes shaded fragments; `sky` has none.
 
 use crate::likeness;
+use crate::machine;
 use crate::options::{Quick, Result};
+use fearless_simd::Level;
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
@@ -36,9 +38,11 @@ pub fn run(options: &Quick) -> Result {
     let mut renderer = Renderer::new(THREADS)?;
     // The show's parts are scenes of their own.
     let scenes: Vec<_> = scenes::all().iter().filter(|scene| scene.name != scenes::INTRO.name).copied().collect();
-    let times = time(&mut renderer, &scenes, &effort);
-    println!("| scene | quality | fps | samples per pixel | {} | against |", likeness::head());
-    println!("|---|---|---|---|---|---|---|");
+    let levels = machine::levels();
+    let times = time(&levels, &scenes, &effort)?;
+    let names: Vec<_> = levels.iter().map(|(name, _)| format!("fps, {name}")).collect();
+    println!("| scene | quality | {} | samples per pixel | {} | against |", names.join(" | "), likeness::head());
+    println!("|---|---|{}---|---|---|---|", "---|".repeat(levels.len()));
     for (scene, [fast, default]) in scenes.iter().zip(times) {
         let mut compare = |at| {
             let [ours, truth] =
@@ -53,37 +57,45 @@ pub fn run(options: &Quick) -> Result {
     }
     let (width, height) = effort.timed;
     println!();
-    println!("{width}x{height}, {THREADS} threads, {}.", renderer.simd());
+    println!("{width}x{height}, {THREADS} threads.");
     Ok(())
 }
 
 /// What the frames of one quality took.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 struct Cost {
-    /// Seconds: the medians of the rounds, added over the instants.
-    seconds: f64,
+    /// Seconds at each SIMD level: the medians of the rounds, added over the instants.
+    seconds: Vec<f64>,
     /// Eye rays per pixel, added over the instants.
     samples: f64,
 }
 
 /// The cost of `fast` and of `default` in every scene.
-fn time(renderer: &mut Renderer, scenes: &[Scene], effort: &Effort) -> Vec<[Cost; 2]> {
+fn time(levels: &[(&str, Level)], scenes: &[Scene], effort: &Effort) -> Result<Vec<[Cost; 2]>> {
     let mut frame = Frame::new(effort.timed.0, effort.timed.1);
-    // Seconds of every scene, instant, quality and round.
-    let mut seconds = vec![<[[Vec<f64>; 2]; INSTANTS]>::default(); scenes.len()];
-    let mut costs = vec![[Cost::default(); 2]; scenes.len()];
+    let mut renderers = Vec::new();
+    for (_, level) in levels {
+        renderers.push(Renderer::new(THREADS)?.at_level(*level));
+    }
+    // Seconds of every scene, instant, quality, level and round.
+    let mut seconds = vec![<[[Vec<Vec<f64>>; 2]; INSTANTS]>::default(); scenes.len()];
+    let mut costs = vec![<[Cost; 2]>::default(); scenes.len()];
     for round in 0..effort.rounds {
         for (s, scene) in scenes.iter().enumerate() {
             for (i, at) in instants(scene).into_iter().enumerate() {
                 for (q, quality) in [Quality::FAST, Quality::DEFAULT].iter().enumerate() {
-                    // The frame before, so that the sun has moved by as much as it does while the scene plays.
-                    renderer.render(scene, at - 1.0 / 60.0, quality, &mut frame);
-                    forget_maps(renderer);
-                    let began = Instant::now();
-                    let stats = renderer.render(scene, at, quality, &mut frame);
-                    seconds[s][i][q].push(began.elapsed().as_secs_f64());
-                    if round == 0 {
-                        costs[s][q].samples += stats.samples as f64 / frame.pixels.len() as f64;
+                    let seconds = &mut seconds[s][i][q];
+                    seconds.resize(renderers.len(), Vec::new());
+                    for (l, renderer) in renderers.iter_mut().enumerate() {
+                        // The frame before, so that the sun has moved by as much as it does while the scene plays.
+                        renderer.render(scene, at - 1.0 / 60.0, quality, &mut frame);
+                        forget_maps(renderer);
+                        let began = Instant::now();
+                        let stats = renderer.render(scene, at, quality, &mut frame);
+                        seconds[l].push(began.elapsed().as_secs_f64());
+                        if round == 0 && l == 0 {
+                            costs[s][q].samples += stats.samples as f64 / frame.pixels.len() as f64;
+                        }
                     }
                 }
             }
@@ -91,12 +103,15 @@ fn time(renderer: &mut Renderer, scenes: &[Scene], effort: &Effort) -> Vec<[Cost
     }
     for (costs, seconds) in costs.iter_mut().zip(&mut seconds) {
         for instant in seconds {
-            for (cost, rounds) in costs.iter_mut().zip(instant) {
-                cost.seconds += median(std::mem::take(rounds));
+            for (cost, levels) in costs.iter_mut().zip(instant) {
+                cost.seconds.resize(levels.len(), 0.0);
+                for (sum, rounds) in cost.seconds.iter_mut().zip(levels) {
+                    *sum += median(std::mem::take(rounds));
+                }
             }
         }
     }
-    costs
+    Ok(costs)
 }
 
 fn instants(scene: &Scene) -> [f64; INSTANTS] {
@@ -111,8 +126,9 @@ fn render(renderer: &mut Renderer, size: (usize, usize), scene: &Scene, at: f64,
 
 fn row(scene: &Scene, quality: &str, cost: Cost, differences: &[Difference], truth: &str) {
     let name = scene.name;
-    let fps = INSTANTS as f64 / cost.seconds;
+    let fps: Vec<_> = cost.seconds.iter().map(|seconds| format!("{:.1}", INSTANTS as f64 / seconds)).collect();
+    let fps = fps.join(" | ");
     let samples = cost.samples / INSTANTS as f64;
     let likeness = likeness::columns(differences);
-    println!("| `{name}` | {quality} | {fps:.1} | {samples:.3} | {likeness} | {truth} |");
+    println!("| `{name}` | {quality} | {fps} | {samples:.3} | {likeness} | {truth} |");
 }

@@ -1,5 +1,8 @@
 //! The machine that measures.
 
+use fearless_simd::Level;
+use paprsek::simd::level;
+
 /// The processor's name and number of threads.
 pub fn machine() -> String {
     let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -7,4 +10,14 @@ pub fn machine() -> String {
     let count = std::thread::available_parallelism().map_or(1, usize::from);
     let (family, model) = (field("cpu family").unwrap_or("?"), field("model\t").unwrap_or("?"));
     format!("{}, family {family} model {model}, {count} threads", field("model name").unwrap_or("unknown processor"))
+}
+
+/// The SIMD levels that speeds are told at: AVX2, which most machines and the packed intro have, and the best of this one.
+pub fn levels() -> Vec<(&'static str, Level)> {
+    let all = level::all();
+    let mut levels: Vec<_> = all.iter().filter(|(name, _)| *name == "avx2").copied().collect();
+    if all[0].0 != "avx2" {
+        levels.push(all[0]);
+    }
+    levels
 }

@@ -62,17 +62,20 @@ pub fn run(options: &Common) -> Result {
     let (effort, out) = (if options.quick { QUICK } else { FULL }, &options.out);
     let parts = parts::all()?;
     let mut renderer = Renderer::new(THREADS)?;
-    let (machine, simd, (width, height)) = (machine::machine(), renderer.simd(), effort.timed);
+    let (machine, (width, height)) = (machine::machine(), effort.timed);
     let mut text = format!(
         "# The show\n\n\
          Written by `{}`; not edited by hand.\n\n\
-         {machine}; {width}x{height}, {THREADS} threads, SIMD level {simd} unless said otherwise. Seconds are those of the show.\n",
+         {machine}; {width}x{height}, {THREADS} threads unless said otherwise. Seconds are those of the show.\n",
         options.command("show"),
     );
-    for report in [speed::report, error::report, pops::report] {
-        let table = report(&mut renderer, &parts, &effort);
+    let mut add = |table: String| {
         println!("{table}");
         text += &format!("\n{table}");
+    };
+    add(speed::report(&parts, &effort));
+    for report in [error::report, pops::report] {
+        add(report(&mut renderer, &parts, &effort));
     }
     std::fs::create_dir_all(out)?;
     let file = out.join("show.md");

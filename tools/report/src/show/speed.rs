@@ -1,7 +1,8 @@
 //! The time of frames.
 
-use super::Effort;
 use super::parts::Part;
+use super::{Effort, THREADS};
+use crate::machine;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes::INTRO;
 use paprsek::settings::Quality;
@@ -22,7 +23,7 @@ struct Cost {
 }
 
 /// The table of all parts, as Markdown.
-pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> String {
+pub fn report(parts: &[Part], effort: &Effort) -> String {
     let [median, slow] = GOALS;
     let mut text = format!(
         "## Speed\n\n\
@@ -31,12 +32,16 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
          comes is part of its first frame. The slowest hundredth is slower than 99 % of the frames. Goals are {median} frames \
          per second in the median and {slow} in the slowest hundredth; what falls short is **bold**. Samples are eye rays \
          or, for triangles, shaded fragments.\n\n\
-         | part | quality | frames | fps, median | fps, slowest hundredth | slowest frame, ms | at, s | samples per pixel |\n\
-         |---|---|--:|--:|--:|--:|--:|--:|\n"
+         | part | quality | SIMD level | frames | fps, median | fps, slowest hundredth | slowest frame, ms | at, s | samples per pixel |\n\
+         |---|---|---|--:|--:|--:|--:|--:|--:|\n"
     );
     for part in parts {
         for (name, quality) in [("default", Quality::DEFAULT), ("fast", Quality::FAST)] {
-            text += &row(&part.name(), name, play(renderer, part, &quality, effort), effort);
+            for (simd, level) in machine::levels() {
+                let mut renderer = Renderer::new(THREADS).expect("threads can be started").at_level(level);
+                let cost = play(&mut renderer, part, &quality, effort);
+                text += &row(&format!("{} | {name} | {simd}", part.name()), cost, effort);
+            }
         }
         eprintln!("{}: timed", part.name());
     }
@@ -56,7 +61,7 @@ fn play(renderer: &mut Renderer, part: &Part, quality: &Quality, effort: &Effort
     cost
 }
 
-fn row(part: &str, quality: &str, Cost { mut frames, samples }: Cost, effort: &Effort) -> String {
+fn row(what: &str, Cost { mut frames, samples }: Cost, effort: &Effort) -> String {
     frames.sort_by(|a, b| a.0.total_cmp(&b.0));
     let count = frames.len();
     let (worst, at) = frames[count - 1];
@@ -66,5 +71,5 @@ fn row(part: &str, quality: &str, Cost { mut frames, samples }: Cost, effort: &E
         if fps < goal { format!("**{fps:.1}**") } else { format!("{fps:.1}") }
     });
     let samples = samples as f64 / (count * effort.timed.0 * effort.timed.1) as f64;
-    format!("| {part} | {quality} | {count} | {median} | {slow} | {worst:.1} | {at:.2} | {samples:.3} |\n")
+    format!("| {what} | {count} | {median} | {slow} | {worst:.1} | {at:.2} | {samples:.3} |\n")
 }
