@@ -47,6 +47,10 @@ impl<S: Simd> Passage<S> {
 ///
 /// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
 ///
+/// Directions have to have the length 1: they are not normalised, and the depth is in proportion to it. The cube is
+/// closed: a ray along an axis that runs within a face is in the cloud. `limit` may be infinite; where it is 0 or less
+/// nothing is met. `steps` is at least 1. What a NaN gives is unspecified.
+///
 /// ```text
 /// start at the point that is closest to the centre, so that far clouds lose no digits
 /// entry, exit = the ray against the three slabs of the cube, ended by eye and limit

@@ -11,6 +11,7 @@ use glam::{Mat3, Vec3};
 /// The interval in which the line `o + t d` with `|d| = 1` is inside a body; none where it never is.
 ///
 /// A line that only touches a round body is not inside it. Distances may be negative, and reach to minus or plus [`FAR`].
+/// The rest of the contract is that of [`Shape::span`]: `d` has to have the length 1, and is not normalised.
 pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
     let (t0, t1) = match *shape {
         Shape::Sphere { center, radius } => {
@@ -99,7 +100,8 @@ impl Shape {
 /// Index and distance of the nearest surface in front of the point `o` in the unit direction `d`, among the bodies for whose
 /// index `counts` holds.
 ///
-/// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front.
+/// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front; on its surface, what is ahead.
+/// A direction of another length is not normalised, see [`Shape::span`].
 pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
     first(world, o, d, |index| if counts(index) { Exits::Both } else { Exits::None })
 }
@@ -161,7 +163,7 @@ pub fn fresnel(eta: f32, cosine: f32) -> Option<(f32, f32)> {
     (k > 0.0).then_some(((s * s + p * p) * 0.5, through))
 }
 
-/// The linear light that comes back along a ray. `level` counts the rays of the path, 1 for an eye ray; beyond
+/// The linear light that comes back along a ray, whose direction has to have the length 1. `level` counts the rays of the path, 1 for an eye ray; beyond
 /// [`World::max_level`] it is black.
 pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     if level > world.max_level {
