@@ -183,11 +183,11 @@ fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, squ
     }
 }
 
-/// Whether a side of a square of one or two pixels is taken for one surface, because its ends are of one. Nothing small may
-/// be there, and at a contrast of 0 every sample is traced.
+/// Whether a side of a square of one or two pixels is taken for one surface, because its ends are of one. Nothing smaller
+/// than the square may be there, and at a contrast of 0 every sample is traced.
 fn uncrossed(job: &Job, tile: &Tile, grid: &Grid, square: Square, ends: [Place; 2]) -> bool {
     let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y).path_signature);
-    a == b && finest(job, tile, square) > 1 && job.settings.built().contrast > 0.0
+    a == b && finest(job, tile, square) >= job.pixels(square.size) && job.settings.built().contrast > 0.0
 }
 
 /// What becomes of a square.
@@ -216,7 +216,7 @@ fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) 
     // A pixel whose corners have one signature is their mean, however much light and point differ.
     let agree = same
         && if size == unit {
-            finest > 1
+            finest > 0
         } else {
             size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
         };

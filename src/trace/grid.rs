@@ -10,9 +10,6 @@ use fearless_simd::prelude::*;
 /// Most lattice points along a tile's edge: at half pixels, with both ends.
 const LATTICE: usize = Tile::SIZE * 2 + 1;
 
-/// The bit of an index that is set for samples which are foretold and not traced.
-const FORETOLD: u32 = 1 << 31;
-
 /// A place in a square, halves of its edge from its top left.
 pub type Place = (usize, usize);
 
@@ -53,9 +50,10 @@ pub struct Grid {
     /// Samples, of which the first `count` are of this tile.
     samples: Vec<Sample>,
     count: usize,
-    /// Samples that are foretold.
-    foretold: Vec<Sample>,
-    /// Where the samples lie, pixels from the picture's top left; behind the last sample, the points that are wanted.
+    /// How many of these are foretold and not traced.
+    foretold: usize,
+    /// Where the samples lie, pixels from the picture's top left, NaN where they are foretold; behind the last sample, the
+    /// points that are wanted.
     xs: Vec<f32>,
     ys: Vec<f32>,
 }
@@ -70,7 +68,7 @@ impl Grid {
         }
         self.generation = self.generation.wrapping_add(1).max(1);
         self.count = 0;
-        self.foretold.clear();
+        self.foretold = 0;
         self.xs.clear();
         self.ys.clear();
     }
@@ -90,10 +88,21 @@ impl Grid {
         self.lattice[y * LATTICE + x].0 == self.generation
     }
 
-    /// Puts a sample at a lattice point that has none, instead of tracing it.
+    /// Puts a sample at a lattice point that has none, instead of tracing it. No point may be wanted.
     pub fn foretell(&mut self, x: usize, y: usize, sample: Sample) {
-        self.lattice[y * LATTICE + x] = (self.generation, self.foretold.len() as u32 | FORETOLD);
-        self.foretold.push(sample);
+        self.add(x, y);
+        self.make_room();
+        self.samples[self.count] = sample;
+        self.xs[self.count] = f32::NAN;
+        self.count += 1;
+        self.foretold += 1;
+    }
+
+    /// Makes room for the samples at all points that are wanted.
+    fn make_room(&mut self) {
+        while self.samples.len() < self.xs.len() {
+            self.samples.push(Sample::default());
+        }
     }
 
     fn add(&mut self, x: usize, y: usize) {
@@ -104,20 +113,18 @@ impl Grid {
 
     /// The number of samples that have been traced.
     pub fn samples(&self) -> usize {
-        self.count
+        self.count - self.foretold
     }
 
-    /// Where the samples lie, pixels from the picture's top left.
+    /// Where the samples lie that have been traced, pixels from the picture's top left.
     #[cfg(feature = "full")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
-        self.xs.iter().copied().zip(self.ys.iter().copied())
+        self.xs.iter().copied().zip(self.ys.iter().copied()).filter(|(x, _)| !x.is_nan())
     }
 
     /// The sample at a lattice point, which must be there.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
-        let index = self.lattice[y * LATTICE + x].1;
-        let samples = if index & FORETOLD == 0 { &self.samples } else { &self.foretold };
-        &samples[(index & !FORETOLD) as usize]
+        &self.samples[self.lattice[y * LATTICE + x].1 as usize]
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
@@ -134,9 +141,7 @@ impl Grid {
     #[inline(always)]
     pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
         let (first, end) = (self.count, self.xs.len());
-        while self.samples.len() < end {
-            self.samples.push(Sample::default());
-        }
+        self.make_room();
         packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
         self.count = end;
     }

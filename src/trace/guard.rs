@@ -43,7 +43,7 @@ enum Rim {
 pub struct Guard {
     /// Blocks in a row.
     columns: usize,
-    /// The largest square's edge, pixels: a power of two, or `u8::MAX` for any size.
+    /// The largest square's edge, pixels: a power of two, or `u8::MAX` for any size. At 0 a pixel is too large.
     finest: Vec<u8>,
 }
 
@@ -87,7 +87,8 @@ impl Guard {
         guard
     }
 
-    /// Edge of the largest square that may be interpolated at a pixel of the picture, pixels.
+    /// Edge of the largest square that may be interpolated at a pixel of the picture, pixels. At 0 something is there that
+    /// is smaller than a pixel.
     #[inline(always)]
     pub fn finest(&self, x: usize, y: usize) -> usize {
         self.finest[(y / BLOCK) * self.columns + x / BLOCK] as usize
@@ -158,8 +159,9 @@ impl Guard {
         // Written so that a position that is not a number is left alone.
         let small = finest < BLOCK as f32 && x.is_finite() && y.is_finite();
         if small {
-            // Rounded down to a power of two.
-            let finest = 1 << ((finest.to_bits() >> 23) - 127);
+            // Rounded down to a power of two. A ball that is smaller than a pixel may hide between its corners.
+            let within = radius > 0.0 && pixels < 1.0;
+            let finest = if within { 0 } else { 1 << ((finest.to_bits() >> 23) - 127) };
             let rows = self.finest.len() / self.columns.max(1);
             let ((x0, x1), (y0, y1)) = (blocks(x, pixels, self.columns), blocks(y, pixels, rows));
             for row in y0..y1 {

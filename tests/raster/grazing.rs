@@ -79,7 +79,15 @@ fn filtered(p: DVec3, towards: DVec3, texel: f64, caster: (Vec3, Vec3)) -> (f64,
     };
     let place = |k: i32| (k as f64 - 4.0) / 3.0;
     let share = (0..81).filter(|k| lit(place(k % 9), place(k / 9))).count() as f64 / 81.0;
-    (share, !(0..16).any(|k| lit(2.5 * (k as f64 * 0.3927).cos(), 2.5 * (k as f64 * 0.3927).sin())))
+    (
+        share,
+        !(0..16).any(|k| {
+            lit(
+                2.5 * (k as f64 * std::f64::consts::FRAC_PI_8).cos(),
+                2.5 * (k as f64 * std::f64::consts::FRAC_PI_8).sin(),
+            )
+        }),
+    )
 }
 
 /// Light in the shadow of a thin wall on the ground, and of a beam just above it.
