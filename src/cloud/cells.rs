@@ -334,8 +334,9 @@ fn cast_block<S: Simd>(
             let passage: Passage<S> = seen.meet(simd, eye, d, limit, opaque);
             let ended = passage.end.min(seen.end());
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
+            let hides = passage.hidden;
             let (color, passes) = passage.shine(simd, &sunlit, d);
-            let color = V3::splat(simd, seen.veil) * Lane(one - passes) + color * Lane(F::<S>::splat(simd, seen.fades));
+            let color = V3::splat(simd, seen.veil) * Lane(hides) + color * Lane(F::<S>::splat(simd, seen.fades));
             light = light + color * Lane(transmittance);
             transmittance *= passes;
             end = passes.simd_lt(one).select(end.max(ended), end);

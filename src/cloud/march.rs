@@ -8,7 +8,7 @@
 
 use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, U, V3};
-use crate::simd::math::{exp2, to_f32};
+use crate::simd::math::{opacity, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{DVec3, Vec3};
@@ -16,7 +16,7 @@ use std::f32::consts::LOG2_E;
 
 /// What rays meet in a cloud, without the colours of its light.
 pub struct Passage<S: Simd> {
-    /// The share of what is behind the cloud that it hides.
+    /// The share of what is behind the cloud that it hides, good to 1e-5 of itself however small it is.
     pub hidden: F<S>,
     /// The part of `hidden` that is lit by the light from above, which grows linearly with the height in the cube.
     pub upper: F<S>,
@@ -47,6 +47,10 @@ impl<S: Simd> Passage<S> {
 ///
 /// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
 ///
+/// Directions have to have the length 1: they are not normalised, and the depth is in proportion to it. The cube is
+/// closed: a ray along an axis that runs within a face is in the cloud. `limit` may be infinite; where it is 0 or less
+/// nothing is met. `steps` is at least 1. What a NaN gives is unspecified.
+///
 /// ```text
 /// start at the point that is closest to the centre, so that far clouds lose no digits
 /// entry, exit = the ray against the three slabs of the cube, ended by eye and limit
@@ -54,7 +58,7 @@ impl<S: Simd> Passage<S> {
 ///     u = the middle of the step, in voxels
 ///     where something may be at u in any lane:
 ///         depth += density(u) * extinction * length            for lanes that are not through
-///         hidden += transmittance - exp(-depth)                 and as much is lit
+///         hidden = 1 - exp(-depth)                              and as much as it grows is lit
 ///     step over as many steps as the empty space around u is wide
 /// ```
 ///
@@ -99,11 +103,11 @@ pub fn march<S: Simd>(
         let leap = cloud.voxels.leap(simd, u);
         if (goes & leap.simd_lt(zero)).any_true() {
             let [density, sunlit] = cloud.voxels.look_up(simd, u);
-            // From the depth so far: `1 - exp(-x)` of a thin step would be mostly rounding.
+            // From the depth so far, and not as what is missing from 1: of a thin cloud that would be rounding alone.
             depth += goes.select(density * thickness, zero);
-            let passes = exp2(simd, depth);
-            let hides = transmittance - passes;
-            hidden += hides;
+            let [kept, passes] = opacity(simd, depth);
+            let hides = kept - hidden;
+            hidden = kept;
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;

@@ -34,7 +34,8 @@ fn lerp(t: f32, a: f32, b: f32) -> f32 {
 
 /// The dot product of the offset (x, y, z) and a gradient, which is chosen by the low four bits of `hash`.
 ///
-/// The gradients are the directions from a cube's centre to the middles of its 12 edges, four of them twice.
+/// The gradients are the directions from a cube's centre to the middles of its 12 edges, four of them twice. The sum is
+/// rounded once; infinite offsets of opposite sign and NaN give NaN where the gradient has both.
 pub fn gradient(hash: usize, x: f32, y: f32, z: f32) -> f32 {
     let h = hash & 15;
     let u = if h < 8 { x } else { y };

@@ -14,7 +14,7 @@ use crate::frame::Workers;
 use crate::simd::lanes::{Bits, F, M, U};
 use crate::simd::level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x4, f32x8};
+use fearless_simd::{Simd, dispatch, f32x4};
 use fearless_simd_macros::simd;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -61,6 +61,10 @@ pub struct MapPoints<S: Simd> {
     pub y: F<S>,
     /// Depths of the points, bias included.
     pub inv_depth: F<S>,
+    /// What the depth of the points' planes grows by from row to row, as far as bias does not make up for it. A smooth
+    /// lookup compares each row with the plane there, where that is nearer to the light than the point. Along a row
+    /// level ground does not slope.
+    pub slope: F<S>,
     /// Which points appear in a view. The others are not looked up, and get any number.
     pub inside: M<S>,
 }
@@ -143,6 +147,11 @@ impl DepthMap {
         let (inner_left, inner_top) = (left & last, top & last);
         // Mostly all four rows of a window lie in one tile.
         let apart = inner_left.max(inner_top).simd_gt(S::u32s::splat(simd, Tile::SIZE as u32 - 4)).to_bitmask();
+        // The planes' depths in the middles of the windows' first rows.
+        let below = if smooth { points.slope } else { zero };
+        let (mut planes, mut slopes) = ([0f32; 16], [0f32; 16]);
+        (points.inv_depth + below * (row - points.y + 0.5)).store_slice(&mut planes[..lanes]);
+        below.store_slice(&mut slopes[..lanes]);
         let (mut index, mut places, mut depths, mut windows) = ([0u32; 16], [0u32; 16], [0f32; 16], [0u32; 16]);
         tile.store_slice(&mut index[..lanes]);
         ((inner_top << 6) + inner_left).store_slice(&mut places[..lanes]);
@@ -150,12 +159,13 @@ impl DepthMap {
         for lane in Bits(points.inside.to_bitmask()) {
             let lane = lane & 15;
             let (tile, at) = (index[lane] as usize, places[lane] as usize);
+            let plane = [planes[lane], slopes[lane]];
             let mut window = [0.0; 16];
             windows[lane] = if apart >> lane & 1 == 0 {
-                passed::<S, { Tile::SIZE }>(simd, &self.tile(simd, tile)[at..], depths[lane])
+                passed::<S, { Tile::SIZE }>(simd, &self.tile(simd, tile)[at..], depths[lane], plane)
             } else {
                 gather(simd, self, tile, at, &mut window);
-                passed::<S, 4>(simd, &window, depths[lane])
+                passed::<S, 4>(simd, &window, depths[lane], plane)
             };
         }
         let sums = if smooth {
@@ -200,10 +210,12 @@ fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut
     }
 }
 
-/// Which texels of a window of 4x4 are not nearer than a point: a bit for each, from the lowest on row by row. Rows of
-/// `texels` are `STRIDE` apart.
+/// Which texels of a window of 4x4 are not nearer than a point, or than a plane: a bit for each, from the lowest on row by
+/// row. Rows of `texels` are `STRIDE` apart. The plane is given by its depth at the first row, and by what it grows by from
+/// row to row.
 #[inline(always)]
-fn passed<S: Simd, const STRIDE: usize>(simd: S, texels: &[f32], inv_depth: f32) -> u32 {
+fn passed<S: Simd, const STRIDE: usize>(simd: S, texels: &[f32], inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
+    let mut plane = f32x4::splat(simd, first).combine(f32x4::splat(simd, first + below));
     // Cut to what is read, so that its length is looked at once.
     let texels = &texels[..3 * STRIDE + 4];
     let mut lit = 0;
@@ -211,7 +223,8 @@ fn passed<S: Simd, const STRIDE: usize>(simd: S, texels: &[f32], inv_depth: f32)
     while k < 4 {
         let row = f32x4::from_slice(simd, &texels[k * STRIDE..][..4]);
         let rows = row.combine(f32x4::from_slice(simd, &texels[(k + 1) * STRIDE..][..4]));
-        lit |= (rows.simd_le(f32x8::splat(simd, inv_depth)).to_bitmask() as u32) << (4 * k);
+        lit |= (rows.simd_le(plane.max(inv_depth)).to_bitmask() as u32) << (4 * k);
+        plane += below + below;
         k += 2;
     }
     lit

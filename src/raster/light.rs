@@ -36,14 +36,14 @@ pub struct Light {
 }
 
 impl Light {
-    /// A sun in the direction `towards` (unit), without shadows.
+    /// A sun in the direction `towards` (unit), without shadows. It is not normalised: a longer one is a brighter sun.
     #[inline(always)]
     pub fn sun(towards: Vec3, color: Vec3) -> Light {
         Light { source: Source::Sun(towards), color, shadow: None }
     }
 
     /// A lamp at `position` that fades as [`Source::Lamp`] says, without shadows. `falloff` of (0, 1) and an infinite
-    /// `reach` are near to the inverse square law.
+    /// `reach` are near to the inverse square law. What lies at the very place of the lamp gets no light.
     #[inline(always)]
     pub fn lamp(position: Vec3, color: Vec3, falloff: Vec2, reach: f32) -> Light {
         Light { source: Source::Lamp { position, falloff, reach }, color, shadow: None }

@@ -20,6 +20,9 @@ use glam::{Vec2, Vec4};
 /// Texels along a map's border where it is not looked up: a coarser map has the same point farther inside.
 const MARGIN: f32 = 2.0;
 
+/// The tangent of the angle of incidence up to which bias by slope grows.
+const STEEP: f32 = 4.0;
+
 /// Share of the bias that is left where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
@@ -107,7 +110,9 @@ struct Facet<S: Simd> {
 ///     depth  = depth of p, moved to the light by constant and slope bias
 /// ```
 ///
-/// Bias is in texels, which on a cube's faces grow with the depth.
+/// Bias is in texels, which on a cube's faces grow with the depth. Where a sun grazes, more of it would open gaps behind
+/// what stands on the ground. There the facet's plane says how deep each row of the window may be `[Isidoro06]`: see
+/// [`MapPoints::slope`]. Lamps do without: docs/rejected.md has the figures.
 #[inline(always)]
 fn locate<S: Simd>(simd: S, shadow: &ShadowViews, source: Source, facet: &Facet<S>, wanted: M<S>) -> MapPoints<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
@@ -115,15 +120,20 @@ fn locate<S: Simd>(simd: S, shadow: &ShadowViews, source: Source, facet: &Facet<
     let size = shadow.views[0].size[0] as f32;
     let bias = shadow.bias.times(if cuts::TRACED_SHADOWS && shadow.traced { TRACED_BIAS } else { 1.0 });
     let sine = (one - cosine * cosine).max(zero).sqrt();
-    let tangent = (sine / cosine.max(F::<S>::splat(simd, 1e-3))).min(F::<S>::splat(simd, 4.0));
+    let upright = cosine.max(F::<S>::splat(simd, 1e-3));
+    let tangent = (sine / upright).min(F::<S>::splat(simd, STEEP));
     let (mut view, mut x, mut y, mut inv_depth) = (zero, zero, zero, zero);
+    let mut slope = zero;
     let mut inside = M::<S>::splat(simd, false);
     // For a sun: texels are of one size, there are no faces, and a border is left out. For a lamp: texels grow by the
     // depth, each point has its face, and there is no border.
     let (mut depth, mut face, mut margin) = (one, zero, MARGIN);
+    // What bias leaves out of a sun's slope, over the cosine: 0 where it leaves out nothing.
+    let mut grazing = (one - upright * STEEP / sine).max(zero) / upright;
     if let Source::Lamp { position, .. } = source {
         (depth, face) = face_of(simd, point.sub1(position));
         margin = f32::NEG_INFINITY;
+        grazing = zero;
     }
     let mut k = 0;
     while k < shadow.views.len() {
@@ -141,13 +151,15 @@ fn locate<S: Simd>(simd: S, shadow: &ShadowViews, source: Source, facet: &Facet<
                 Source::Sun(_) => apply(rows[2], p) + bias,
                 Source::Lamp { .. } => one / (w - bias).max(F::<S>::splat(simd, 1e-6)),
             };
+            let fall = normal.dot1(rows[1].truncate() * -(texel * texel)) * grazing;
             (x, y) = (here.select(px, x), here.select(py, y));
+            slope = here.select(fall, slope);
             (inv_depth, view) = (here.select(z, inv_depth), here.select(number, view));
             inside |= here;
         }
         k += 1;
     }
-    MapPoints { view, x, y, inv_depth, inside }
+    MapPoints { view, x, y, inv_depth, slope, inside }
 }
 
 /// For directions from the middle of a cube the depth along the axis of the face that they pass, and the number of that

@@ -8,7 +8,7 @@ pub struct Bias {
     /// Offset towards the light, metres.
     pub constant: f32,
     /// Offset towards the light for a surface at 45 degrees to it, texels. In proportion to the tangent of the angle of
-    /// incidence, up to 4 times this.
+    /// incidence, up to 4 times this. Beyond, a smooth lookup of a sun's shadow follows the plane of the surface instead.
     pub slope: f32,
     /// Offset along the normal for a surface that the light grazes, texels. In proportion to the sine of the angle of
     /// incidence.

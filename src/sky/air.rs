@@ -142,7 +142,8 @@ fn whole<S: Simd>(simd: S, up: F<S>) -> V3<S> {
     columns(simd, eye, thinned(simd, eye), up)
 }
 
-/// The share of light from outside of the air that reaches the eye, by colour. Of the unit directions only y counts.
+/// The share of light from outside of the air that reaches the eye, by colour. Of the unit directions only y counts,
+/// which is not normalised.
 #[simd]
 pub fn through<S: Simd>(simd: S, air: &Air, d: V3<S>) -> V3<S> {
     left(simd, air, whole(simd, d.y))

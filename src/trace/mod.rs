@@ -67,4 +67,5 @@ pub mod world;
 
 pub use layer::TraceLayer;
 pub use shape::Shape;
+pub use surface::fresnel;
 pub use world::{Background, Emitter, Glow, Light, Material, Object, World};

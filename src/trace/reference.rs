@@ -4,12 +4,14 @@
 //! of [`super::ray`] and [`super::world`]. The tests hold the packets against it, and it against closed forms.
 
 use super::shape::{FAR, Shape};
+use super::surface::DENSE;
 use super::world::{Background, Emitter, Light, World};
 use glam::{Mat3, Vec3};
 
 /// The interval in which the line `o + t d` with `|d| = 1` is inside a body; none where it never is.
 ///
 /// A line that only touches a round body is not inside it. Distances may be negative, and reach to minus or plus [`FAR`].
+/// The rest of the contract is that of [`Shape::span`]: `d` has to have the length 1, and is not normalised.
 pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
     let (t0, t1) = match *shape {
         Shape::Sphere { center, radius } => {
@@ -98,7 +100,8 @@ impl Shape {
 /// Index and distance of the nearest surface in front of the point `o` in the unit direction `d`, among the bodies for whose
 /// index `counts` holds.
 ///
-/// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front.
+/// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front; on its surface, what is ahead.
+/// A direction of another length is not normalised, see [`Shape::span`].
 pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
     first(world, o, d, |index| if counts(index) { Exits::Both } else { Exits::None })
 }
@@ -146,7 +149,21 @@ impl Ray {
     }
 }
 
-/// The linear light that comes back along a ray. `level` counts the rays of the path, 1 for an eye ray; beyond
+/// Fresnel reflectance of a dielectric for unpolarised light, 0 to 1, and the cosine of the refracted ray; `None` where
+/// all is reflected.
+///
+/// Arguments and errors are those of [`super::fresnel`], whose bits it has.
+pub fn fresnel(eta: f32, cosine: f32) -> Option<(f32, f32)> {
+    let incident = eta * cosine;
+    let near = (1.0 - eta) * (eta + 1.0) + incident * incident;
+    let k = if eta < DENSE { near } else { 1.0 - eta * eta * (1.0 - cosine * cosine) };
+    let through = k.max(0.0).sqrt();
+    let s = (incident - through) / (incident + through);
+    let p = (eta * through - cosine) / (eta * through + cosine);
+    (k > 0.0).then_some(((s * s + p * p) * 0.5, through))
+}
+
+/// The linear light that comes back along a ray, whose direction has to have the length 1. `level` counts the rays of the path, 1 for an eye ray; beyond
 /// [`World::max_level`] it is black.
 pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     if level > world.max_level {
@@ -175,16 +192,11 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
 
     if material.is_glass() {
         let eta = if inside { material.ior } else { 1.0 / material.ior };
-        let k = 1.0 - eta * eta * (1.0 - cosine * cosine);
         let mirrored = Ray { from: Some((index, inside)), ..mirrored };
         let (_, shine) = local(world, index, point, normal, direction);
-        if k <= 0.0 {
+        let Some((share, through)) = fresnel(eta, cosine) else {
             return shine + radiance(world, mirrored, level + 1);
-        }
-        let through = k.sqrt();
-        let s = (eta * cosine - through) / (eta * cosine + through);
-        let p = (eta * through - cosine) / (eta * through + cosine);
-        let share = 0.5 * (s * s + p * p);
+        };
         let refracted = Ray {
             origin: point,
             direction: direction * eta + normal * (eta * cosine - through),

@@ -95,6 +95,10 @@ impl Shape {
     /// Where the mask is false the interval means nothing. A line that only touches a round body has none. Planes and
     /// globes are half-spaces and a ball, so an interval may reach to minus or plus [`FAR`].
     ///
+    /// A direction of another length gives no error, but wrong distances, and balls and cylinders are missed. Intervals
+    /// are closed, so a line through a corner of a block meets it in a point; of one that runs within a face, rounding
+    /// and the signs of zeros decide. What a NaN or an infinity gives is unspecified.
+    ///
     /// The ball is tested in the projected form `[Haines19]`: the distance from the centre to the line's nearest point does
     /// not cancel as `b^2 - 4ac` does far away.
     #[inline(always)]

@@ -30,6 +30,10 @@ pub const TEXTURED: usize = 13;
 /// The count of numbers.
 pub const SURFACE: usize = 14;
 
+/// The ratio of indices from which on `1 - eta^2 (1 - c^2)` has the smaller error near the critical angle. Below it
+/// `(1 - eta)(1 + eta) + (eta c)^2` has: where the ratio is near 1, the former is nothing but rounding.
+pub(super) const DENSE: f32 = 1.375;
+
 /// What the shading of a hit needs of a material.
 pub type SurfaceNumbers = [f32; SURFACE];
 
@@ -123,17 +127,22 @@ pub fn resolve<S: Simd>(
     (t, point, surface, only)
 }
 
-/// Fresnel reflectance of a dielectric for unpolarised light, the cosine of the refracted ray, and the lanes in which light
-/// passes at all. The others reflect totally.
+/// Fresnel reflectance of a dielectric for unpolarised light, 0 to 1; the cosine of the refracted ray; and the lanes in
+/// which light passes at all. The others reflect totally: 1, and a cosine of 0.
 ///
-/// `eta` is the index on the ray's side over the index behind the surface.
+/// `eta` is the index on the ray's side over the index behind the surface, finite and above 0; `cosine` that of the angle
+/// of incidence, above 0 and at most 1. The result is off by no more than 6e-7 and what three units in the last place of
+/// the cosine make of it. A cosine of 0 has the reflectance 1, and so
+/// has NaN on either side.
 #[inline(always)]
 pub fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let k = one - eta * eta * (one - cosine * cosine);
+    let incident = eta * cosine;
+    let near = (one - eta) * (eta + 1.0) + incident * incident;
+    let k = eta.simd_lt(DENSE).select(near, one - eta * eta * (one - cosine * cosine));
     let passes = k.simd_gt(zero);
     let through = k.max(zero).sqrt();
-    let s = (eta * cosine - through) / (eta * cosine + through);
+    let s = (incident - through) / (incident + through);
     let p = (eta * through - cosine) / (eta * through + cosine);
     (passes.select((s * s + p * p) * 0.5, one), through, passes)
 }

@@ -129,7 +129,7 @@ impl Light {
         Light { emitter: Emitter::Point(position), color, radius: 0.0 }
     }
 
-    /// A light in a unit direction, with hard shadows.
+    /// A light in a unit direction, with hard shadows. It is not normalised: a longer one is a brighter light.
     pub const fn directional(towards: Vec3, color: Vec3) -> Light {
         Light { emitter: Emitter::Directional(towards), color, radius: 0.0 }
     }

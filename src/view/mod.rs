@@ -94,6 +94,7 @@ impl View {
     }
 
     /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
+    /// Places out of the picture are given too.
     pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
         let c = &self.camera;
         let q = p - c.eye;

@@ -50,6 +50,22 @@ fn changes_nothing(settings: CloudSettings) {
     }
 }
 
+/// A thin cloud far away in the air shows the light of that air, as much as it hides: from its depth too.
+#[test]
+fn thin_clouds_far_away_show_the_air() {
+    for extinction in [1e-12, 1e-9, 1e-7, 1e-5, 1e-3, 1.0f32] {
+        let clouds = vec![cloud(filled(32, |_| 255), extinction)];
+        // The air has the light 1 too, so its share does not matter.
+        let layer = CloudLayer::new(clouds, FURNACE, &view(), &exact()).in_air(2.0, |_| Vec3::ONE);
+        let mut tile = Tile::at(0, 0, 64, 64);
+        layer.draw(Level::new(), &mut tile);
+        // Through the pixels in the middle the way is 2, but for a hundredth of a degree's cosine.
+        let hides = -(-2.0 * extinction as f64).exp_m1();
+        let error = (tile.red[32 * Tile::SIZE + 32] as f64 / hides - 1.0).abs();
+        assert!(error < 2e-4, "{extinction:e}: {:e} for {hides:e}", tile.red[32 * Tile::SIZE + 32]);
+    }
+}
+
 #[test]
 fn an_empty_cloud_leaves_the_picture_as_it_is() {
     changes_nothing(exact());

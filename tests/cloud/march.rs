@@ -54,6 +54,33 @@ fn a_homogeneous_cloud_follows_beer_and_lambert() {
     assert!(relative < RELATIVE);
 }
 
+/// Opacity was `1 - transmittance`, step by step: of a cloud that hides 2.5e-8 nothing was left, and of one that hides
+/// 1e-6 two digits.
+#[test]
+fn thin_clouds_hide_what_they_should() {
+    // Each step's product and sum may round, and the length of the way.
+    const THIN: f64 = 2e-5;
+    let (eye, d) = (vec3(0.25, 0.5, 4.0), vec3(-0.05, 0.1, -1.0).normalize());
+    let (entry, exit) = span(eye.as_dvec3(), d.as_dvec3()).expect("the ray meets the cube");
+    let mut worst = 0.0f64;
+    for k in 0..=130 {
+        let extinction = 10f32.powf(-12.0 + 0.1 * k as f32);
+        let cloud = cloud(filled(32, |_| 255), extinction);
+        let depth = extinction as f64 * (exit - entry);
+        for steps in [8.0, 100.0] {
+            for (name, level) in levels() {
+                let (light, left) = rays(level, &cloud, &FURNACE, eye, &[d; 16], FOREVER, [steps, 0.0])[0];
+                // All light is 1 and comes from everywhere: a cloud is as bright as it is opaque.
+                let error = (light.x as f64 / -(-depth).exp_m1() - 1.0).abs();
+                assert!(error < THIN, "{name}, depth {depth:.1e} in {steps}: {} is off by {error:.1e} of it", light.x);
+                assert!((light.x + left - 1.0).abs() < 1e-6, "{name}, depth {depth:.1e} in {steps}");
+                worst = worst.max(error);
+            }
+        }
+    }
+    println!("opacity at depths of 2e-12 to 2e1: off by {worst:.1e} of it");
+}
+
 #[test]
 fn a_ray_ends_where_too_little_comes_through() {
     for extinction in [10.0, 100.0, 1000.0] {

@@ -175,6 +175,7 @@ fn apply_all(function: Function, arguments: &[f32]) -> Vec<f32> {
 #[derive(Clone, Copy, Debug)]
 enum Function {
     Exp2,
+    Opacity,
     Log2,
     Powf(f32),
     Sin,
@@ -187,6 +188,7 @@ fn apply<S: Simd>(simd: S, function: Function, arguments: &[f32]) -> Vec<f32> {
         let x = S::f32s::from_slice(simd, chunk);
         let y = match function {
             Function::Exp2 => math::exp2(simd, x),
+            Function::Opacity => math::opacity(simd, x)[0],
             Function::Log2 => math::log2(simd, x),
             Function::Powf(power) => math::powf(simd, x, power),
             Function::Sin => math::sin(simd, x),
@@ -217,6 +219,35 @@ fn exp2_is_accurate() {
     assert!(error < 2e-7, "{error:e}");
     let whole: Vec<f32> = (-126..=127).map(|i| i as f32).chain([0.0, 0.0]).collect();
     assert_eq!(worst(Function::Exp2, &whole, f64::exp2, |y| y), 0.0);
+}
+
+/// `1 - 2^x` is 0 for all x above -4e-8, and its last digits are noise for long before.
+#[test]
+fn opacity_is_accurate_however_thin() {
+    let truth = |x: f64| -(x * std::f64::consts::LN_2).exp_m1();
+    let thin: Vec<f32> = range(-116.0, 0.0).iter().map(|x| -x.exp2()).collect();
+    for x in [thin, range(-126.0, 0.0), range(-1.0, 0.0)] {
+        let error = worst(Function::Opacity, &x, truth, |y| y.max(1e-37));
+        println!("opacity: off by {error:.1e} of it");
+        assert!(error < 2e-7, "{error:e}");
+    }
+    // What comes through is what it was: 2^x itself.
+    let x = range(-126.0, 0.0);
+    let exact = apply_all(Function::Exp2, &x);
+    for (name, level) in testkit::levels() {
+        let same = dispatch!(level, simd => left(simd, &x, &exact));
+        assert!(same, "{name}");
+    }
+}
+
+/// Whether what [`math::opacity`] leaves is what it should, bit for bit.
+#[inline(always)]
+fn left<S: Simd>(simd: S, x: &[f32], exact: &[f32]) -> bool {
+    let pairs = x.chunks_exact(S::f32s::LEN).zip(exact.chunks_exact(S::f32s::LEN));
+    pairs.into_iter().all(|(x, exact)| {
+        let left = math::opacity(simd, S::f32s::from_slice(simd, x))[1];
+        left.simd_eq(S::f32s::from_slice(simd, exact)).all_true()
+    })
 }
 
 #[test]

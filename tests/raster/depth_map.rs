@@ -41,8 +41,14 @@ fn a_lookup_is_the_lit_share_of_the_texels_around() {
     fn look<S: Simd>(simd: S, map: &DepthMap, view: f32, at: [f32; 2], near: f32, smooth: bool) -> f32 {
         let splat = |v: f32| F::<S>::splat(simd, v);
         let all = splat(0.0).simd_eq(0.0);
-        let points =
-            MapPoints { view: splat(view), x: splat(at[0]), y: splat(at[1]), inv_depth: splat(near), inside: all };
+        let points = MapPoints {
+            view: splat(view),
+            x: splat(at[0]),
+            y: splat(at[1]),
+            inv_depth: splat(near),
+            slope: splat(0.0),
+            inside: all,
+        };
         map.lit(simd, &points, smooth)[0]
     }
     let mut random = Random(1);

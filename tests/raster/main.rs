@@ -3,6 +3,7 @@
 mod clip;
 mod coverage;
 mod depth_map;
+mod grazing;
 mod lights;
 mod shadow;
 mod snow_cover;

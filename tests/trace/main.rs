@@ -4,6 +4,7 @@
 mod adaptive;
 mod bounds;
 mod exact;
+mod fresnel;
 mod shapes;
 mod span;
 mod whitted;
