@@ -161,12 +161,13 @@ impl DepthMap {
             let (tile, at) = (index[lane] as usize, places[lane] as usize);
             let plane = [planes[lane], slopes[lane]];
             let mut window = [0.0; 16];
-            windows[lane] = if apart >> lane & 1 == 0 {
-                passed::<S, { Tile::SIZE }>(simd, &self.tile(simd, tile)[at..], depths[lane], plane)
+            let (texels, stride) = if apart >> lane & 1 == 0 {
+                (&self.tile(simd, tile)[at..], Tile::SIZE)
             } else {
                 gather(simd, self, tile, at, &mut window);
-                passed::<S, 4>(simd, &window, depths[lane], plane)
+                (&window[..], 4)
             };
+            windows[lane] = passed(simd, texels, stride, depths[lane], plane);
         }
         let sums = if smooth {
             let windows = U::<S>::from_slice(simd, &windows[..lanes]);
@@ -211,18 +212,18 @@ fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut
 }
 
 /// Which texels of a window of 4x4 are not nearer than a point, or than a plane: a bit for each, from the lowest on row by
-/// row. Rows of `texels` are `STRIDE` apart. The plane is given by its depth at the first row, and by what it grows by from
+/// row. Rows of `texels` are `stride` apart. The plane is given by its depth at the first row, and by what it grows by from
 /// row to row.
 #[inline(always)]
-fn passed<S: Simd, const STRIDE: usize>(simd: S, texels: &[f32], inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
+fn passed<S: Simd>(simd: S, texels: &[f32], stride: usize, inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
     let mut plane = f32x4::splat(simd, first).combine(f32x4::splat(simd, first + below));
     // Cut to what is read, so that its length is looked at once.
-    let texels = &texels[..3 * STRIDE + 4];
+    let texels = &texels[..3 * stride + 4];
     let mut lit = 0;
     let mut k = 0;
     while k < 4 {
-        let row = f32x4::from_slice(simd, &texels[k * STRIDE..][..4]);
-        let rows = row.combine(f32x4::from_slice(simd, &texels[(k + 1) * STRIDE..][..4]));
+        let row = f32x4::from_slice(simd, &texels[k * stride..][..4]);
+        let rows = row.combine(f32x4::from_slice(simd, &texels[(k + 1) * stride..][..4]));
         lit |= (rows.simd_le(plane.max(inv_depth)).to_bitmask() as u32) << (4 * k);
         plane += below + below;
         k += 2;
