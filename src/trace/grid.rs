@@ -74,9 +74,8 @@ impl Grid {
     }
 
     /// Asks for the sample at a lattice point, if it is not there yet.
-    #[inline(always)]
+    #[inline(never)] // As fast as inlined, and 90 bytes less packed.
     pub fn want(&mut self, x: usize, y: usize) {
-        // Most corners are there, from a neighbour, so that this test alone is inlined.
         if !self.has(x, y) {
             self.add(x, y);
         }
