@@ -192,8 +192,10 @@ mod system {
 pub use system::keep_stderr;
 /// Makes a directory, unless it exists or cannot be made.
 pub use system::make_directory;
+#[cfg(all(unix, not(feature = "wayland")))]
+pub use system::c_path;
 #[cfg(unix)]
-pub use system::{c_path, contents};
+pub use system::contents;
 
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
