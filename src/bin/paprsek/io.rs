@@ -188,14 +188,14 @@ mod system {
     }
 }
 
-#[cfg(all(unix, feature = "minifb"))]
-pub use system::keep_stderr;
-/// Makes a directory, unless it exists or cannot be made.
-pub use system::make_directory;
 #[cfg(all(unix, not(feature = "wayland")))]
 pub use system::c_path;
 #[cfg(unix)]
 pub use system::contents;
+#[cfg(all(unix, feature = "minifb"))]
+pub use system::keep_stderr;
+/// Makes a directory, unless it exists or cannot be made.
+pub use system::make_directory;
 
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {
