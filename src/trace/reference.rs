@@ -163,8 +163,8 @@ pub fn fresnel(eta: f32, cosine: f32) -> Option<(f32, f32)> {
     (k > 0.0).then_some(((s * s + p * p) * 0.5, through))
 }
 
-/// The linear light that comes back along a ray, whose direction has to have the length 1. `level` counts the rays of the path, 1 for an eye ray; beyond
-/// [`World::max_level`] it is black.
+/// The linear light that comes back along a ray, whose direction has to have the length 1. `level` counts the rays of the
+/// path, 1 for an eye ray; beyond [`World::max_level`] it is black.
 pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
     if level > world.max_level {
         return Vec3::ZERO;

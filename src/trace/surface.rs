@@ -131,9 +131,8 @@ pub fn resolve<S: Simd>(
 /// which light passes at all. The others reflect totally: 1, and a cosine of 0.
 ///
 /// `eta` is the index on the ray's side over the index behind the surface, finite and above 0; `cosine` that of the angle
-/// of incidence, above 0 and at most 1. The result is off by no more than 6e-7 and what three units in the last place of
-/// the cosine make of it. A cosine of 0 has the reflectance 1, and so
-/// has NaN on either side.
+/// of incidence, above 0 and at most 1. The result is off by no more than 6e-7 and what three units in the last
+/// place of the cosine make of it. A cosine of 0 has the reflectance 1, and so has NaN on either side.
 #[inline(always)]
 pub fn fresnel<S: Simd>(simd: S, eta: F<S>, cosine: F<S>) -> (F<S>, F<S>, M<S>) {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));

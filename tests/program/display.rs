@@ -253,26 +253,43 @@ fn esc_is_heard_while_the_server_does_not_read() {
     if !has_a_window_system() {
         return;
     }
+    let busy = |client: &mut Client| {
+        if PLAIN {
+            // To open its window Xlib waits for answers.
+            client.serve_until_shown()?;
+        }
+        client.resize(1600, 900)
+    };
+    let after = |_: &mut Client| {
+        sleep(2 * PATIENCE);
+        Ok(())
+    };
+    esc_ends(2 * AT_ONCE, busy, after);
+}
+
+/// Plays against a server that does something to the program's window, presses Esc after a pause, and then goes on. The
+/// program has to end at once.
+///
+/// minifb hears nothing while Xlib waits or draws, so the plain build listens over a connection of its own too. A true
+/// server gives a key to every client that listens to the window.
+fn esc_ends(
+    pause: Duration,
+    busy: impl Fn(&mut Client) -> Result<()> + Clone + Send + 'static,
+    after: impl Fn(&mut Client) -> Result<()> + Clone + Send + 'static,
+) {
     let (sender, pressed) = channel();
     let (child, _fake) = against(move |mut client| {
         client.agree()?;
-        // minifb hears nothing while Xlib waits, so the plain build listens over a connection of its own too. A true
-        // server gives a key to every client that listens to the window.
         let draws = client.serve_until_mapped()?;
         if draws {
-            if PLAIN {
-                // To open its window Xlib waits for answers.
-                client.serve_until_shown()?;
-            }
-            client.resize(1600, 900)?;
+            busy(&mut client)?;
         }
         if draws != PLAIN {
-            sleep(2 * AT_ONCE);
+            sleep(pause);
             client.press(ESC)?;
             sender.send(()).unwrap();
         }
-        sleep(2 * PATIENCE);
-        Ok(())
+        after(&mut client)
     });
     pressed.recv_timeout(PATIENCE).unwrap();
     succeeds(child.end(AT_ONCE));
@@ -423,23 +440,7 @@ fn esc_is_heard_while_a_large_window_is_drawn() {
         return;
     }
     // 16,384 pixels a side, which take minifb a while: a gigabyte.
-    let (sender, pressed) = channel();
-    let (child, _fake) = against(move |mut client| {
-        client.agree()?;
-        let draws = client.serve_until_mapped()?;
-        if draws {
-            client.resize(16_384, 16_384)?;
-        }
-        // As above.
-        if draws != PLAIN {
-            sleep(AT_ONCE);
-            client.press(ESC)?;
-            sender.send(()).unwrap();
-        }
-        client.serve_until(0)
-    });
-    pressed.recv_timeout(PATIENCE).unwrap();
-    succeeds(child.end(AT_ONCE));
+    esc_ends(AT_ONCE, |client| client.resize(16_384, 16_384), |client| client.serve_until(0));
 }
 
 /// Plays against a server that wants the cookie of that byte, with such a file of cookies.

@@ -29,7 +29,7 @@ pub fn listen(window: u32) {
 /// Listens until the display goes away.
 fn hear(window: u32) -> Option<()> {
     let mut server = Server::find(&mut "")?;
-    let (symbols, first, each) = server.keyboard()?;
+    let keyboard = server.keyboard()?;
     server.send(&[request(CHANGE_WINDOW_ATTRIBUTES, 0, 4), window, EVENTS, KEY_DOWN])?;
     let (mut event, mut got) = ([0; 4 * PACKET], 0);
     loop {
@@ -42,8 +42,8 @@ fn hear(window: u32) -> Option<()> {
         }
         if got == event.len() {
             got = 0;
-            let place = u32::from(event[1]).wrapping_sub(first).wrapping_mul(each);
-            if u32::from(event[0]) & EVENT_CODE == KEY_PRESS && symbols.get(place as usize) == Some(&keysym::ESCAPE) {
+            let [code, key] = [event[0], event[1]].map(u32::from);
+            if code & EVENT_CODE == KEY_PRESS && keyboard.symbol(key) == Some(keysym::ESCAPE) {
                 patience::leave();
             }
         }

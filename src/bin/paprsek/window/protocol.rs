@@ -115,6 +115,24 @@ pub struct Server {
     pub waits: u32,
 }
 
+/// What the keys mean.
+pub struct Keyboard {
+    /// The symbols of all keys.
+    symbols: Vec<u32>,
+    /// The code of the first key.
+    first: u32,
+    /// The number of symbols per key.
+    each: u32,
+}
+
+impl Keyboard {
+    /// The first symbol of a key, given its code.
+    #[inline(always)]
+    pub fn symbol(&self, key: u32) -> Option<u32> {
+        self.symbols.get(key.wrapping_sub(self.first).wrapping_mul(self.each) as usize).copied()
+    }
+}
+
 impl Server {
     /// Connects to the server that `DISPLAY` names, trying each cookie that may be for it. Without success `why` has
     /// the reason, if one is known.
@@ -217,16 +235,15 @@ impl Server {
         Some(self.receive(PACKET)?[REPLY])
     }
 
-    /// The symbols of all keys, the code of the first key, and the number of symbols per key. Not to be called when
-    /// events may come before the reply.
+    /// What the keys mean. Not to be called when events may come before the reply.
     #[inline(always)]
-    pub fn keyboard(&mut self) -> Option<(Vec<u32>, u32, u32)> {
+    pub fn keyboard(&mut self) -> Option<Keyboard> {
         let codes = self.setup[SETUP_KEYS];
         let (first, last) = (codes >> 16 & 255, codes >> 24);
         self.send(&[request(GET_KEYBOARD_MAPPING, 0, 2), first | (last + 1).wrapping_sub(first) << 8])?;
         // How many symbols each key has is in the second byte, how many words follow in the second word.
         let keyboard = self.receive(PACKET)?;
-        Some((self.receive(keyboard[1] as usize)?, first, keyboard[0] >> 8 & 255))
+        Some(Keyboard { symbols: self.receive(keyboard[1] as usize)?, first, each: keyboard[0] >> 8 & 255 })
     }
 
     /// The root window, the black pixel and the depth (bits of a pixel that are shown) of the first screen, where its

@@ -3,7 +3,8 @@
 
 use super::common::{TITLE, keysym};
 use super::protocol::{
-    BITS_32, CLIENT_MESSAGE, EVENT_CODE, KEY_PRESS, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes, request,
+    BITS_32, CLIENT_MESSAGE, EVENT_CODE, KEY_PRESS, Keyboard, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes,
+    request,
 };
 use paprsek::frame::{Frame, resample};
 use rustix::io::read;
@@ -84,8 +85,8 @@ pub struct Window {
     usual: (usize, usize),
     /// The atom `WM_DELETE_WINDOW`.
     delete: u32,
-    /// The symbols of all keys, the code of the first key, and the number of symbols per key.
-    symbols: (Vec<u32>, u32, u32),
+    /// What the keys mean.
+    keyboard: Keyboard,
     /// Whether the size has changed since the last frame was sent.
     resized: bool,
     /// The code of the key that was released last, and when, milliseconds.
@@ -108,7 +109,7 @@ impl Window {
         let [root, black, depth] = server.screen()?;
         let id = server.setup[SETUP_ID];
         let (protocols, delete) = (server.atom(b"WM_PROTOCOLS")?, server.atom(b"WM_DELETE_WINDOW")?);
-        let symbols = server.keyboard()?;
+        let keyboard = server.keyboard()?;
         let [left, top, width, height] = server.place(size);
         let [context, pixmap, cursor, pen] = [id | CONTEXT, id | PIXMAP, id | CURSOR, id | PEN];
         let [name, end] = TITLE_WORDS;
@@ -178,7 +179,7 @@ impl Window {
             size,
             usual: size,
             delete,
-            symbols,
+            keyboard,
             resized: false,
             released: (0, 0),
             event: ([0; _], 0),
@@ -265,10 +266,8 @@ impl Window {
             let (key, time) = (event[0] >> 8 & 255, event[KEY_TIME]);
             match event[0] & EVENT_CODE {
                 KEY_PRESS => {
-                    let (symbols, first, each) = &self.symbols;
-                    let place = key.wrapping_sub(*first).wrapping_mul(*each);
                     let held = self.released.0 == key && time.wrapping_sub(self.released.1) < REPEAT;
-                    if let Some(&symbol) = symbols.get(place as usize)
+                    if let Some(symbol) = self.keyboard.symbol(key)
                         && (!held || matches!(symbol, keysym::LEFT | keysym::RIGHT))
                     {
                         self.pressed.push(symbol);
