@@ -20,7 +20,7 @@
 use super::deferred::Deferred;
 use super::edge::Groups;
 use super::fill::{self, Ramps};
-use super::grid::{Grid, Place, SIDES, Square, same_path};
+use super::grid::{Grid, SIDES, Square, same_path};
 use super::job::Job;
 use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
 use super::surface::ALBEDO;
@@ -160,8 +160,9 @@ fn want(grid: &mut Grid, Square { x, y, size }: Square, unit: usize) {
 /// crosses.
 fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
     grid.want(pixel.x + 1, pixel.y + 1);
+    let trusted = trusts_ends(job, tile, pixel);
     for (middle, ends) in SIDES {
-        if !uncrossed(job, tile, grid, pixel, ends) {
+        if !(trusted && grid.joined(pixel, ends)) {
             let (x, y) = pixel.point(middle);
             grid.want(x, y);
         }
@@ -171,23 +172,22 @@ fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
 /// Foretells the middle of every side that the edge which runs through a square of two pixels does not cross, so that it is
 /// not traced.
 fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, square: Square) {
-    if !job.settings.antialias || same_path(grid.corners(square)) {
+    if !job.settings.antialias || same_path(grid.corners(square)) || !trusts_ends(job, tile, square) {
         return;
     }
     for (middle, ends) in SIDES {
         let (x, y) = square.point(middle);
-        if !grid.has(x, y) && uncrossed(job, tile, grid, square, ends) {
+        if !grid.has(x, y) && grid.joined(square, ends) {
             let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y));
             grid.foretell(x, y, mean(simd, [a, b, a, b]));
         }
     }
 }
 
-/// Whether a side of a square of one or two pixels is taken for one surface, because its ends are of one. Nothing smaller
-/// than the square may be there, and at a contrast of 0 every sample is traced.
-fn uncrossed(job: &Job, tile: &Tile, grid: &Grid, square: Square, ends: [Place; 2]) -> bool {
-    let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y).path_signature);
-    a == b && finest(job, tile, square) >= job.pixels(square.size) && job.settings.built().contrast > 0.0
+/// Whether a side of a square of one or two pixels is taken for one surface where its ends are of one. Nothing smaller than
+/// the square may be there, and at a contrast of 0 every sample is traced.
+fn trusts_ends(job: &Job, tile: &Tile, square: Square) -> bool {
+    finest(job, tile, square) >= job.pixels(square.size) && job.settings.built().contrast > 0.0
 }
 
 /// What becomes of a square.

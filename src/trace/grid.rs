@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 const LATTICE: usize = Tile::SIZE * 2 + 1;
 
 /// A place in a square, halves of its edge from its top left.
-pub type Place = (usize, usize);
+type Place = (usize, usize);
 
 /// The sides of a square: middle and ends.
 pub const SIDES: [(Place, [Place; 2]); 4] =
@@ -124,6 +124,13 @@ impl Grid {
     /// The sample at a lattice point, which must be there.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
         &self.samples[self.lattice[y * LATTICE + x].1 as usize]
+    }
+
+    /// Whether two places of a square have samples with the same path signature.
+    #[inline(always)]
+    pub fn joined(&self, square: Square, places: [Place; 2]) -> bool {
+        let [a, b] = places.map(|place| square.point(place)).map(|(x, y)| self.at(x, y).path_signature);
+        a == b
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
