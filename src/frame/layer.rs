@@ -16,6 +16,8 @@ use super::encode::Transfer;
 use super::tile::Tile;
 use super::workers::Workers;
 use fearless_simd::Level;
+#[cfg(feature = "full")]
+use std::any::type_name;
 
 /// What drawing took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,6 +36,13 @@ pub trait Layer: Sync {
 
     /// Draws the layer's part of a tile over what is there.
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats;
+
+    /// What the layer is called: the name of its type.
+    #[cfg(feature = "full")]
+    fn name(&self) -> &'static str {
+        let path = type_name::<Self>();
+        path.rsplit("::").next().unwrap_or(path)
+    }
 
     /// Where eye rays are traced in a tile, in pixels from the picture's top left corner; none for layers that trace
     /// none.

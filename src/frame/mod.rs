@@ -7,7 +7,12 @@
 
 pub mod cache;
 pub mod encode;
+#[cfg(feature = "full")]
+pub mod knobs;
 pub mod layer;
+pub mod parameter;
+#[cfg(feature = "full")]
+pub mod placement;
 pub mod pool;
 pub mod renderer;
 pub mod resample;
@@ -17,7 +22,8 @@ pub mod workers;
 
 pub use cache::Cache;
 pub use layer::{Layer, Picture, Stats};
+pub use parameter::{Parameter, Values};
 pub use renderer::{Frame, Options, Renderer};
-pub use scene::{FrameSpec, Parameter, Scene, Values};
+pub use scene::{FrameSpec, Scene};
 pub use tile::Tile;
 pub use workers::Workers;

@@ -7,7 +7,8 @@
 use super::cache::Cache;
 use super::encode::{self, Transfer};
 use super::layer::{Picture, Stats};
-use super::scene::{FrameSpec, Scene, Values};
+use super::parameter::Values;
+use super::scene::{FrameSpec, Scene};
 use super::tile::Tile;
 use super::workers::Workers;
 use crate::cuts;

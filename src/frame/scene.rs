@@ -1,11 +1,15 @@
-//! A scene, its parameters, and the request for one of its frames.
+//! A scene, and the request for one of its frames.
 
 use super::cache::Cache;
 use super::layer::Picture;
+use super::parameter::{Parameter, Values};
+#[cfg(feature = "full")]
+use super::placement;
 use super::workers::Workers;
 use crate::cuts;
 use crate::settings::Quality;
 use crate::view::{Camera, Eye, View};
+use glam::{Mat3, Vec3};
 
 /// A scene: a picture at every instant.
 #[derive(Clone, Copy, Debug)]
@@ -37,43 +41,6 @@ impl Scene {
     }
 }
 
-/// A number that a scene can be changed by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name on the command line.
-    pub name: &'static str,
-    /// Unit of its values: `m`, `m/s`, `s`, `degrees`, `1` for a plain number, `count` for a whole one: others are
-    /// rounded.
-    pub unit: &'static str,
-    /// The least and the largest value.
-    pub range: (f64, f64),
-    /// The value that makes the scene as it is shown.
-    pub default: f64,
-    /// What it does, in one line.
-    pub about: &'static str,
-}
-
-impl Parameter {
-    /// A parameter as a row of a table: name, unit, range, default, and what it does.
-    pub const fn new(
-        name: &'static str,
-        unit: &'static str,
-        range: (f64, f64),
-        default: f64,
-        about: &'static str,
-    ) -> Parameter {
-        Parameter { name, unit, range, default, about }
-    }
-
-    /// Whether it takes that value: a number within its range.
-    pub fn takes(&self, value: f64) -> bool {
-        (self.range.0..=self.range.1).contains(&value)
-    }
-}
-
-/// Values of parameters by name; those that are not among them have their defaults.
-pub type Values<'a> = &'a [(&'static str, f64)];
-
 /// The request for a frame: one instant of a scene, and how it is to be rendered.
 #[derive(Clone, Copy)]
 pub struct FrameSpec<'a> {
@@ -96,9 +63,28 @@ pub struct FrameSpec<'a> {
 }
 
 impl FrameSpec<'_> {
-    /// The scene's camera, moved to the eye that the picture is for.
+    /// The scene's camera, moved to where the values `camera.*` put it. In the 64 kB build the scene's own.
+    #[inline(always)]
+    pub fn placed(&self, camera: Camera) -> Camera {
+        #[cfg(feature = "full")]
+        return placement::camera(self.values, self.cache, camera);
+        #[cfg(not(feature = "full"))]
+        camera
+    }
+
+    /// The scene's aeroplane, moved to where the values `plane.*` put it: its place, metres, and its turn, from axes to
+    /// the right, up and astern. In the 64 kB build the scene's own.
+    #[inline(always)]
+    pub fn flown(&self, place: Vec3, turn: Mat3) -> (Vec3, Mat3) {
+        #[cfg(feature = "full")]
+        return placement::plane(self.values, self.cache, place, turn);
+        #[cfg(not(feature = "full"))]
+        (place, turn)
+    }
+
+    /// The scene's camera, [`placed`](FrameSpec::placed), and moved to the eye that the picture is for.
     pub fn camera(&self, camera: Camera) -> Camera {
-        camera.at(self.eye)
+        self.placed(camera).at(self.eye)
     }
 
     /// The view of the scene's camera, moved to the eye that the picture is for.

@@ -6,9 +6,13 @@
 
 mod camera;
 mod cone;
+#[cfg(feature = "full")]
+mod pose;
 
 pub use camera::{Camera, Eye, Stereo};
 pub use cone::Cone;
+#[cfg(feature = "full")]
+pub use pose::Pose;
 
 use crate::simd::lanes::{F, Lane, V3};
 use fearless_simd::prelude::*;

@@ -11,6 +11,8 @@ use crate::text::{decimal, fill, whole};
 #[cfg(feature = "full")]
 use fearless_simd::Level;
 use paprsek::cuts;
+#[cfg(feature = "full")]
+use paprsek::frame::knobs::Knob;
 use paprsek::frame::pool::cores;
 use paprsek::frame::{Options, Scene, Values};
 use paprsek::scenes;
@@ -61,7 +63,7 @@ pub const HELP: &str = help!(
   --bench                     time SCENE, or every scene, without a window
   --json                      with --bench or --parameters: print JSON lines
   --parameters                print the parameters of SCENE, or of every scene
-  --set NAME=VALUE            set a parameter of SCENE; may be given several times
+  --set NAME=VALUE            set a parameter of SCENE, its camera or a setting; may be given several times
   --simd LEVEL                avx512, avx2, sse4.2, sse2, as this machine has them; default: the best
 "
 );
@@ -278,6 +280,9 @@ impl Args {
         let start = (at || since || to).then_some(if at { instant } else { from });
         let end = to.then_some(until);
         let (still, governed) = (at, !sized && !rated);
+        let changes = set_values(scene, settings)?;
+        #[cfg(feature = "full")]
+        let (governed, _quality_name, quality) = turned(changes, governed, _quality_name, quality);
         let args = Args {
             mode,
             scene,
@@ -288,7 +293,7 @@ impl Args {
             still,
             fps,
             fullscreen,
-            options: Options { quality, stereo, values: set_values(scene, settings)? },
+            options: Options { quality, stereo, values: changes },
             #[cfg(feature = "full")]
             level: simd_level(values[SIMD]).ok_or_else(|| refused(SIMD))?,
             #[cfg(feature = "full")]
@@ -355,6 +360,25 @@ fn set_values(scene: Option<&'static Scene>, settings: &[&[u8]]) -> Result<Value
         values.push(value);
     }
     Ok(values.leak())
+}
+
+/// The quality with the fields that are among `values` set, its name, and whether frames may be smaller while they come
+/// late: as with a quality that is asked for, not where a field is set.
+#[cfg(feature = "full")]
+fn turned(
+    values: Values,
+    governed: bool,
+    name: &'static str,
+    quality: &'static Quality,
+) -> (bool, &'static str, &'static Quality) {
+    let (mut own, mut said) = (*quality, name.to_owned());
+    for (name, value) in values {
+        if let Some(knob) = Knob::named(name) {
+            (knob.set)(&mut own, *value);
+            said += &format!(", {name}={value}");
+        }
+    }
+    if said == name { (governed, name, quality) } else { (false, said.leak(), Box::leak(Box::new(own))) }
 }
 
 /// There is nothing to be set in the 64 kB build.

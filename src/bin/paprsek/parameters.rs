@@ -1,15 +1,21 @@
-//! The parameters of scenes on the command line: `--set` reads them, `--parameters` prints them.
+//! The parameters of scenes on the command line: `--set` reads them, `--parameters` prints them. `--set` takes the fields
+//! of the settings too, and where the camera and the aeroplane are.
 
 use crate::io::print;
 use crate::text::{decimal, digits, fill};
+use paprsek::frame::knobs::Knob;
+use paprsek::frame::placement::{CAMERA, PLANE};
 use paprsek::frame::{Parameter, Scene};
 use paprsek::scenes;
 use std::slice;
+use std::str;
 
-/// The parameter of the scene that has this name, and the number that is its value.
+/// The parameter of this name, and the number that is its value. Besides the scene's own there are the settings' and
+/// those that place its camera and its aeroplane.
 pub fn parse(scene: &Scene, name: &[u8], value: &[u8]) -> Result<(&'static str, f64), Vec<u8>> {
-    let known = scene.parameters.iter().find(|parameter| parameter.name.as_bytes() == name);
-    let Some(parameter) = known else {
+    let knob = str::from_utf8(name).ok().and_then(Knob::named);
+    let mut known = scene.parameters.iter().chain(&CAMERA).chain(&PLANE).chain(knob.map(|knob| &knob.parameter));
+    let Some(parameter) = known.find(|parameter| parameter.name.as_bytes() == name) else {
         if scene.parameters.is_empty() {
             return Err(fill("scene '%' has no parameters to --set", &[scene.name.as_bytes()]));
         }

@@ -1,0 +1,238 @@
+//! The explorer between the window and the renderer: keys and the mouse change the model, and pictures are put together.
+
+use crate::flight::Stick;
+use crate::input::Input;
+use crate::keys::{self, Action};
+use crate::model::Model;
+use crate::painter::Painter;
+use crate::panel::{self, Graph, Turned};
+use crate::still;
+use crate::window::Events;
+use crate::worker::Shown;
+use egui::{Context, RawInput, Rect};
+use minifb::Key;
+use std::path::PathBuf;
+
+/// Seconds that something told is shown.
+const TOLD: f64 = 4.0;
+
+/// Everything but the window and the thread that renders.
+pub struct App {
+    /// What is shown.
+    pub model: Model,
+    /// The frame that is shown.
+    pub shown: Option<Shown>,
+    /// Whether to end.
+    pub ends: bool,
+    /// Whether the help is shown.
+    pub help: bool,
+    /// Whether the panel is shown.
+    pub panel: bool,
+    /// Whether the graph of frame times is shown.
+    pub times: bool,
+    hud: bool,
+    graph: Graph,
+    turned: Turned,
+    told: Option<(String, f64)>,
+    out: PathBuf,
+    clipboard: Option<arboard::Clipboard>,
+    ctx: Context,
+    painter: Painter,
+    input: Input,
+    /// What egui has not heard yet.
+    waiting: RawInput,
+    /// When egui wants to draw again, seconds.
+    repaint: f64,
+    /// Whether the left button went down over the picture.
+    drags: bool,
+}
+
+impl App {
+    /// An explorer that has shown nothing yet. It writes files into `out`.
+    pub fn new(model: Model, out: PathBuf) -> App {
+        let ctx = Context::default();
+        panel::dress(&ctx);
+        App {
+            model,
+            shown: None,
+            ends: false,
+            help: false,
+            panel: true,
+            times: false,
+            hud: true,
+            graph: Graph::default(),
+            turned: Turned::default(),
+            told: None,
+            out,
+            clipboard: None,
+            ctx,
+            painter: Painter::new(),
+            input: Input::default(),
+            waiting: RawInput::default(),
+            repaint: 0.0,
+            drags: false,
+        }
+    }
+
+    /// Hears events at `now`, seconds since the start, `seconds` after the last ones. Gives whether there is something
+    /// new to draw.
+    pub fn hear(&mut self, events: &Events, size: (usize, usize), now: f64, seconds: f64) -> bool {
+        let (raw, pressed) = self.input.take(events, size, panel::scale(size.1), now);
+        let fresh = !raw.events.is_empty();
+        self.waiting.append(raw);
+        self.ends |= events.closed;
+        let typing = self.ctx.wants_keyboard_input();
+        if !typing {
+            for &(key, repeated) in &pressed {
+                let action = keys::action(key, self.input.shift(), self.input.ctrl());
+                if let Some(action) = action.filter(|action| !repeated || keys::repeats(*action)) {
+                    self.act(action, now);
+                }
+            }
+        } else if pressed.iter().any(|(key, _)| *key == Key::Escape) {
+            self.ctx.memory_mut(|memory| memory.stop_text_input());
+        }
+        self.mouse(events, size);
+        let stick = self.hold(typing, seconds);
+        self.model.advance(seconds, stick);
+        fresh || now >= self.repaint
+    }
+
+    /// Walks while keys are held; gives the stick.
+    fn hold(&mut self, typing: bool, seconds: f64) -> Stick {
+        let axis = |up, down| {
+            if typing {
+                0.0
+            } else {
+                f64::from(u8::from(self.input.held(up))) - f64::from(u8::from(self.input.held(down)))
+            }
+        };
+        let way = [axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S)];
+        // The stick is pulled to climb.
+        let stick = Stick { up: axis(Key::Down, Key::Up), right: axis(Key::Right, Key::Left), faster: way[2] };
+        let factor = if self.input.shift() {
+            10.0
+        } else if self.input.ctrl() {
+            0.1
+        } else {
+            1.0
+        };
+        if way != [0.0; 3] && self.model.flight.is_none() {
+            let step = self.model.speed * factor * seconds;
+            self.model.walk(way.map(|part| part * step));
+        }
+        stick
+    }
+
+    /// Looks around and scrolls, where the mouse is not over the panel.
+    fn mouse(&mut self, events: &Events, size: (usize, usize)) {
+        let over = self.ctx.wants_pointer_input() || self.ctx.is_pointer_over_area();
+        let down = self.input.buttons()[0] || self.input.buttons()[1];
+        self.drags = down && (self.drags || !over);
+        if self.drags && self.input.moved != (0.0, 0.0) {
+            self.model.look(self.input.moved, size.1);
+        }
+        if events.wheel != 0.0 && !over {
+            self.model.wheel(f64::from(events.wheel.clamp(-8.0, 8.0)), self.input.ctrl());
+        }
+    }
+
+    fn act(&mut self, action: Action, now: f64) {
+        match action {
+            Action::Help => self.help = !self.help,
+            Action::Panel => self.panel = !self.panel,
+            Action::Times => self.times = !self.times,
+            Action::Hud => self.hud = !self.hud,
+            Action::Copy => self.copy(now),
+            Action::Still => self.still(now),
+            Action::Quit if self.help => self.help = false,
+            Action::Quit => self.ends = true,
+            _ => self.model.act(action),
+        }
+    }
+
+    /// Copies the frame that is shown as a command line, to the clipboard and to stdout.
+    fn copy(&mut self, now: f64) {
+        let Some(shown) = &self.shown else { return };
+        let command = shown.request.command();
+        println!("{command}");
+        if self.clipboard.is_none() {
+            self.clipboard = arboard::Clipboard::new().ok();
+        }
+        let copied = self.clipboard.as_mut().is_some_and(|clipboard| clipboard.set_text(command).is_ok());
+        self.tell(if copied { "copied the command line" } else { "the command line is on stdout" }.into(), now);
+    }
+
+    fn still(&mut self, now: f64) {
+        let Some(shown) = &self.shown else { return };
+        let saved = still::save(&self.out, shown);
+        self.tell(saved.map_or_else(|why| why, |path| format!("saved {}", path.display())), now);
+    }
+
+    fn tell(&mut self, what: String, now: f64) {
+        self.told = Some((what, now + TOLD));
+    }
+
+    /// Puts a picture together: the frame, and what is drawn over it.
+    pub fn compose(&mut self, pixels: &mut Vec<u32>, size: (usize, usize), now: f64) {
+        pixels.resize(size.0 * size.1, 0);
+        match &self.shown {
+            Some(shown) => still::fit(&shown.frame, pixels, size),
+            None => pixels.fill(0),
+        }
+        let scale = panel::scale(size.1);
+        self.ctx.set_pixels_per_point(scale);
+        let raw = std::mem::take(&mut self.waiting);
+        self.told = self.told.take().filter(|told| now < told.1);
+        let ctx = self.ctx.clone();
+        let output = ctx.run(raw, |ctx| self.draw(ctx));
+        if let Some(told) = self.turned.told.take() {
+            self.tell(told, now);
+        }
+        if std::mem::take(&mut self.turned.copy) {
+            self.copy(now);
+        }
+        let wait = output.viewport_output.values().map(|view| view.repaint_delay.as_secs_f64()).fold(1.0, f64::min);
+        self.repaint = now + wait;
+        self.painter.paint(&self.ctx, output, pixels, size);
+    }
+
+    fn draw(&mut self, ctx: &Context) {
+        if self.panel {
+            panel::panel(ctx, &mut self.turned, &mut self.model, &self.out);
+        }
+        if self.hud {
+            let told = self.told.as_ref().map(|told| &*told.0);
+            panel::hud(ctx, &self.model, self.shown.as_ref(), told);
+        }
+        if self.times {
+            self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
+        }
+        if self.help {
+            panel::help(ctx, &self.model);
+        }
+    }
+
+    /// Takes a new frame.
+    pub fn show(&mut self, shown: Shown) {
+        // A frame of a scene that has been left says nothing about this one.
+        if shown.request.scene.name == self.model.scene.name {
+            self.model.placed = shown.placed;
+        }
+        if self.shown.as_ref().is_some_and(|last| last.request.scene.name != shown.request.scene.name) {
+            self.graph.clear();
+        }
+        self.graph.take(&shown);
+        self.shown = Some(shown);
+    }
+
+    /// Where the panel's first slider of the scene is, pixels.
+    pub fn first_slider(&self) -> Option<Rect> {
+        self.turned.slider.filter(|_| self.panel).map(|slider| slider * self.ctx.pixels_per_point())
+    }
+
+    /// Where the mouse is, pixels.
+    pub fn mouse_at(&self) -> Option<(f32, f32)> {
+        self.input.mouse()
+    }
+}

@@ -1,0 +1,96 @@
+//! The explorer: walk through every scene of Paprsek, and turn every knob.
+//!
+//! The main thread has the window, the keys and the panel; another one renders. Each takes the other's newest and waits
+//! for nothing, so that the panel answers however long a frame takes. A frame is asked for by a [`request::Request`],
+//! which is also the command line that reproduces it.
+
+mod app;
+mod args;
+mod calendar;
+mod file;
+mod flight;
+mod input;
+mod keys;
+mod model;
+mod painter;
+mod panel;
+mod patience;
+mod request;
+mod state;
+mod still;
+mod timing;
+mod watched;
+mod window;
+mod worker;
+
+use app::App;
+use args::Args;
+use clap::Parser;
+use model::Model;
+use paprsek::simd::level;
+use state::States;
+use std::process::ExitCode;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use window::Window;
+use worker::Worker;
+
+/// Shortest time from one look at the keys to the next.
+const LOOK: Duration = Duration::from_millis(8);
+/// Longest time that counts as one step: what a stopped process missed is not flown.
+const LONGEST: f64 = 0.25;
+
+fn main() -> ExitCode {
+    match run(Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("explorer: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: Args) -> Result<(), String> {
+    let simd = level::all().first().map_or("", |best| best.0);
+    let mut model = Model::new(args.scene, args.threads, simd);
+    if let Some(time) = args.at {
+        (model.time, model.playing) = (time, false);
+        model.seek(0.0);
+    }
+    if let Some(path) = &args.load {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        file::read(&mut model, &text).map_err(|why| format!("{}, {why}", path.display()))?;
+    }
+    if args.time_panel {
+        return timing::run(model, args.size);
+    }
+    let mut states = args.state.as_deref().map(States::open).transpose()?;
+    let mut window = Window::open(args.size)?;
+    let worker = Worker::start()?;
+    let mut app = App::new(model, args.out);
+    let (began, mut last) = (Instant::now(), 0.0);
+    let (mut pixels, mut size) = (Vec::new(), (0, 0));
+    while !app.ends {
+        let now = began.elapsed().as_secs_f64();
+        let resized = std::mem::replace(&mut size, window.size()) != size;
+        let mut fresh = app.hear(&window.events(), size, now, (now - last).min(LONGEST)) | resized;
+        last = now;
+        worker.ask(app.model.request(size));
+        if let Some(shown) = worker.take()? {
+            app.show(shown);
+            fresh = true;
+        }
+        if fresh {
+            app.compose(&mut pixels, size, now);
+            window.show(&pixels, size)?;
+            if let Some(states) = &mut states {
+                states.write(&app, size);
+            }
+        } else {
+            window.look();
+        }
+        let spent = began.elapsed().as_secs_f64() - now;
+        sleep(LOOK.saturating_sub(Duration::from_secs_f64(spent)));
+    }
+    Ok(())
+}

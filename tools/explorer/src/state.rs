@@ -1,0 +1,68 @@
+//! A line about each picture that is shown, for programs that drive the explorer.
+
+use crate::app::App;
+use std::fs::File;
+use std::io::{Write, stdout};
+use std::path::Path;
+
+/// Where the lines go.
+pub struct States {
+    to: Box<dyn Write>,
+    count: u64,
+}
+
+impl States {
+    /// Lines into a file, or to stdout where it is `-`.
+    pub fn open(path: &Path) -> Result<States, String> {
+        let to: Box<dyn Write> = if path.as_os_str() == "-" {
+            Box::new(stdout())
+        } else {
+            Box::new(File::create(path).map_err(|error| format!("{}: {error}", path.display()))?)
+        };
+        Ok(States { to, count: 0 })
+    }
+
+    /// Writes the line of a picture that has been shown. Words are `name=value`; the last is the command line.
+    pub fn write(&mut self, app: &App, size: (usize, usize)) {
+        self.count += 1;
+        let model = &app.model;
+        let Some(shown) = &app.shown else { return };
+        let request = &shown.request;
+        let pose = shown.placed.camera.map_or_else(String::new, |pose| {
+            let numbers = paprsek::frame::placement::numbers(&pose).map(|number| format!("{number:.4}"));
+            numbers.join(",")
+        });
+        let plane = shown.placed.plane.map_or_else(String::new, |pose| {
+            let numbers = paprsek::frame::placement::numbers(&pose).map(|number| format!("{number:.4}"));
+            numbers[..6].join(",")
+        });
+        let flag = u8::from;
+        let slider = app.first_slider().map_or_else(String::new, |slider| {
+            format!("{:.0},{:.0},{:.0}", slider.left(), slider.center().y, slider.width())
+        });
+        let (mouse_x, mouse_y) = app.mouse_at().unwrap_or((-1.0, -1.0));
+        let line = format!(
+            "picture={} size={}x{} scene={} time={:.3} playing={} rate={} camera={pose} own={} plane={plane} flight={} \
+             speed={:.3} panel={} help={} times={} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
+            self.count,
+            size.0,
+            size.1,
+            request.scene.name,
+            request.time,
+            flag(model.playing),
+            model.rate,
+            flag(model.pose.is_none() && model.flight.is_none()),
+            model.flight.map_or(0, |flight| 2 - flag(flight.first_person)),
+            model.speed,
+            flag(app.panel),
+            flag(app.help),
+            flag(app.times),
+            shown.threads,
+            request.simd,
+            shown.ms,
+            request.words(),
+        );
+        // Who no longer reads does not stop the explorer.
+        let _ = writeln!(self.to, "{line}").and_then(|()| self.to.flush());
+    }
+}

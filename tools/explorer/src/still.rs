@@ -1,0 +1,35 @@
+//! Frames on their way out: fitted to the window, or saved as PNG.
+
+use crate::worker::Shown;
+use paprsek::frame::Frame;
+use std::path::{Path, PathBuf};
+
+/// Fits a frame to a picture of `width` x `height` pixels. While a window is being resized its frame is still of another
+/// size, and the nearest pixels stand for it.
+pub fn fit(frame: &Frame, pixels: &mut [u32], (width, height): (usize, usize)) {
+    if (frame.width, frame.height) == (width, height) {
+        pixels.copy_from_slice(&frame.pixels);
+        return;
+    }
+    for (y, row) in pixels.chunks_exact_mut(width).enumerate() {
+        let from = &frame.pixels[y * frame.height / height * frame.width..][..frame.width];
+        for (x, pixel) in row.iter_mut().enumerate() {
+            *pixel = from[x * frame.width / width];
+        }
+    }
+}
+
+/// Saves the frame under a name of its own.
+pub fn save(out: &Path, shown: &Shown) -> Result<PathBuf, String> {
+    let stem = format!("paprsek-{}-{:.3}", shown.request.scene.name, shown.request.time);
+    let names = (1..).map(|number| if number == 1 { format!("{stem}.png") } else { format!("{stem}-{number}.png") });
+    let path = names.map(|name| out.join(name)).find(|path| !path.exists()).ok_or("no name is free")?;
+    write(&path, &shown.frame)?;
+    Ok(path)
+}
+
+/// Writes a frame as PNG.
+pub fn write(path: &Path, frame: &Frame) -> Result<(), String> {
+    let (width, height) = (frame.width as u32, frame.height as u32);
+    image::save_buffer(path, &frame.to_rgb(), width, height, image::ColorType::Rgb8).map_err(|error| error.to_string())
+}
