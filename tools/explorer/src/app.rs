@@ -128,8 +128,10 @@ impl App {
     fn mouse(&mut self, events: &Events, size: (usize, usize)) {
         let over = self.ctx.wants_pointer_input() || self.ctx.is_pointer_over_area();
         let down = self.input.buttons()[0] || self.input.buttons()[1];
-        self.drags = down && (self.drags || !over);
-        if self.drags && self.input.moved != (0.0, 0.0) {
+        let dragged = self.drags;
+        self.drags = down && (dragged || !over);
+        // On its way to where the button went down the mouse did not drag yet.
+        if self.drags && dragged && self.input.moved != (0.0, 0.0) {
             self.model.look(self.input.moved, size.1);
         }
         if events.wheel != 0.0 && !over {
@@ -198,14 +200,18 @@ impl App {
     }
 
     fn draw(&mut self, ctx: &Context) {
-        if self.panel {
+        // A small picture has room for one thing at a time.
+        let narrow = panel::is_narrow(ctx);
+        let panel = self.panel && !(narrow && self.help);
+        let free = !narrow || !(panel || self.help);
+        if panel {
             panel::panel(ctx, &mut self.turned, &mut self.model, &self.out);
         }
-        if self.hud {
+        if self.hud && free && !(narrow && self.times) {
             let told = self.told.as_ref().map(|told| &*told.0);
             panel::hud(ctx, &self.model, self.shown.as_ref(), told);
         }
-        if self.times {
+        if self.times && free {
             self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
         }
         if self.help {
@@ -228,7 +234,10 @@ impl App {
 
     /// Where the panel's first slider of the scene is, pixels.
     pub fn first_slider(&self) -> Option<Rect> {
-        self.turned.slider.filter(|_| self.panel).map(|slider| slider * self.ctx.pixels_per_point())
+        self.turned
+            .slider
+            .filter(|_| self.panel && !(self.help && panel::is_narrow(&self.ctx)))
+            .map(|slider| slider * self.ctx.pixels_per_point())
     }
 
     /// Where the mouse is, pixels.

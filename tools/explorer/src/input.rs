@@ -129,7 +129,6 @@ fn named(key: Key) -> Option<egui::Key> {
         Key::End => egui::Key::End,
         Key::Enter | Key::NumPadEnter => egui::Key::Enter,
         Key::Escape => egui::Key::Escape,
-        Key::Tab => egui::Key::Tab,
         Key::A => egui::Key::A,
         _ => return None,
     })

@@ -4,7 +4,7 @@ use paprsek::Quality;
 use paprsek::frame::Scene;
 use paprsek::frame::knobs::KNOBS;
 use paprsek::frame::parameter::Parameter;
-use paprsek::frame::placement::{CAMERA, PLANE};
+use paprsek::frame::placement::{self, CAMERA, PLANE};
 use paprsek::view::Pose;
 use std::fmt::Write;
 
@@ -53,7 +53,8 @@ pub fn milliseconds(time: f64) -> f64 {
 
 /// The values that put something where a pose is.
 pub fn placed(table: &'static [Parameter], pose: &Pose) -> Vec<(&'static str, f64)> {
-    let numbers = paprsek::frame::placement::numbers(pose).map(rounded);
+    // A tenth of a millimetre, or of a thousandth of a degree. 0 is added so that there is no -0.
+    let numbers = placement::numbers(pose).map(|number| (number * 1e4).round() / 1e4 + 0.0);
     let clamped = |(parameter, number): (&'static Parameter, f64)| {
         (parameter.name, number.clamp(parameter.range.0, parameter.range.1))
     };

@@ -50,7 +50,12 @@ pub fn dress(ctx: &Context) {
     });
 }
 
-/// Points per pixel's inverse: how much larger text is on large pictures.
+/// Whether a picture has room for one thing at a time only.
+pub fn is_narrow(ctx: &Context) -> bool {
+    ctx.content_rect().width() < 640.0
+}
+
+/// Pixels per point: text is larger on large pictures.
 pub fn scale(height: usize) -> f32 {
     match height {
         0..1300 => 1.0,

@@ -44,8 +44,8 @@ impl Explorer {
         let child = explorer.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let explorer = Explorer { xvfb, child, number, out };
         explorer.expect("a picture", |state| state.contains_key("scene"));
-        // The window is at the upper left; keys go to where the mouse is.
-        explorer.xdotool("mousemove 310 20");
+        // To the upper left corner, so that places in the window are places on the screen. Keys go to where the mouse is.
+        explorer.xdotool("search --name explorer windowmove 0 0 mousemove 310 20");
         Some(explorer)
     }
 

@@ -56,10 +56,11 @@ fn keys_and_sliders_turn_parameters_and_time() {
     let value = state["words"].split("--set speed=").nth(1).unwrap().split(' ').next().unwrap();
     assert!(value.parse::<f64>().unwrap() > 1.0, "{state:?}");
     // What is typed into the search does not walk, and finds.
-    explorer.xdotool("mousemove 150 20 click 1 sleep 0.3 type --delay 60 texels");
-    explorer.xdotool("sleep 0.5 mousemove 500 200 click 1");
+    explorer.xdotool("mousemove 150 20 sleep 0.2 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3 type --delay 60 texels");
+    explorer.expect("search", |state| !state["slider"].is_empty() && numbers(state, "slider")[1] != place[1]);
+    explorer.xdotool("sleep 0.5 mousemove 500 200 mousedown 1 sleep 0.2 mouseup 1 sleep 0.2");
     assert_eq!(explorer.state()["own"], "1");
-    explorer.xdotool("key Escape sleep 0.2 key space");
+    explorer.xdotool("key space");
     explorer.expect("playing", |state| state["playing"] == "1" && number(state, "time") > 3.05);
     explorer.xdotool("key space sleep 0.2 key bracketright key bracketright");
     explorer.expect("pause", |state| state["playing"] == "0" && state["rate"] == "4");
