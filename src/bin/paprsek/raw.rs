@@ -5,8 +5,10 @@
 #[cfg(target_os = "linux")]
 use std::sync::atomic::{AtomicBool, Ordering};
 
+#[cfg(all(unix, not(target_os = "macos"), feature = "x11", not(feature = "wayland")))]
+pub use size::too_large;
 #[cfg(all(unix, not(target_os = "macos"), feature = "x11"))]
-pub use size::{LARGEST, bound, too_large};
+pub use size::{LARGEST, bound};
 
 /// The bound to the size that minifb hears of.
 #[cfg(all(unix, not(target_os = "macos"), feature = "x11"))]
@@ -37,6 +39,7 @@ mod size {
     static TOO_LARGE: AtomicU32 = AtomicU32::new(0);
 
     /// Width and height of the window in pixels while one of them is above [`LARGEST`]. minifb does not know then.
+    #[cfg(not(feature = "wayland"))]
     pub fn too_large() -> Option<(usize, usize)> {
         let size = TOO_LARGE.load(Ordering::Relaxed) as usize;
         (size > 0).then_some((size & 0xffff, size >> 16))
@@ -58,7 +61,9 @@ mod size {
         let Ok(xlib) = Xlib::open() else { return };
         // SAFETY: the display is open as long as the window, which is borrowed here. The hook is a function that stays,
         // and is called as Xlib's own is: with a display, room for an event, and the 32 bytes that make it.
-        let Some(convert) = (unsafe { (xlib.XESetWireToEvent)(display, ConfigureNotify, Some(convert)) }) else { return };
+        let Some(convert) = (unsafe { (xlib.XESetWireToEvent)(display, ConfigureNotify, Some(convert)) }) else {
+            return;
+        };
         let bound = BOUND.get_or_init(|| Bound { window, instead, convert });
         // What has come while the window was opened has been converted already. The last word counts.
         let mut last = None;

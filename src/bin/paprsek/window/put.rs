@@ -44,7 +44,6 @@ pub trait Surface {
 
 /// Puts a frame there, as large as it fits into the window at its own aspect, or begins to: Esc ends it. `None` where
 /// the display is lost.
-#[inline(always)]
 pub fn put(surface: &mut impl Surface, frame: &Frame) -> Option<()> {
     // Pixels that the longest request has room for. A picture is no wider, so that one row fits, and no higher either.
     let room = (surface.server().setup[SETUP_LENGTHS] >> 16) as usize;
