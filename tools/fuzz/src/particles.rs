@@ -49,7 +49,7 @@ pub fn run(bytes: &[u8]) {
     let layers = || {
         let ground = RasterLayer::new(World::default(), &view, &Quality::DEFAULT.raster);
         let snow = Snow::new(&flakes, time, eye, wind, share);
-        let seen = ParticleLayer::new(vec![snow.into(), fire.clone().into()], &view, &settings).colored(color);
+        let seen = ParticleLayer::new(vec![snow.into(), fire.into()], &view, &settings).colored(color);
         vec![Box::new(ground) as Box<dyn Layer>, Box::new(seen)]
     };
     pixels::check(layers, (view.width(), view.height()), input.is_wild);

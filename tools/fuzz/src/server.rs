@@ -85,7 +85,10 @@ pub fn run(bytes: &[u8]) {
         server.toggle_fullscreen(1, (320, 180));
     }
     match Window::open((320, 180)) {
-        Err(why) => assert!(!why.is_empty()),
+        Err(why) => {
+            assert!(!why.is_empty());
+            assert!(kept < polite.len(), "a polite server gets no window: {why}");
+        }
         Ok(mut window) => {
             let frame = Frame { width: 16, height: 9, pixels: vec![0x123456; 16 * 9] };
             for _ in 0..3 {
