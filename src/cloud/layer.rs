@@ -2,9 +2,13 @@
 
 use super::cells;
 use super::imposter_cache::ImposterCache;
+#[cfg(feature = "full")]
+use super::inspect;
 use super::seen::SeenClouds;
 use super::world::{Cloud, CloudLight};
 use crate::cuts;
+#[cfg(feature = "full")]
+use crate::frame::inspect::{Aspect, each};
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::view::View;
@@ -51,5 +55,27 @@ impl Layer for CloudLayer {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         cells::draw(level, &self.clouds, tile);
         Stats::default()
+    }
+
+    #[cfg(feature = "full")]
+    fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+        let clouds = &self.clouds;
+        let near = clouds.near(tile);
+        match aspect {
+            Aspect::Clouds => Some(each(tile, |_, _| near.len() as f32)),
+            Aspect::CloudSteps => {
+                let (eye, opaque) = (clouds.view.camera().eye, clouds.settings.built().opaque);
+                Some(each(tile, |x, y| {
+                    let (d, limit) = inspect::ray(clouds, tile, x, y);
+                    near.iter().map(|seen| inspect::steps(level, seen, eye, d, limit, opaque)).sum::<u32>() as f32
+                }))
+            }
+            _ => None,
+        }
+    }
+
+    #[cfg(feature = "full")]
+    fn explain(&self, level: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+        inspect::explain(level, &self.clouds, tile, x, y)
     }
 }

@@ -127,7 +127,7 @@ pub fn march<S: Simd>(
 /// From there on numbers are small, however far the eye is. As far as that point it takes two goes: in the first the
 /// distance and the directions have 12 bits at a time, whose products are exact.
 #[inline(always)]
-fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
+pub(super) fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
     let short = |x: F<S>| (x.bitcast::<U<S>>() & !0xfff).bitcast::<F<S>>();
     let eye = q.as_vec3();
     let rest = (q - eye.as_dvec3()).as_vec3();
@@ -143,7 +143,7 @@ fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
 
 /// Where rays from `q` along `d` enter and leave the cube from -1 to 1.
 #[inline(always)]
-fn cube<S: Simd>(simd: S, q: V3<S>, d: V3<S>) -> [F<S>; 2] {
+pub(super) fn cube<S: Simd>(simd: S, q: V3<S>, d: V3<S>) -> [F<S>; 2] {
     let [x0, x1] = slab(simd, q.x, d.x);
     let [y0, y1] = slab(simd, q.y, d.y);
     let [z0, z1] = slab(simd, q.z, d.z);

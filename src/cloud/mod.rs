@@ -24,6 +24,8 @@ mod cells;
 pub mod field;
 mod imposter;
 mod imposter_cache;
+#[cfg(feature = "full")]
+mod inspect;
 mod layer;
 pub mod march;
 mod seen;

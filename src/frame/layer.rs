@@ -13,6 +13,8 @@
 
 use super::cache::Cache;
 use super::encode::Transfer;
+#[cfg(feature = "full")]
+use super::inspect::Aspect;
 use super::tile::Tile;
 use super::workers::Workers;
 use fearless_simd::Level;
@@ -42,6 +44,20 @@ pub trait Layer: Sync {
     fn name(&self) -> &'static str {
         let path = type_name::<Self>();
         path.rsplit("::").next().unwrap_or(path)
+    }
+
+    /// A number for each pixel of a tile that says what the layer does there; none for what it does not know. The layer
+    /// is prepared, and the tile is as all layers have left it.
+    #[cfg(feature = "full")]
+    fn inspect(&self, _aspect: Aspect, _level: Level, _tile: &mut Tile) -> Option<Vec<f32>> {
+        None
+    }
+
+    /// How the layer's part of the pixel at a column and row of the picture comes to be, a fact per line. The layer is
+    /// prepared, and the tile is as this layer has left it.
+    #[cfg(feature = "full")]
+    fn explain(&self, _level: Level, _tile: &Tile, _x: usize, _y: usize) -> Vec<String> {
+        Vec::new()
     }
 
     /// Where eye rays are traced in a tile, in pixels from the picture's top left corner; none for layers that trace

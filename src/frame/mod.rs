@@ -8,12 +8,16 @@
 pub mod cache;
 pub mod encode;
 #[cfg(feature = "full")]
+pub mod inspect;
+#[cfg(feature = "full")]
 pub mod knobs;
 pub mod layer;
 pub mod parameter;
 #[cfg(feature = "full")]
 pub mod placement;
 pub mod pool;
+#[cfg(feature = "full")]
+pub mod probe;
 pub mod renderer;
 pub mod resample;
 pub mod scene;

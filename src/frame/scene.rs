@@ -9,6 +9,7 @@ use super::workers::Workers;
 use crate::cuts;
 use crate::settings::Quality;
 use crate::view::{Camera, Eye, View};
+#[cfg(feature = "full")]
 use glam::{Mat3, Vec3};
 
 /// A scene: a picture at every instant.
@@ -73,13 +74,20 @@ impl FrameSpec<'_> {
     }
 
     /// The scene's aeroplane, moved to where the values `plane.*` put it: its place, metres, and its turn, from axes to
-    /// the right, up and astern. In the 64 kB build the scene's own.
-    #[inline(always)]
+    /// the right, up and astern.
+    #[cfg(feature = "full")]
     pub fn flown(&self, place: Vec3, turn: Mat3) -> (Vec3, Mat3) {
+        placement::plane(self.values, self.cache, place, turn)
+    }
+
+    /// The view of a camera of the screen's own, such as that of writing: moved to the eye that the picture is for, but
+    /// not to where the values put the scene's camera.
+    #[inline(always)]
+    pub fn screen(&self, camera: Camera) -> View {
         #[cfg(feature = "full")]
-        return placement::plane(self.values, self.cache, place, turn);
+        return View::new(camera.at(self.eye), self.width, self.height);
         #[cfg(not(feature = "full"))]
-        (place, turn)
+        self.view(camera)
     }
 
     /// The scene's camera, [`placed`](FrameSpec::placed), and moved to the eye that the picture is for.

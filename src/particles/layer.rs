@@ -4,12 +4,20 @@ use super::blend::{blend, draw};
 use super::chunk::Chunk;
 use super::emitter::Emitter;
 use super::screen::Screen;
+#[cfg(feature = "full")]
+use super::sprite::Sprite;
 use super::sprite::{LIGHT, PASSES, PLANES};
+#[cfg(feature = "full")]
+use crate::frame::inspect::{Aspect, each};
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::ParticleSettings;
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch};
 use glam::Vec3;
+
+/// Sprites of a pixel that are told of one by one, nearest first.
+#[cfg(feature = "full")]
+const NAMED: usize = 5;
 
 /// The exposure of light that is added, where nothing else is asked for.
 const EXPOSURE: f32 = 1.6;
@@ -71,6 +79,15 @@ impl ParticleLayer {
         self.chunks.iter().map(|chunk| chunk.sprites.len()).sum()
     }
 
+    /// The sprites that are listed for the tile at that pixel.
+    #[cfg(feature = "full")]
+    fn listed(&self, x: usize, y: usize) -> Vec<Sprite> {
+        let number = (y / Tile::SIZE) as u32 * self.screen.columns + (x / Tile::SIZE) as u32;
+        let mut list = Vec::new();
+        self.chunks.iter().for_each(|chunk| chunk.list(number, &mut list));
+        list
+    }
+
     /// Draws a tile's sprites.
     #[inline(always)]
     fn draw_in<S: Simd>(&self, simd: S, tile: &mut Tile) {
@@ -103,5 +120,31 @@ impl Layer for ParticleLayer {
     fn draw(&self, level: Level, tile: &mut Tile) -> Stats {
         dispatch!(level, simd => self.draw_in(simd, tile));
         Stats::default()
+    }
+
+    #[cfg(feature = "full")]
+    fn inspect(&self, aspect: Aspect, _: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+        let list = self.listed(tile.x, tile.y);
+        match aspect {
+            Aspect::Particles => Some(each(tile, |_, _| list.len() as f32)),
+            Aspect::Sprites => Some(each(tile, |x, y| list.iter().filter(|sprite| sprite.covers(x, y)).count() as f32)),
+            _ => None,
+        }
+    }
+
+    #[cfg(feature = "full")]
+    fn explain(&self, _: Level, _: &Tile, x: usize, y: usize) -> Vec<String> {
+        let list = self.listed(x, y);
+        let mut over: Vec<_> = list.iter().filter(|sprite| sprite.covers(x, y)).collect();
+        over.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        let mut lines = vec![format!("{} sprites of the tile, {} over the pixel", list.len(), over.len())];
+        for sprite in over.iter().take(NAMED) {
+            let [_, red, green, blue] = sprite.ink;
+            lines.push(format!(
+                "sprite {:.3} m away: takes {:.3} of the light behind where it is densest, adds {red:.4} {green:.4} {blue:.4}",
+                sprite.depth, sprite.alpha
+            ));
+        }
+        lines
     }
 }

@@ -50,4 +50,12 @@ impl Sprite {
             crystal,
         }
     }
+
+    /// Whether the middle of a pixel lies in the ellipse.
+    #[cfg(feature = "full")]
+    pub fn covers(&self, x: usize, y: usize) -> bool {
+        let (dx, dy) = (x as f32 + 0.5 - self.at[0], y as f32 + 0.5 - self.at[1]);
+        let [a, b, c, d] = self.axes;
+        (a * dx + b * dy).powi(2) + (c * dx + d * dy).powi(2) < 1.0
+    }
 }

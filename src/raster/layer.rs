@@ -4,6 +4,8 @@ use super::collect::collect;
 use super::context::{ShadeContext, ShadowLookup};
 use super::depth_map::MapKey;
 use super::fill::{SubPixel, fill};
+#[cfg(feature = "full")]
+use super::inspect;
 use super::memory::{RasterMemory, Scratch};
 use super::project::Projection;
 use super::rasters::Raster;
@@ -13,6 +15,8 @@ use super::triangle::SUB;
 use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;
+#[cfg(feature = "full")]
+use crate::frame::inspect::{Aspect, each};
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::RasterSettings;
 use crate::simd::block::{BLOCK, load, store};
@@ -158,5 +162,72 @@ impl Layer for RasterLayer {
         let samples = dispatch!(level, simd => self.draw_in(simd, tile, &mut scratch));
         memory.lock().spare.push(scratch);
         Stats { samples }
+    }
+
+    #[cfg(feature = "full")]
+    fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+        let raster = &self.raster;
+        let middle = |x: usize, y: usize| (x as f32 + 0.5, y as f32 + 0.5);
+        let mapped = self.world.lights.iter().zip(&self.lookups).find(|(light, _)| light.shadow_views().is_some());
+        match aspect {
+            Aspect::Samples => {
+                // Places of samples as `draw_in` has them: what shows several triangles is shaded as often.
+                let grid = self.settings.built().grid as u32;
+                let places: Vec<_> = match grid {
+                    1 => (0..self.settings.coverage as u32).map(|k| spread(k, self.settings.coverage as u32)).collect(),
+                    _ => (0..grid * grid).map(|pass| cell([pass % grid, pass / grid], grid)).collect(),
+                };
+                Some(each(tile, |x, y| {
+                    let mut shown = Vec::new();
+                    for place in &places {
+                        let [px, py] =
+                            [(x, place[0]), (y, place[1])].map(|(at, sub)| at as f32 + sub as f32 / SUB as f32);
+                        shown.extend(inspect::visible(raster, &self.view, px, py).map(|shown| shown.triangle));
+                    }
+                    if grid == 1 {
+                        shown.sort_unstable();
+                        shown.dedup();
+                    }
+                    shown.len() as f32
+                }))
+            }
+            Aspect::Triangles => {
+                let count = raster.bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE).len();
+                Some(each(tile, |_, _| count as f32))
+            }
+            Aspect::Overdraw => Some(each(tile, |x, y| {
+                let (x, y) = middle(x, y);
+                inspect::overdraw(raster, x, y) as f32
+            })),
+            Aspect::ShadowView => {
+                let (light, _) = mapped?;
+                Some(each(tile, |x, y| {
+                    let (x, y) = middle(x, y);
+                    let shown = inspect::visible(raster, &self.view, x, y);
+                    shown
+                        .and_then(|shown| inspect::shadow_view(level, light, &shown))
+                        .map_or(0.0, |view| 1.0 + view as f32)
+                }))
+            }
+            Aspect::ShadowMap => {
+                let (light, lookup) = mapped?;
+                let views = light.shadow_views()?.views.len();
+                let [width, height] = [self.view.width(), self.view.height()].map(|n| n as f32);
+                let depths = inspect::MapDepths::new(lookup, views)?;
+                Some(each(tile, |x, y| {
+                    let (x, y) = middle(x, y);
+                    depths.at(x / width, y / height)
+                }))
+            }
+            _ => None,
+        }
+    }
+
+    #[cfg(feature = "full")]
+    fn explain(&self, level: Level, _: &Tile, x: usize, y: usize) -> Vec<String> {
+        match inspect::visible(&self.raster, &self.view, x as f32 + 0.5, y as f32 + 0.5) {
+            Some(shown) => inspect::explain(level, &self.world, &self.lookups, &shown),
+            None => vec!["nothing at the middle of the pixel".into()],
+        }
     }
 }

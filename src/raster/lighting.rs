@@ -54,7 +54,7 @@ pub fn shine<S: Simd>(
 
 /// Light at points with unit normals, clouds aside.
 #[inline(always)]
-fn light_at<S: Simd>(simd: S, light: &Light, lookup: &ShadowLookup, point: V3<S>, normal: V3<S>) -> V3<S> {
+pub(super) fn light_at<S: Simd>(simd: S, light: &Light, lookup: &ShadowLookup, point: V3<S>, normal: V3<S>) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (towards, left) = match light.source {
         Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -91,12 +91,12 @@ fn faded<S: Simd>(simd: S, distance: F<S>, falloff: Vec2, reach: f32) -> F<S> {
 }
 
 /// A piece of surface as a light sees it.
-struct Facet<S: Simd> {
-    point: V3<S>,
+pub(super) struct Facet<S: Simd> {
+    pub point: V3<S>,
     /// Unit normal.
-    normal: V3<S>,
+    pub normal: V3<S>,
     /// Cosine of the angle of incidence.
-    cosine: F<S>,
+    pub cosine: F<S>,
 }
 
 /// Finds in which view of a light its shadow on a facet is looked up, where there, and at which depth.
@@ -114,7 +114,13 @@ struct Facet<S: Simd> {
 /// what stands on the ground. There the facet's plane says how deep each row of the window may be `[Isidoro06]`: see
 /// [`MapPoints::slope`]. Lamps do without: docs/rejected.md has the figures.
 #[inline(always)]
-fn locate<S: Simd>(simd: S, shadow: &ShadowViews, source: Source, facet: &Facet<S>, wanted: M<S>) -> MapPoints<S> {
+pub(super) fn locate<S: Simd>(
+    simd: S,
+    shadow: &ShadowViews,
+    source: Source,
+    facet: &Facet<S>,
+    wanted: M<S>,
+) -> MapPoints<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let Facet { point, normal, cosine } = *facet;
     let size = shadow.views[0].size[0] as f32;

@@ -58,6 +58,8 @@ pub mod fit;
 pub mod form;
 pub mod haze;
 pub mod id;
+#[cfg(feature = "full")]
+mod inspect;
 mod layer;
 pub mod light;
 mod lighting;

@@ -53,4 +53,22 @@ impl Layer for SkyLayer {
         }
         Stats::default()
     }
+
+    #[cfg(feature = "full")]
+    fn explain(&self, _: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+        let d = self.view.direction(x as f32 + 0.5, y as f32 + 0.5);
+        let (light, open) = (self.dome.radiance(d), 1.0 - tile.coverage[(y - tile.y) * Tile::SIZE + (x - tile.x)]);
+        let seen = if self.behind {
+            format!("{:.0} % of it behind solids and clouds", 100.0 - open * 100.0)
+        } else {
+            "all of it".into()
+        };
+        let degrees = |cosine: f32| cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        let up = 90.0 - degrees(d.y);
+        let [sun, moon] = [self.dome.sky.sun, self.dome.sky.moon].map(|disc| degrees(d.dot(disc)));
+        vec![
+            format!("direction {up:.2} degrees above the horizon, {sun:.2} from the sun, {moon:.2} from the moon"),
+            format!("light of the air there {:.4} {:.4} {:.4}, {seen}", light.x, light.y, light.z),
+        ]
+    }
 }

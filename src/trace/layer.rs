@@ -3,12 +3,18 @@
 use super::adaptive::{self, Scratch};
 use super::bounds::{Bounds, WORD};
 use super::guard::Guard;
+#[cfg(feature = "full")]
+use super::inspect;
 use super::job::Job;
 use super::packet::{Limits, TraceContext};
+#[cfg(feature = "full")]
+use super::reference::Ray;
 use super::surface::{self, SurfaceNumbers};
 use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;
+#[cfg(feature = "full")]
+use crate::frame::inspect::{Aspect, each};
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::TraceSettings;
 use crate::simd::lanes::Bits;
@@ -75,6 +81,12 @@ impl TraceLayer {
         }
     }
 
+    /// The eye ray through a point of the picture, pixels.
+    #[cfg(feature = "full")]
+    fn eye_ray(&self, x: usize, y: usize) -> Ray {
+        Ray::new(self.view.camera().eye, self.view.direction(x as f32, y as f32))
+    }
+
     /// Draws a tile; returns the number of eye rays.
     fn draw_in(&self, level: Level, tile: &mut Tile, scratch: &mut Scratch) -> u64 {
         let TraceLayer { world, surfaces, bounds, variation, view, guard, limits, settings, .. } = self;
@@ -108,5 +120,60 @@ impl Layer for TraceLayer {
         let mut scratch = Scratch::default();
         self.draw_in(level, tile, &mut scratch);
         scratch.positions().collect()
+    }
+
+    #[cfg(feature = "full")]
+    fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+        match aspect {
+            Aspect::Samples => {
+                let (mut own, mut numbers) = (Tile::at(0, 0, 0, 0), vec![0.0; Tile::AREA]);
+                (own.x, own.y, own.width, own.height) = (tile.x, tile.y, tile.width, tile.height);
+                for (x, y) in self.positions(level, &mut own) {
+                    let [column, row] = [(x, tile.x), (y, tile.y)].map(|(at, corner)| at as usize - corner);
+                    if column < tile.width && row < tile.height {
+                        numbers[row * Tile::SIZE + column] += 1.0;
+                    }
+                }
+                Some(numbers)
+            }
+            Aspect::Candidates => {
+                let mut visible = Vec::new();
+                self.visible(tile, &mut visible);
+                let count: u32 = visible.iter().map(|word| word.count_ones()).sum();
+                Some(each(tile, |_, _| count as f32))
+            }
+            Aspect::RayDepth => {
+                let mut row = Vec::new();
+                Some(each(tile, |x, y| {
+                    let (column, even) = (x - tile.x, (y - tile.y).is_multiple_of(2));
+                    if column == 0 && even {
+                        row.clear();
+                    }
+                    if even && column.is_multiple_of(2) {
+                        row.push(inspect::depth(&self.world, self.eye_ray(x + 1, y + 1), 1) as f32);
+                    }
+                    row[column / 2]
+                }))
+            }
+            _ => None,
+        }
+    }
+
+    #[cfg(feature = "full")]
+    fn explain(&self, level: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+        let mut own = Tile::at(0, 0, 0, 0);
+        (own.x, own.y, own.width, own.height) = (tile.x, tile.y, tile.width, tile.height);
+        let within = |at: &(f32, f32)| at.0 as usize == x && at.1 as usize == y;
+        let count = self.positions(level, &mut own).iter().filter(|at| within(at)).count();
+        let mut lines = vec![match count {
+            0 => "no eye ray here: interpolated between the corners of a square".into(),
+            1 => "1 eye ray here".into(),
+            _ => format!("{count} eye rays here"),
+        }];
+        lines.push("the path through the middle of the pixel, without thresholds and with lights as points:".into());
+        let middle = self.view.ray(x as f32 + 0.5, y as f32 + 0.5).normalize();
+        let ray = Ray::new(self.view.camera().eye, middle);
+        inspect::trail(&self.world, ("from the eye", ray, Vec3::ONE), 1, &mut lines);
+        lines
     }
 }

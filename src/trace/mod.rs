@@ -54,6 +54,8 @@ mod edge;
 mod fill;
 mod grid;
 mod guard;
+#[cfg(feature = "full")]
+mod inspect;
 mod job;
 mod layer;
 mod light;

@@ -107,14 +107,14 @@ pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) 
 }
 
 /// Which crossings of a body's surface count.
-enum Exits {
+pub(super) enum Exits {
     None,
     Far,
     Both,
 }
 
 /// Index and distance of the first crossing in front of a point that counts.
-fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
+pub(super) fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
     let mut best = None;
     for (index, body) in world.objects.iter().enumerate() {
         let Some((t0, t1)) = span(&body.shape, o, d) else { continue };
@@ -218,7 +218,7 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
 }
 
 /// Light of the lights at a point of the body `index`: off a white surface, and highlights.
-fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3) -> (Vec3, Vec3) {
+pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3) -> (Vec3, Vec3) {
     let material = &world.objects[index].material;
     let (mut diffuse, mut specular) = (world.ambient, Vec3::ZERO);
     if material.is_glass() && material.specular == 0.0 {
@@ -240,7 +240,7 @@ fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3
 }
 
 /// Unit direction and distance to a light.
-fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
+pub(super) fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
     match light.emitter {
         Emitter::Point(position) => ((position - point).normalize(), (position - point).length()),
         Emitter::Directional(direction) => (direction, FAR),
@@ -248,7 +248,7 @@ fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
 }
 
 /// Whether a body other than `from` lies between a point and a light.
-fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> bool {
+pub(super) fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> bool {
     world.objects.iter().enumerate().any(|(index, body)| {
         body.casts_shadow
             && index != from

@@ -3,6 +3,7 @@
 
 mod color;
 mod fog;
+mod inspect;
 mod levels;
 mod noise;
 mod renderers;

@@ -75,6 +75,32 @@ fn a_value_that_is_set_is_used() {
 }
 
 #[test]
+fn the_camera_and_settings_are_set_too() {
+    let picture = |words: &str| succeeds(run(&format!("spheres {STILL} {words}").trim().replace("  ", " ")));
+    let plain = picture("");
+    assert!(picture("--set trace.cell=1") != plain);
+    // All that `fast` and `default` differ by in the tracer.
+    assert!(picture("--set trace.antialias=0 --set trace.min_detail=0.2") == picture("--quality fast"));
+    assert!(picture("--set camera.fov=70") != plain);
+    // From straight above the floor nothing is sky.
+    let above = "--set camera.x=0 --set camera.y=30 --set camera.z=0 --set camera.heading=0 --set camera.pitch=-90";
+    assert!(picture(above) != plain && picture(&format!("{above} --set camera.heading=90")) != picture(above));
+    for words in ["--set trace.cell=0", "--set camera.pitch=91", "--set trace.nothing=1", "--pixel 32,0", "--pixel 3"] {
+        fails(&run(&format!("spheres {STILL} {words}")), 2);
+    }
+}
+
+#[test]
+fn a_pixel_is_told_of() {
+    let told = String::from_utf8(succeeds(run("spheres --at 2 --size 32x18 --pixel 16,9"))).unwrap();
+    let frame = succeeds(run(&format!("spheres {STILL}")));
+    let pixel = &frame[frame.len() - 3 * 32 * 18 + 3 * (9 * 32 + 16)..][..3];
+    let code = format!("code {} {} {}, Gamma22", pixel[0], pixel[1], pixel[2]);
+    assert!(told.starts_with("spheres at 2 s, 32x18, pixel 16,9\n") && told.trim_end().ends_with(&code), "{told}");
+    assert!(told.contains("TraceLayer: light") && told.contains("ray 1, from the eye: body "), "{told}");
+}
+
+#[test]
 fn parameters_are_listed() {
     let all = String::from_utf8(succeeds(run("--parameters"))).unwrap();
     let head: Vec<_> = all.lines().next().unwrap().split_whitespace().collect();

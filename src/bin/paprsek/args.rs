@@ -65,6 +65,7 @@ pub const HELP: &str = help!(
   --parameters                print the parameters of SCENE, or of every scene
   --set NAME=VALUE            set a parameter of SCENE, its camera or a setting; may be given several times
   --simd LEVEL                avx512, avx2, sse4.2, sse2, as this machine has them; default: the best
+  --pixel X,Y                 tell how this pixel of the frame --at SECONDS comes to be; 0,0 is the top left one
 "
 );
 /// The help of the 64 kB build, which plays and captures only.
@@ -72,10 +73,10 @@ pub const HELP: &str = help!(
 pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
-/// The number of options where none is left out.
+/// The number of options where none is left out, but for `--pixel`.
 const ALL_OPTIONS: usize = 20;
 /// The number of options in [`HELP`].
-const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS } else { 10 };
+const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 1 } else { 10 };
 
 // The places of options with a value in [`HELP`].
 const AT: usize = 0;
@@ -91,6 +92,8 @@ const CONVERGENCE: usize = 12;
 const SET: usize = 18;
 #[cfg(feature = "full")]
 const SIMD: usize = 19;
+#[cfg(feature = "full")]
+const PIXEL: usize = 20;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -144,6 +147,9 @@ pub enum Mode {
     Print(&'static str),
     /// Lists the scenes.
     List,
+    /// Tells how the pixel at this column and row comes to be.
+    #[cfg(feature = "full")]
+    Pixel((usize, usize)),
     /// Prints the parameters of the scene, or of every scene.
     #[cfg(feature = "full")]
     Parameters {
@@ -275,6 +281,8 @@ impl Args {
             _ if cuts::SCENES && list => Mode::List,
             #[cfg(feature = "full")]
             _ if parameters => Mode::Parameters { json },
+            #[cfg(feature = "full")]
+            _ if values[PIXEL].is_some() => Mode::Pixel(pixel_of(values[PIXEL], size).ok_or_else(|| refused(PIXEL))?),
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "full")]
             None if bench => Mode::Bench { json },
@@ -396,6 +404,14 @@ fn set_values(_: Option<&'static Scene>, _: &[&[u8]]) -> Result<Values<'static>,
 fn simd_level(name: Option<&[u8]>) -> Option<Level> {
     let mut levels = level::all().into_iter();
     levels.find(|level| name.is_none_or(|name| name == level.0.as_bytes())).map(|level| level.1)
+}
+
+/// Column and row of a pixel of a frame of that size.
+#[cfg(feature = "full")]
+fn pixel_of(value: Option<&[u8]>, (width, height): (usize, usize)) -> Option<(usize, usize)> {
+    let (x, y) = cut(value?, b',');
+    let (x, y) = (whole(x)?, whole(y?)?);
+    (x < width && y < height).then_some((x, y))
 }
 
 /// The values of the options that take one, or their defaults: decimal numbers in the order of [`RANGES`], threads,

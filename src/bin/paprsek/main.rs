@@ -12,6 +12,8 @@ mod governor;
 mod io;
 #[cfg(feature = "full")]
 mod parameters;
+#[cfg(feature = "full")]
+mod pixel;
 mod play;
 #[cfg(feature = "minifb")]
 mod raw;
@@ -54,6 +56,8 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Print(text) => print(text.as_bytes()),
         Mode::List if cuts::SCENES => list(),
         Mode::List => Ok(()),
+        #[cfg(feature = "full")]
+        Mode::Pixel(pixel) => pixel::run(args, *pixel),
         #[cfg(feature = "full")]
         Mode::Parameters { json } => parameters::list(args.scene, *json),
     }

@@ -6,6 +6,7 @@ use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
 use crate::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels};
 use crate::frame::encode::Transfer;
+use crate::frame::inspect::Aspect;
 use crate::frame::{Cache, FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile, Workers};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, V3};
@@ -170,6 +171,14 @@ impl Layer for Cumuli {
         self.clouds.draw(level, tile);
         dispatch!(level, simd => behind(simd, &self.background, tile));
         Stats::default()
+    }
+
+    fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+        self.clouds.inspect(aspect, level, tile)
+    }
+
+    fn explain(&self, level: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+        self.clouds.explain(level, tile, x, y)
     }
 }
 

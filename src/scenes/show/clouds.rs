@@ -202,7 +202,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let target = place + ahead * shot.ahead;
     let camera = spec.placed(Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01));
     // The clouds are those around the eye, wherever it is put.
-    let eye = camera.eye;
+    let eye = if cuts::PARAMETERS { camera.eye } else { eye };
     let view = spec.view(camera);
     let dome = valley::sky(spec, valley::date(spec, &DATE) + (hour - 1.0) / 24.0);
     let now = dome.lighting();
@@ -210,6 +210,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let shapes = spec.cache.get::<Shapes>().lock().lit(spec, now.direction, field.extinction);
     let clouds =
         if cuts::PARAMETERS { blown(spec, &field, eye, &shapes) } else { field.around(eye, spec.time as f32, &shapes) };
+    #[cfg(feature = "full")]
     let (place, turn) = spec.flown(place, turn);
     let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
     // The map of the clouds' shadows moves by whole texels, and its slope is limited before the sun is level.

@@ -100,6 +100,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
     let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
+    #[cfg(feature = "full")]
     let (place, turn) = spec.flown(place, turn);
     let view = spec.view(camera);
     let mut world = valley::world(&dome, textures, turn, place, spec.time);

@@ -6,7 +6,7 @@ use crate::effects::Fade;
 use crate::frame::{FrameSpec, Picture, Scene};
 use crate::particles::{Emitter, Lens, ParticleLayer, Strokes};
 use crate::timeline::{self, ease};
-use crate::view::{Camera, View};
+use crate::view::Camera;
 use glam::{Vec3, vec3};
 
 /// The show.
@@ -98,8 +98,7 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
     }
     if !lines.is_empty() {
         // Written on the screen, wherever in the scene its eye is put.
-        let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0).at(spec.eye);
-        let view = View::new(camera, spec.width, spec.height);
+        let view = spec.screen(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
         let sparks = ParticleLayer::new(lines, &view, &spec.quality.particles);
         picture.layers.push(Box::new(sparks));
     }

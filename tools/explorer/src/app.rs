@@ -1,11 +1,14 @@
 //! The explorer between the window and the renderer: keys and the mouse change the model, and pictures are put together.
 
+use crate::compare::Compare;
 use crate::flight::Stick;
 use crate::input::Input;
 use crate::keys::{self, Action};
 use crate::model::Model;
+use crate::overlay::Overlay;
 use crate::painter::Painter;
 use crate::panel::{self, Graph, Turned};
+use crate::probing::Probing;
 use crate::still;
 use crate::window::Events;
 use crate::worker::Shown;
@@ -13,6 +16,8 @@ use egui::{Context, RawInput, Rect};
 use minifb::Key;
 use std::path::PathBuf;
 
+/// Seconds after which a frame that stays the same is compared.
+const REST: f64 = 0.3;
 /// Seconds that something told is shown.
 const TOLD: f64 = 4.0;
 
@@ -30,6 +35,14 @@ pub struct App {
     pub panel: bool,
     /// Whether the graph of frame times is shown.
     pub times: bool,
+    /// What is shown over the picture.
+    pub overlay: Option<Overlay>,
+    /// The comparison with the truth.
+    pub compare: Compare,
+    /// The probe of the pixel under the mouse.
+    pub probing: Probing,
+    /// Since when the frame that is shown has been the same, seconds.
+    since: f64,
     hud: bool,
     graph: Graph,
     turned: Turned,
@@ -49,16 +62,20 @@ pub struct App {
 
 impl App {
     /// An explorer that has shown nothing yet. It writes files into `out`.
-    pub fn new(model: Model, out: PathBuf) -> App {
+    pub fn new(model: Model, out: PathBuf) -> Result<App, String> {
         let ctx = Context::default();
         panel::dress(&ctx);
-        App {
+        Ok(App {
             model,
             shown: None,
             ends: false,
             help: false,
             panel: true,
             times: false,
+            overlay: None,
+            compare: Compare::new()?,
+            probing: Probing::new()?,
+            since: 0.0,
             hud: true,
             graph: Graph::default(),
             turned: Turned::default(),
@@ -71,7 +88,7 @@ impl App {
             waiting: RawInput::default(),
             repaint: 0.0,
             drags: false,
-        }
+        })
     }
 
     /// Hears events at `now`, seconds since the start, `seconds` after the last ones. Gives whether there is something
@@ -143,11 +160,17 @@ impl App {
         match action {
             Action::Help => self.help = !self.help,
             Action::Panel => self.panel = !self.panel,
+            Action::Overlay(by) => self.overlay = Overlay::next(self.overlay, by),
+            Action::Compare => self.compare.on = !self.compare.on,
+            Action::Probe => self.probing.on = !self.probing.on,
             Action::Times => self.times = !self.times,
             Action::Hud => self.hud = !self.hud,
             Action::Copy => self.copy(now),
             Action::Still => self.still(now),
             Action::Quit if self.help => self.help = false,
+            Action::Quit if self.probing.on => self.probing.on = false,
+            Action::Quit if self.compare.on => self.compare.on = false,
+            Action::Quit if self.overlay.is_some() => self.overlay = None,
             Action::Quit => self.ends = true,
             _ => self.model.act(action),
         }
@@ -179,7 +202,18 @@ impl App {
     pub fn compose(&mut self, pixels: &mut Vec<u32>, size: (usize, usize), now: f64) {
         pixels.resize(size.0 * size.1, 0);
         match &self.shown {
-            Some(shown) => still::fit(&shown.frame, pixels, size),
+            Some(shown) => {
+                let frame = &shown.frame;
+                let found = self.compare.of(&shown.request).filter(|_| (frame.width, frame.height) == size);
+                match (&shown.coloured, found) {
+                    (_, Some(found)) => {
+                        pixels.copy_from_slice(&frame.pixels);
+                        self.compare.draw(found, frame, pixels);
+                    }
+                    (Some(coloured), None) => still::fit(&coloured.pixels, (frame.width, frame.height), pixels, size),
+                    (None, None) => still::fit(&frame.pixels, (frame.width, frame.height), pixels, size),
+                }
+            }
             None => pixels.fill(0),
         }
         let scale = panel::scale(size.1);
@@ -205,7 +239,7 @@ impl App {
         let panel = self.panel && !(narrow && self.help);
         let free = !narrow || !(panel || self.help);
         if panel {
-            panel::panel(ctx, &mut self.turned, &mut self.model, &self.out);
+            panel::panel(ctx, &mut self.turned, &mut self.model, &mut self.overlay, &self.out);
         }
         if self.hud && free && !(narrow && self.times) {
             let told = self.told.as_ref().map(|told| &*told.0);
@@ -214,19 +248,43 @@ impl App {
         if self.times && free {
             self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
         }
+        if let Some(coloured) = self.shown.as_ref().and_then(|shown| shown.coloured.as_ref()).filter(|_| free) {
+            panel::legend(ctx, coloured, self.times);
+        }
+        if self.compare.on && free {
+            panel::compared(ctx, &mut self.compare, self.shown.as_ref());
+        }
+        if self.probing.on && free {
+            panel::probed(ctx, &self.probing);
+        }
         if self.help {
             panel::help(ctx, &self.model);
         }
     }
 
+    /// Looks after what is found out about the frame that is shown. Gives whether there is something new to draw.
+    pub fn study(&mut self, now: f64) -> Result<bool, String> {
+        let Some(shown) = &self.shown else { return Ok(false) };
+        let rests = now - self.since > REST;
+        let compared = self.compare.look(&shown.request, &shown.frame, rests)?;
+        // The mouse over the panel is not over the picture.
+        let mouse = self.input.mouse().filter(|_| !self.ctx.is_pointer_over_area());
+        let probed = self.probing.look(&shown.request, mouse)?;
+        let waits = self.compare.on && self.compare.of(&shown.request).is_none() && now >= self.repaint - 0.8;
+        Ok(compared || probed || waits)
+    }
+
     /// Takes a new frame.
-    pub fn show(&mut self, shown: Shown) {
+    pub fn show(&mut self, shown: Shown, now: f64) {
         // A frame of a scene that has been left says nothing about this one.
         if shown.request.scene.name == self.model.scene.name {
             self.model.placed = shown.placed;
         }
         if self.shown.as_ref().is_some_and(|last| last.request.scene.name != shown.request.scene.name) {
             self.graph.clear();
+        }
+        if self.shown.as_ref().is_none_or(|last| last.request != shown.request) {
+            self.since = now;
         }
         self.graph.take(&shown);
         self.shown = Some(shown);

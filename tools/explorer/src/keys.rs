@@ -13,6 +13,12 @@ pub enum Action {
     Hud,
     /// Shows or hides the graph of frame times.
     Times,
+    /// Another overlay, or none.
+    Overlay(i32),
+    /// Compares the frame with the truth.
+    Compare,
+    /// Tells of the pixel under the mouse.
+    Probe,
     /// Pauses and continues.
     Pause,
     /// Moves by seconds.
@@ -59,6 +65,10 @@ const ROWS: &[Row] = &[
     (Key::Tab, false, Action::Panel),
     (Key::M, false, Action::Hud),
     (Key::F2, false, Action::Times),
+    (Key::F3, false, Action::Overlay(1)),
+    (Key::F3, true, Action::Overlay(-1)),
+    (Key::F4, false, Action::Compare),
+    (Key::F5, false, Action::Probe),
     (Key::Space, false, Action::Pause),
     (Key::Left, false, Action::Seek(-5)),
     (Key::Right, false, Action::Seek(5)),
@@ -157,6 +167,9 @@ pub const HELP: &[(&str, &[(&str, &str)])] = &[
     ("Show", &[
         ("F1", "this help"),
         ("F2", "frame times, their slowest hundredth, the layers' shares"),
+        ("F3", "what the algorithms do, one overlay after another; with Shift back"),
+        ("F4", "compare with the exact frame or the reference"),
+        ("F5", "how the pixel under the mouse came to be"),
         ("M", "the line below"),
         ("Esc", "close what is open, then end"),
     ]),

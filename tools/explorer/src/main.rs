@@ -6,15 +6,19 @@
 
 mod app;
 mod args;
+mod background;
 mod calendar;
+mod compare;
 mod file;
 mod flight;
 mod input;
 mod keys;
 mod model;
+mod overlay;
 mod painter;
 mod panel;
 mod patience;
+mod probing;
 mod request;
 mod state;
 mod still;
@@ -25,6 +29,7 @@ mod worker;
 
 use app::App;
 use args::Args;
+use background::Background;
 use clap::Parser;
 use model::Model;
 use paprsek::simd::level;
@@ -33,7 +38,7 @@ use std::process::ExitCode;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use window::Window;
-use worker::Worker;
+use worker::Maker;
 
 /// Shortest time from one look at the keys to the next.
 const LOOK: Duration = Duration::from_millis(8);
@@ -66,8 +71,9 @@ fn run(args: Args) -> Result<(), String> {
     }
     let mut states = args.state.as_deref().map(States::open).transpose()?;
     let mut window = Window::open(args.size)?;
-    let worker = Worker::start()?;
-    let mut app = App::new(model, args.out);
+    let mut maker = Maker::default();
+    let worker = Background::start(move |(request, overlay)| maker.frame(request, overlay, |_| {}))?;
+    let (mut app, mut asked) = (App::new(model, args.out)?, None);
     let (began, mut last) = (Instant::now(), 0.0);
     let (mut pixels, mut size) = (Vec::new(), (0, 0));
     while !app.ends {
@@ -75,11 +81,16 @@ fn run(args: Args) -> Result<(), String> {
         let resized = std::mem::replace(&mut size, window.size()) != size;
         let mut fresh = app.hear(&window.events(), size, now, (now - last).min(LONGEST)) | resized;
         last = now;
-        worker.ask(app.model.request(size));
-        if let Some(shown) = worker.take()? {
-            app.show(shown);
+        let request = (app.model.request(size), app.overlay);
+        if asked.as_ref() != Some(&request) {
+            asked = Some(request.clone());
+            worker.ask(request);
+        }
+        if let Some(shown) = worker.take().transpose()? {
+            app.show(shown, now);
             fresh = true;
         }
+        fresh |= app.study(now)?;
         if fresh {
             app.compose(&mut pixels, size, now);
             window.show(&pixels, size)?;

@@ -40,10 +40,18 @@ impl States {
         let slider = app.first_slider().map_or_else(String::new, |slider| {
             format!("{:.0},{:.0},{:.0}", slider.left(), slider.center().y, slider.width())
         });
+        // Off, under way, or what was found.
+        let compare = match app.compare.of(request) {
+            _ if !app.compare.on => "off".into(),
+            Some(found) => format!("{:.2}", found.difference.psnr()),
+            None => format!("{:.0}%", 100.0 * app.compare.progress()),
+        };
+        let probe = app.probing.told.as_ref().filter(|_| app.probing.on);
+        let probe = probe.map_or("off".into(), |((x, y), text)| format!("{x},{y},{}", text.lines().count()));
         let (mouse_x, mouse_y) = app.mouse_at().unwrap_or((-1.0, -1.0));
         let line = format!(
             "picture={} size={}x{} scene={} time={:.3} playing={} rate={} camera={pose} own={} plane={plane} flight={} \
-             speed={:.3} panel={} help={} times={} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
+             speed={:.3} panel={} help={} times={} overlay={} compare={compare} probe={probe} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
             self.count,
             size.0,
             size.1,
@@ -57,6 +65,7 @@ impl States {
             flag(app.panel),
             flag(app.help),
             flag(app.times),
+            shown.coloured.as_ref().map_or("none", |coloured| coloured.overlay.about().0).replace(' ', "-"),
             shown.threads,
             request.simd,
             shown.ms,

@@ -4,17 +4,17 @@ use crate::worker::Shown;
 use paprsek::frame::Frame;
 use std::path::{Path, PathBuf};
 
-/// Fits a frame to a picture of `width` x `height` pixels. While a window is being resized its frame is still of another
+/// Fits pixels of `from` columns and rows to a picture of `width` x `height` pixels. While a window is being resized its frame is still of another
 /// size, and the nearest pixels stand for it.
-pub fn fit(frame: &Frame, pixels: &mut [u32], (width, height): (usize, usize)) {
-    if (frame.width, frame.height) == (width, height) {
-        pixels.copy_from_slice(&frame.pixels);
+pub fn fit(old: &[u32], from: (usize, usize), pixels: &mut [u32], (width, height): (usize, usize)) {
+    if from == (width, height) {
+        pixels.copy_from_slice(old);
         return;
     }
     for (y, row) in pixels.chunks_exact_mut(width).enumerate() {
-        let from = &frame.pixels[y * frame.height / height * frame.width..][..frame.width];
+        let old = &old[y * from.1 / height * from.0..][..from.0];
         for (x, pixel) in row.iter_mut().enumerate() {
-            *pixel = from[x * frame.width / width];
+            *pixel = old[x * from.0 / width];
         }
     }
 }

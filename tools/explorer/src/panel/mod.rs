@@ -4,11 +4,13 @@ mod graph;
 mod help;
 mod hud;
 mod row;
+mod study;
 mod turn;
 
 pub use graph::Graph;
 pub use help::help;
 pub use hud::hud;
+pub use study::{compared, legend, probed};
 pub use turn::{Turned, panel};
 
 use egui::{Color32, Context, CornerRadius, FontFamily, FontId, Frame, Margin, Stroke, TextStyle, Visuals};

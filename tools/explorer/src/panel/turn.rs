@@ -5,6 +5,7 @@ use super::{GROUND, QUIET};
 use crate::calendar;
 use crate::file;
 use crate::model::Model;
+use crate::overlay::Overlay;
 use crate::request::rounded;
 use egui::{CollapsingHeader, Context, Frame, Margin, Rect, RichText, ScrollArea, SidePanel, TextEdit, Ui};
 use paprsek::frame::knobs::KNOBS;
@@ -30,7 +31,7 @@ pub struct Turned {
 }
 
 /// Shows the panel, which sets the model.
-pub fn panel(ctx: &Context, own: &mut Turned, model: &mut Model, out: &Path) {
+pub fn panel(ctx: &Context, own: &mut Turned, model: &mut Model, overlay: &mut Option<Overlay>, out: &Path) {
     let width = WIDTH.min(0.62 * ctx.content_rect().width());
     let frame = Frame::new().fill(GROUND).inner_margin(Margin::same(8));
     SidePanel::left("panel").exact_width(width).resizable(false).frame(frame).show(ctx, |ui| {
@@ -44,7 +45,7 @@ pub fn panel(ctx: &Context, own: &mut Turned, model: &mut Model, out: &Path) {
             let mut slider = None;
             let found = |name: &str| name.contains(own.search.trim());
             if own.search.trim().is_empty() {
-                general(ui, model);
+                general(ui, model, overlay);
             }
             parameters(ui, &mut slider, model, &found);
             camera(ui, model, &found);
@@ -72,7 +73,7 @@ fn buttons(ui: &mut Ui, own: &mut Turned, model: &mut Model, out: &Path) {
 }
 
 /// Scene, time, quality, threads and level.
-fn general(ui: &mut Ui, model: &mut Model) {
+fn general(ui: &mut Ui, model: &mut Model, overlay: &mut Option<Overlay>) {
     egui::Grid::new("general").num_columns(2).show(ui, |ui| {
         ui.label("scene");
         let mut scene = model.scene;
@@ -108,6 +109,16 @@ fn general(ui: &mut Ui, model: &mut Model) {
                 if ui.selectable_label(name == model.simd, name).clicked() {
                     model.simd = name;
                 }
+            }
+        });
+        ui.end_row();
+        ui.label("see");
+        let name = overlay.map_or("the picture", |overlay| overlay.about().0);
+        egui::ComboBox::from_id_salt("see").selected_text(name).height(400.0).show_ui(ui, |ui| {
+            ui.selectable_value(overlay, None, "the picture");
+            for each in Overlay::all() {
+                let (name, about) = each.about();
+                ui.selectable_value(overlay, Some(each), name).on_hover_text(about);
             }
         });
         ui.end_row();

@@ -112,6 +112,33 @@ fn a_frame_that_is_copied_has_the_same_bytes() {
 }
 
 #[test]
+fn overlays_comparison_and_probe_look_at_the_frame() {
+    let Some(explorer) = Explorer::start(&["spheres", "--size", "640x360", "--at", "2"]) else { return };
+    let plain = explorer.state()["words"].clone();
+    for overlay in ["tile-times", "depth", "coverage", "samples", "ray-depth", "candidates"] {
+        explorer.xdotool("key F3");
+        explorer.expect(overlay, |state| state["overlay"] == overlay && state["words"] == plain);
+    }
+    explorer.xdotool("key Escape");
+    explorer.expect("picture", |state| state["overlay"] == "none");
+    explorer.xdotool("key F5 sleep 0.2 mousemove 500 250");
+    explorer.expect("probe", |state| state["probe"].starts_with("500,250,"));
+    let mut program = paprsek();
+    program.args(plain.split(' ')).args(["--pixel", "500,250"]).env_remove("DISPLAY");
+    let told = String::from_utf8(program.output().unwrap().stdout).unwrap();
+    assert_eq!(explorer.state()["probe"], format!("500,250,{}", told.lines().count()), "{told}");
+    explorer.xdotool("key F5 sleep 0.2 key F4");
+    let state = explorer.expect("PSNR", |state| state["compare"].parse::<f64>().is_ok());
+    // Between what the default quality is worth and equality.
+    assert!((30.0..60.0).contains(&number(&state, "compare")), "{state:?}");
+    // Another frame, another comparison.
+    explorer.xdotool("key period");
+    explorer.expect("another PSNR", |now| {
+        now["time"] != state["time"] && now["compare"].parse::<f64>().is_ok() && now["compare"] != state["compare"]
+    });
+}
+
+#[test]
 fn a_window_has_any_size() {
     let Some(explorer) = Explorer::start(&["shadow", "--size", "320x180", "--at", "3"]) else { return };
     for (width, height) in [(1100, 620), (333, 201), (320, 180)] {

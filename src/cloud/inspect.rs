@@ -1,0 +1,96 @@
+//! What the clouds' renderer does, made visible: steps that a ray takes, and what it meets.
+
+use super::march::{closest, cube};
+use super::seen::{SeenCloud, SeenClouds};
+use crate::frame::Tile;
+use crate::simd::lanes::{F, V3};
+use crate::simd::math::{opacity, to_f32};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use glam::Vec3;
+use std::f32::consts::LOG2_E;
+
+/// The ray through a point of the picture: its unit direction, and the distance of a solid, metres.
+pub fn ray(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> (Vec3, f32) {
+    let ray = clouds.view.ray(x as f32 + 0.5, y as f32 + 0.5);
+    let at = (y - tile.y) * Tile::SIZE + (x - tile.x);
+    (ray.normalize(), ray.length() / tile.inv_depth[at])
+}
+
+/// Steps that a ray takes in a cloud, up to `limit` metres: those of the loop of `march`, which ends in the same way.
+pub fn steps(level: Level, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
+    dispatch!(level, simd => steps_in(simd, seen, eye, d, limit, opaque))
+}
+
+#[inline(always)]
+fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
+    let cloud = &seen.cloud;
+    let first = |lanes: F<S>| lanes.as_slice()[0];
+    let ways = V3::splat(simd, d);
+    let (q, way) = closest::<S>((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, ways);
+    let [entry, exit] = cube(simd, q, ways);
+    let (way, q) = (first(way), Vec3::new(first(q.x), first(q.y), first(q.z)));
+    let (entry, exit) = (first(entry).max(-way), first(exit).min(limit / cloud.size - way));
+    let length = (exit - entry) / seen.steps;
+    // Written so that a NaN takes no steps.
+    if length.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+        return 0;
+    }
+    let (most, half) = (to_f32(cloud.voxels.edge() - 1), to_f32(cloud.voxels.edge()) * 0.5);
+    let reach = 0.9999 / (length * half * d.abs().max_element());
+    let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
+    let (mut step, mut taken, mut depth) = (0.0, 0, 0.0);
+    while step < seen.steps {
+        taken += 1;
+        let p = q + d * (entry + (step + 0.5) * length);
+        let u = (p * half + (half - 0.5)).max(Vec3::ZERO).min(Vec3::splat(most));
+        let u = V3::splat(simd, u);
+        let leap = first(cloud.voxels.leap(simd, u));
+        if leap < 0.0 {
+            depth += first(cloud.voxels.look_up(simd, u)[0]) * thickness;
+            if first(opacity(simd, F::<S>::splat(simd, depth))[1]) < opaque {
+                break;
+            }
+        }
+        step += (leap.max(0.0) * reach).floor() + 1.0;
+    }
+    taken
+}
+
+/// Tells what the ray through a pixel meets.
+pub fn explain(level: Level, clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+    let (d, limit) = ray(clouds, tile, x, y);
+    let eye = clouds.view.camera().eye;
+    let near = clouds.near(tile);
+    let mut lines = vec![format!("{} clouds that rays through the tile may meet", near.len())];
+    let opaque = clouds.settings.built().opaque;
+    for (number, seen) in near.into_iter().enumerate() {
+        let (hidden, lit, passes) = dispatch!(level, simd => met(simd, seen, eye, d, limit, opaque));
+        if hidden > 0.0 {
+            let imposters = match seen.imposters.len() {
+                0 => String::new(),
+                count => format!(", {count} imposters"),
+            };
+            lines.push(format!(
+                "cloud {number}, {:.0} m away: hides {:.1} % of what is behind, {:.0} % of its light the sun's, {} steps of \
+                 {}, {:.1} % comes through{imposters}",
+                seen.distance,
+                hidden * 100.0,
+                lit / (255.0 * hidden) * 100.0,
+                steps(level, seen, eye, d, limit, opaque),
+                seen.steps,
+                passes * 100.0
+            ));
+        }
+    }
+    lines
+}
+
+/// The share of what is behind a cloud that it hides, the part of that which the sun lights, of 255, and the share that
+/// comes through.
+#[inline(always)]
+fn met<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> (f32, f32, f32) {
+    let [limit, opaque] = [limit, opaque].map(|number| F::<S>::splat(simd, number));
+    let passage = seen.meet(simd, eye, V3::splat(simd, d), limit, opaque);
+    let first = |lanes: F<S>| lanes.as_slice()[0];
+    (first(passage.hidden), first(passage.lit), first(passage.transmittance))
+}
