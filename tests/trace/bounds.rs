@@ -1,6 +1,6 @@
 //! Which bodies a packet may meet: never one too few, against crossings in exact numbers; and how many too many.
 
-use crate::span::{Crossing, span};
+use testkit::span::{Crossing, span};
 use fearless_simd::{Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::simd::lanes::{F, M, U, V3};
