@@ -14,18 +14,29 @@ pub const DOUBT: f64 = 3.0 * 2.0 * ULP;
 
 /// Reflectance and cosine behind the surface of ratios of indices and cosines.
 #[inline(always)]
-pub fn wide<S: Simd>(simd: S, eta: &[f32], cosine: &[f32]) -> Vec<Option<(f32, f32)>> {
+pub fn lanes<S: Simd>(simd: S, eta: &[f32], cosine: &[f32]) -> Vec<Option<(f32, f32)>> {
     let lanes = F::<S>::LEN;
     let mut found = Vec::new();
     for (eta, cosine) in eta.chunks_exact(lanes).zip(cosine.chunks_exact(lanes)) {
         let (share, through, passes) = fresnel(simd, F::<S>::from_slice(simd, eta), F::<S>::from_slice(simd, cosine));
         let passes = passes.to_bitmask();
         found.extend((0..lanes).map(|lane| (passes >> lane & 1 == 1).then_some((share[lane], through[lane]))));
-        for lane in (0..lanes).filter(|lane| passes >> lane & 1 == 0) {
+    }
+    found
+}
+
+/// The same, and that a share of 1 and a cosine of 0 come with a total reflection.
+#[inline(always)]
+pub fn wide<S: Simd>(simd: S, eta: &[f32], cosine: &[f32]) -> Vec<Option<(f32, f32)>> {
+    let width = F::<S>::LEN;
+    for (eta, cosine) in eta.chunks_exact(width).zip(cosine.chunks_exact(width)) {
+        let (share, through, passes) = fresnel(simd, F::<S>::from_slice(simd, eta), F::<S>::from_slice(simd, cosine));
+        let passes = passes.to_bitmask();
+        for lane in (0..width).filter(|lane| passes >> lane & 1 == 0) {
             assert_eq!((share[lane], through[lane].max(0.0)), (1.0, 0.0));
         }
     }
-    found
+    lanes(simd, eta, cosine)
 }
 
 /// The squared cosine behind the surface, and the reflectance: from the same two numbers, without cancellation.
