@@ -214,6 +214,9 @@ pub fn walk(options: &Options) -> bool {
         }
         let three = times.map(|time| draw(renderer, &request, time));
         frames += 3;
+        if frames.is_multiple_of(3000) {
+            println!("{frames} frames, {failures} failures, {:.0} s", start.elapsed().as_secs_f64());
+        }
         pixels += 3 * (request.size.0 * request.size.1) as u64;
         let bad: u64 = three.iter().map(|drawn| drawn.bad).sum();
         // At no time there is a picture of some bytes, which no light is behind.

@@ -77,7 +77,14 @@ pub const CASES: &[Case] = &[
             lookups,
         )
     },
-    case("lamps to their reach and beyond", "", "cosine over squared distance, in f64", "relative", 1e-3, lamps),
+    case(
+        "lamps 0.5 to 5 m above level ground",
+        "fading light",
+        "cosine over squared distance, in f64",
+        "relative",
+        1e-3,
+        lamps,
+    ),
 ];
 
 const ELEVATIONS: [f64; 7] = [30.0, 1.0, 90.0, 5.0, 60.0, 15.0, 75.0];
@@ -256,13 +263,12 @@ fn lookups(effort: &Effort) -> Found {
     found
 }
 
-/// Lamps above level ground, by the formula of the light: its colour times the cosine, over `1 + a d + b d^2`, and nothing
-/// from its reach on.
+/// Lamps above level ground, by the formula of the light: its colour times the cosine, over `1 + a d + b d^2`.
 fn lamps(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(111));
     let size = [64, 48];
     for _ in 0..effort.of(60) {
-        let lamp = vec3(random.range(-3.0, 3.0) as f32, random.log(0.1, 5.0) as f32, random.range(-3.0, 3.0) as f32);
+        let lamp = vec3(random.range(-3.0, 3.0) as f32, random.log(0.5, 5.0) as f32, random.range(-3.0, 3.0) as f32);
         let fade = Vec2::new(random.range(0.0, 0.5) as f32, random.log(1e-2, 2.0) as f32);
         let camera = Camera::look_at(vec3(0.0, 9.0, 6.0), Vec3::ZERO, 0.9, 0.0);
         let world = World {

@@ -72,7 +72,7 @@ fn scattered(effort: &Effort) -> Found {
 
 fn order(_: &Effort) -> Found {
     let mut found = Found::default();
-    let mut errors = [0.0; 3];
+    let mut errors = [0.0f64; 3];
     for altitude in [40.0, 10.0, 2.0] {
         let light = |steps: u32, d: Vec3| {
             let mut sky = sky(altitude);
@@ -89,7 +89,7 @@ fn order(_: &Effort) -> Found {
             }
         }
     }
-    let orders = [0, 1].map(|k| 0.5 * (errors[k] / errors[k + 1] as f64).log2());
+    let orders = [0, 1].map(|k| 0.5 * (errors[k] / errors[k + 1]).log2());
     found.more(2.0 - orders[0].min(orders[1]), || format!("orders {orders:?}, squares {errors:?}"));
     found
 }
