@@ -250,5 +250,7 @@ pub fn walk(options: &Options) -> bool {
         options.seed,
         start.elapsed().as_secs_f64()
     );
+    // The hook as it was before anyone's.
+    drop(std::panic::take_hook());
     failures == 0
 }
