@@ -88,7 +88,7 @@ fn view_in<S: Simd>(simd: S, light: &Light, shown: &Shown) -> Option<usize> {
 /// The light that a light gives to a point, clouds aside.
 fn given(level: Level, light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3 {
     dispatch!(level, simd => {
-        let light = light_at(simd, light, lookup, V3::splat(simd, shown.point), V3::splat(simd, shown.normal));
+        let light = light_at(simd, light, lookup, (V3::splat(simd, shown.point), None), V3::splat(simd, shown.normal));
         Vec3::new(light.x.as_slice()[0], light.y.as_slice()[0], light.z.as_slice()[0])
     })
 }
@@ -114,6 +114,9 @@ pub fn explain(level: Level, world: &World, lookups: &[ShadowLookup], shown: &Sh
         let left = given(level, light, lookup, shown);
         let share = left.max_element() / most * 100.0;
         let map = match shadow_view(level, light, shown) {
+            Some(_) if light.shadow_views().is_some_and(|shadow| shadow.traced) => {
+                format!("{share:.0} % of it past shadows, traced from the flat face")
+            }
             Some(view) => format!("{share:.0} % of it past shadows, looked up in map {view}"),
             None => "without shadows here".into(),
         };

@@ -170,7 +170,7 @@ impl Layer for TraceLayer {
             1 => "1 eye ray here".into(),
             _ => format!("{count} eye rays here"),
         }];
-        lines.push("the path through the middle of the pixel, without thresholds and with lights as points:".into());
+        lines.push("through its middle, without thresholds, lights as points:".into());
         let middle = self.view.ray(x as f32 + 0.5, y as f32 + 0.5).normalize();
         let ray = Ray::new(self.view.camera().eye, middle);
         inspect::trail(&self.world, ("from the eye", ray, Vec3::ONE), 1, &mut lines);

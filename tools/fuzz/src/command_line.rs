@@ -1,7 +1,8 @@
 //! The command line: an error of one line, or values that are all within their ranges.
 
 use crate::args::{Args, Mode};
-use crate::display;
+use paprsek::frame::knobs::Knob;
+use paprsek::frame::placement::{CAMERA, PLANE};
 
 /// Words are split where this byte is.
 const BETWEEN: u8 = b'\n';
@@ -13,7 +14,6 @@ pub fn run(bytes: &[u8]) {
     // Words of a command line have no zeros inside, and live as long as the process: so it forgets each.
     let bytes: Vec<u8> = bytes.iter().copied().filter(|byte| *byte != 0).collect();
     let words = bytes.leak().split(|byte| *byte == BETWEEN).filter(|word| !word.is_empty());
-    display::count_leak();
     let args = match Args::from_words([&b"paprsek"[..]].into_iter().chain(words)) {
         Ok(args) => args,
         Err(why) => {
@@ -33,7 +33,9 @@ pub fn run(bytes: &[u8]) {
         assert!(width >= 2);
     }
     for (name, value) in args.options.values {
-        let parameter = args.scene().parameter(name).expect("a parameter of the scene");
+        let knob = Knob::named(name).map(|knob| &knob.parameter);
+        let placed = || CAMERA.iter().chain(&PLANE).find(|parameter| parameter.name == *name);
+        let parameter = args.scene().parameter(name).or(knob).or_else(placed).expect("a parameter that there is");
         assert!(parameter.takes(*value), "{name} is {value}");
     }
     match args.mode {
@@ -43,6 +45,7 @@ pub fn run(bytes: &[u8]) {
             assert!(frames.end <= 1_000_000 && (!args.still || frames == (0..1)), "{frames:?}");
         }
         Mode::Print(text) => assert!(text.ends_with('\n')),
+        Mode::Pixel((x, y)) => assert!(x < width && y < height),
         Mode::Play | Mode::List | Mode::Bench { .. } | Mode::Parameters { .. } => {}
     }
 }
