@@ -78,7 +78,7 @@ fn a_value_that_is_set_is_used() {
 fn the_camera_and_settings_are_set_too() {
     let picture = |words: &str| succeeds(run(&format!("spheres {STILL} {words}").trim().replace("  ", " ")));
     let plain = picture("");
-    assert!(picture("--set trace.cell=1") != plain);
+    assert!(picture("--set trace.antialias=0") != plain);
     // All that `fast` and `default` differ by in the tracer.
     assert!(picture("--set trace.antialias=0 --set trace.min_detail=0.2") == picture("--quality fast"));
     assert!(picture("--set camera.fov=70") != plain);

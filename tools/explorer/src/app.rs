@@ -9,6 +9,7 @@ use crate::overlay::Overlay;
 use crate::painter::Painter;
 use crate::panel::{self, Graph, Turned};
 use crate::probing::Probing;
+use crate::record::{self, Recording};
 use crate::still;
 use crate::window::Events;
 use crate::worker::Shown;
@@ -47,6 +48,9 @@ pub struct App {
     graph: Graph,
     turned: Turned,
     told: Option<(String, f64)>,
+    /// The recording that is under way.
+    pub recording: Option<Recording>,
+    pipe: Option<String>,
     out: PathBuf,
     clipboard: Option<arboard::Clipboard>,
     ctx: Context,
@@ -61,8 +65,8 @@ pub struct App {
 }
 
 impl App {
-    /// An explorer that has shown nothing yet. It writes files into `out`.
-    pub fn new(model: Model, out: PathBuf) -> Result<App, String> {
+    /// An explorer that has shown nothing yet. It writes files into `out`, and recordings into `pipe` if there is one.
+    pub fn new(model: Model, out: PathBuf, pipe: Option<String>) -> Result<App, String> {
         let ctx = Context::default();
         panel::dress(&ctx);
         Ok(App {
@@ -80,6 +84,8 @@ impl App {
             graph: Graph::default(),
             turned: Turned::default(),
             told: None,
+            recording: None,
+            pipe,
             out,
             clipboard: None,
             ctx,
@@ -111,7 +117,11 @@ impl App {
         }
         self.mouse(events, size);
         let stick = self.hold(typing, seconds);
+        // A recording moves time on by itself, frame by frame.
+        let playing = self.model.playing;
+        self.model.playing = playing && self.recording.is_none();
         self.model.advance(seconds, stick);
+        self.model.playing = playing;
         fresh || now >= self.repaint
     }
 
@@ -167,6 +177,7 @@ impl App {
             Action::Hud => self.hud = !self.hud,
             Action::Copy => self.copy(now),
             Action::Still => self.still(now),
+            Action::Record => self.record(now),
             Action::Quit if self.help => self.help = false,
             Action::Quit if self.probing.on => self.probing.on = false,
             Action::Quit if self.compare.on => self.compare.on = false,
@@ -192,6 +203,40 @@ impl App {
         let Some(shown) = &self.shown else { return };
         let saved = still::save(&self.out, shown);
         self.tell(saved.map_or_else(|why| why, |path| format!("saved {}", path.display())), now);
+    }
+
+    /// Begins to record, or ends it.
+    fn record(&mut self, now: f64) {
+        let Some(shown) = &self.shown else { return };
+        let told = match self.recording.take() {
+            Some(recording) => recording.end(),
+            None => {
+                let size = (shown.frame.width, shown.frame.height);
+                Recording::start(&self.out, self.pipe.as_deref(), size).map(|recording| {
+                    let told = format!("recording into {}; F9 ends it", recording.name);
+                    self.recording = Some(recording);
+                    told
+                })
+            }
+        };
+        self.tell(told.unwrap_or_else(|why| why), now);
+    }
+
+    /// Gives a frame to the recording, and moves time on to the next one.
+    fn keep(&mut self, now: f64) {
+        let (Some(recording), Some(shown)) = (&mut self.recording, &self.shown) else { return };
+        let frame = &shown.frame;
+        // A frame of another size ends it, and so does a program that has gone.
+        if (frame.width, frame.height) != recording.size || !recording.take(frame) {
+            self.record(now);
+        } else if self.model.playing {
+            self.model.seek(self.model.rate / record::RATE);
+        }
+    }
+
+    /// Ends what is under way.
+    pub fn end(&mut self) -> Result<(), String> {
+        self.recording.take().map_or(Ok(()), |recording| recording.end().map(drop))
     }
 
     fn tell(&mut self, what: String, now: f64) {
@@ -288,6 +333,7 @@ impl App {
         }
         self.graph.take(&shown);
         self.shown = Some(shown);
+        self.keep(now);
     }
 
     /// Where the panel's first slider of the scene is, pixels.

@@ -27,6 +27,10 @@ pub struct Args {
     /// Directory for pictures, recordings, and saved settings
     #[arg(long, default_value = ".")]
     pub out: PathBuf,
+    /// Program that takes what F9 records, as raw RGB frames on its standard input; {size} is their size. Without it
+    /// recordings are numbered PNGs
+    #[arg(long)]
+    pub pipe: Option<String>,
     /// Write a line about each picture that is shown into this file, or to stdout where it is -
     #[arg(long)]
     pub state: Option<PathBuf>,

@@ -51,6 +51,8 @@ pub enum Action {
     Copy,
     /// Saves the frame.
     Still,
+    /// Begins to record, or ends it.
+    Record,
     /// Ends.
     Quit,
 }
@@ -90,6 +92,7 @@ const ROWS: &[Row] = &[
     (Key::V, false, Action::Person),
     (Key::C, false, Action::Copy),
     (Key::F12, false, Action::Still),
+    (Key::F9, false, Action::Record),
     (Key::Escape, false, Action::Quit),
 ];
 
@@ -163,6 +166,7 @@ pub const HELP: &[(&str, &[(&str, &str)])] = &[
     ("Keep", &[
         ("C", "copy the frame as a command line"),
         ("F12", "save the picture as PNG"),
+        ("F9", "record, until F9 again"),
     ]),
     ("Show", &[
         ("F1", "this help"),

@@ -19,6 +19,7 @@ mod painter;
 mod panel;
 mod patience;
 mod probing;
+mod record;
 mod request;
 mod state;
 mod still;
@@ -73,7 +74,7 @@ fn run(args: Args) -> Result<(), String> {
     let mut window = Window::open(args.size)?;
     let mut maker = Maker::default();
     let worker = Background::start(move |(request, overlay)| maker.frame(request, overlay, |_| {}))?;
-    let (mut app, mut asked) = (App::new(model, args.out)?, None);
+    let (mut app, mut asked) = (App::new(model, args.out, args.pipe)?, None);
     let (began, mut last) = (Instant::now(), 0.0);
     let (mut pixels, mut size) = (Vec::new(), (0, 0));
     while !app.ends {
@@ -103,5 +104,5 @@ fn run(args: Args) -> Result<(), String> {
         let spent = began.elapsed().as_secs_f64() - now;
         sleep(LOOK.saturating_sub(Duration::from_secs_f64(spent)));
     }
-    Ok(())
+    app.end()
 }

@@ -51,7 +51,7 @@ impl States {
         let (mouse_x, mouse_y) = app.mouse_at().unwrap_or((-1.0, -1.0));
         let line = format!(
             "picture={} size={}x{} scene={} time={:.3} playing={} rate={} camera={pose} own={} plane={plane} flight={} \
-             speed={:.3} panel={} help={} times={} overlay={} compare={compare} probe={probe} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
+             speed={:.3} panel={} help={} times={} overlay={} compare={compare} probe={probe} recorded={} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
             self.count,
             size.0,
             size.1,
@@ -66,6 +66,7 @@ impl States {
             flag(app.help),
             flag(app.times),
             shown.coloured.as_ref().map_or("none", |coloured| coloured.overlay.about().0).replace(' ', "-"),
+            app.recording.as_ref().map_or("off".into(), |recording| recording.count.to_string()),
             shown.threads,
             request.simd,
             shown.ms,

@@ -14,7 +14,7 @@ const STEP: f64 = 1.0 / 60.0;
 
 /// Times both courses and prints their medians and slowest hundredths.
 pub fn run(model: Model, size: (usize, usize)) -> Result<(), String> {
-    let mut app = App::new(model, PathBuf::from("."))?;
+    let mut app = App::new(model, PathBuf::from("."), None)?;
     app.model.playing = false;
     let (mut pixels, mut now) = (Vec::new(), 0.0);
     let mut course = |app: &mut App, mouse: &dyn Fn(usize) -> (Option<(f32, f32)>, bool)| {

@@ -139,6 +139,28 @@ fn overlays_comparison_and_probe_look_at_the_frame() {
 }
 
 #[test]
+fn a_recording_has_every_thirtieth_of_a_second() {
+    let Some(explorer) = Explorer::start(&["shadow", "--size", "320x180", "--at", "3"]) else { return };
+    explorer.xdotool("key F9 sleep 0.3 key space");
+    explorer.expect("frames", |state| state["recorded"].parse().is_ok_and(|count: u32| count >= 6));
+    explorer.xdotool("key space sleep 0.3 key F9");
+    explorer.expect("end", |state| state["recorded"] == "off");
+    let directory = explorer.file("recording-1");
+    // The frame that stood still, and after it one for each step.
+    let mut program = paprsek();
+    program.args(["shadow", "--size", "320x180", "--from", "3", "--to", "3.2", "--fps", "30"]).env_remove("DISPLAY");
+    assert!(program.args(["--capture", "film"]).current_dir(explorer.out.path()).status().unwrap().success());
+    for number in 1..4 {
+        let png = image::open(directory.join(format!("frame-{number:06}.png"))).unwrap().into_rgb8();
+        let ppm = fs::read(explorer.out.path().join(format!("film/frame-{:06}.ppm", 90 + number))).unwrap();
+        let own = &ppm[ppm.len() - png.as_raw().len()..];
+        // Times of the explorer are in whole milliseconds: half of one at most.
+        let off = own.iter().zip(png.as_raw()).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+        assert!(off * 200 < own.len(), "frame {number}: {off} of {} codes", own.len());
+    }
+}
+
+#[test]
 fn a_window_has_any_size() {
     let Some(explorer) = Explorer::start(&["shadow", "--size", "320x180", "--at", "3"]) else { return };
     for (width, height) in [(1100, 620), (333, 201), (320, 180)] {
