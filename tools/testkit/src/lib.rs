@@ -1,6 +1,7 @@
 //! What Paprsek's tests, benches and report share: oracles, pictures and metrics, and running the program.
 
 pub mod drawn;
+pub mod frames;
 pub mod metrics;
 mod needs;
 pub mod picture;
