@@ -1,7 +1,9 @@
 //! The machine that measures.
 
+use crate::options::Result;
 use fearless_simd::Level;
 use paprsek::simd::level;
+use std::process::Command;
 
 /// The processor's name and number of threads.
 pub fn machine() -> String {
@@ -20,4 +22,10 @@ pub fn levels() -> Vec<(&'static str, Level)> {
         levels.push(all[0]);
     }
     levels
+}
+
+/// The day in Greenwich, as in 2026-11-22.
+pub fn date() -> Result<String> {
+    let date = Command::new("date").args(["-u", "+%F"]).output()?.stdout;
+    Ok(String::from_utf8(date)?.trim().into())
 }

@@ -8,6 +8,7 @@ mod depth_maps;
 mod dome;
 mod figures;
 mod imposters;
+mod levels;
 mod lights;
 mod likeness;
 mod machine;
@@ -22,6 +23,8 @@ mod samples;
 mod shadows;
 mod show;
 mod stills;
+mod unseen;
+mod worst;
 
 use clap::{Parser, Subcommand};
 use options::{Common, Quick, Result};
@@ -71,6 +74,10 @@ enum Measurement {
     Pace(pace::Options),
     /// Time and memory from the start to the first frame, to a pipe and in a window.
     Start(start::Options),
+    /// Kept frames at every SIMD level, on this machine, under emulators and in node.
+    Levels(levels::Options),
+    /// Error of default quality at instants that a hash of the date draws.
+    Unseen(unseen::Options),
     /// Everything that draws by itself: all but the four that build and play programs.
     All(Common),
 }
@@ -103,6 +110,8 @@ fn run(measurement: Measurement) -> Result {
         Measurement::IntroSpeed(options) => intro_speed::run(&options),
         Measurement::Pace(options) => pace::run(&options),
         Measurement::Start(options) => start::run(&options),
+        Measurement::Levels(options) => levels::run(&options),
+        Measurement::Unseen(options) => unseen::run(&options),
         Measurement::All(options) => all(&options),
     }
 }
