@@ -29,3 +29,14 @@ pub fn date() -> Result<String> {
     let date = Command::new("date").args(["-u", "+%F"]).output()?.stdout;
     Ok(String::from_utf8(date)?.trim().into())
 }
+
+/// The compiler and the revision of the sources.
+pub fn versions() -> String {
+    let first = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).output().ok()?.stdout;
+        Some(String::from_utf8(output).ok()?.trim().to_string()).filter(|line| !line.is_empty())
+    };
+    let rustc = first("rustc", &["--version"]).unwrap_or("unknown compiler".into());
+    let revision = first("git", &["describe", "--always", "--dirty"]).unwrap_or("unknown revision".into());
+    format!("{rustc}, revision {revision}")
+}
