@@ -3,7 +3,7 @@
 //! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, and the density
 //! in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
 //! exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
-//! square of the step. The reference is the same march in `f64` (`tests/cloud/oracle.rs`), and in the limit of many
+//! square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
 //! steps the transmittance of clouds that have one in closed form.
 
 use super::world::{Cloud, CloudLight};

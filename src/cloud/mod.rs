@@ -18,7 +18,7 @@
 //! Clouds are drawn after solids and before the sky: what they hide counts as covered, so the sky fills what is left.
 //!
 //! Every approximation is a field of [`CloudSettings`](crate::settings::CloudSettings). The reference is a march in
-//! `f64` (`tests/cloud/oracle.rs`).
+//! `f64` (`tools/testkit/src/voxels.rs`).
 
 mod cells;
 pub mod field;

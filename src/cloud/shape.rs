@@ -6,7 +6,7 @@
 //! surface and ends at a flat base, as rising air condenses at one height.
 //!
 //! The bench scenes specify [`CloudKind::CUMULUS`] down to the numbers; the reference is `cumulus` in
-//! `tests/cloud/oracle.rs`.
+//! `tools/testkit/src/voxels.rs`.
 
 use super::voxels::Voxels;
 use crate::noise::octaves_block;

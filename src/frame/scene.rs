@@ -77,7 +77,7 @@ pub type Values<'a> = &'a [(&'static str, f64)];
 /// The request for a frame: one instant of a scene, and how it is to be rendered.
 #[derive(Clone, Copy)]
 pub struct FrameSpec<'a> {
-    /// Seconds since the scene's start.
+    /// Seconds since the scene's start, finite: at infinity and NaN a scene gives some picture, whose light may be NaN.
     pub time: f64,
     /// Pixels per row.
     pub width: usize,

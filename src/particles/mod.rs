@@ -18,7 +18,7 @@
 //! of one colour, which together let a product of shares of the light behind through, and sparks that only add light.
 //!
 //! The only approximation is [`ParticleSettings::detail`](crate::settings::ParticleSettings::detail). The reference is
-//! a drawing of the same text in `f64` with time that is never rounded (`tests/particles/oracle.rs`).
+//! a drawing of the same text in `f64` with time that is never rounded (`tools/testkit/src/particles.rs`).
 
 mod batch;
 mod blend;

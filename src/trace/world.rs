@@ -86,7 +86,7 @@ pub struct Object {
     /// What it is made of.
     pub material: Material,
     /// Whether it keeps light from other bodies. Shadows are opaque, so glass usually should not; a floor below all
-    /// lights need not.
+    /// lights need not. A point within a ball is in its shadow only where the ball's middle lies towards the light.
     pub casts_shadow: bool,
 }
 

@@ -1,6 +1,5 @@
 //! Clouds in a tile: solids before, in and behind them, cells of pixels, and one cloud before another.
 
-use super::oracle::{DAY, FURNACE, ball, cloud, filled, span, truth};
 use fearless_simd::Level;
 use glam::{Vec3, vec3};
 use paprsek::cloud::{Cloud, CloudLayer, CloudLight};
@@ -11,6 +10,7 @@ use paprsek::view::Camera;
 use paprsek::view::View;
 use testkit::levels;
 use testkit::metrics::Difference;
+use testkit::voxels::{DAY, FURNACE, ball, cloud, filled, span, truth};
 
 /// A sum of a hundred roundings, and places that are good to 1e-5.
 const EXACT: f64 = 3e-5;

@@ -1,11 +1,11 @@
 //! What grows, and what the sun lights of it.
 
-use super::oracle::{cumulus, depth, lit};
 use fearless_simd::{Level, dispatch};
 use glam::vec3;
 use paprsek::cloud::{CloudKind, sunlight};
 use paprsek::scenes::bench::cumulus_set::{shape, sun};
 use testkit::levels;
+use testkit::voxels::{cumulus, depth, lit};
 
 const KINDS: [CloudKind; 2] = [CloudKind::CUMULUS, CloudKind::CONGESTUS];
 /// Every so many voxels are looked at: no divisor of 64.
@@ -63,7 +63,7 @@ fn a_slab_s_light_is_exact() {
     // Layers of one density across the sun's way: nothing varies sideways, so sweep and ray are the same.
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {
-            let mut voxels = super::oracle::filled(64, |place| (place[axis] * 4) as u8);
+            let mut voxels = testkit::voxels::filled(64, |place| (place[axis] * 4) as u8);
             let mut towards = glam::Vec3::ZERO;
             towards[axis] = sign;
             dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, towards, 20.0));

@@ -4,4 +4,3 @@ mod imposters;
 mod layer;
 mod light;
 mod march;
-mod oracle;

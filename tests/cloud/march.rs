@@ -1,12 +1,12 @@
 //! One cloud, ray by ray.
 
-use super::oracle::{DAY, FURNACE, aim, ball, cloud, filled, ray, rays, span, truth};
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
 use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
 use proptest::prelude::*;
 use std::sync::Arc;
 use testkit::levels;
+use testkit::voxels::{DAY, FURNACE, aim, ball, cloud, filled, ray, rays, span, truth};
 
 /// Transmittance is a sum of a hundred roundings of numbers up to 1.
 const ROUNDING: f64 = 100.0 * 6e-8;

@@ -1,9 +1,9 @@
 //! Frames a second do not matter: neither to an instant's picture nor to the light of a flame.
 
-use super::oracle::{SPARKS, fire};
 use super::truth::render;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::settings::Quality;
+use testkit::particles::{SPARKS, fire};
 
 const SIZE: (usize, usize) = (96, 54);
 

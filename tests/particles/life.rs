@@ -1,10 +1,10 @@
 //! Birth, death and what comes between, at any time.
 
-use super::layer::{Size, burn, dusk, off, same, snow, truth, worst};
-use super::oracle::random;
 use glam::{DVec3, Vec3, vec3};
 use paprsek::particles::{Fire, Flakes, Snow};
 use paprsek::scenes::bench::particles::{self, fires};
+use testkit::particles::random;
+use testkit::sprites::{Size, burn, dusk, off, same, snow, truth, worst};
 
 const SIZE: Size = (128, 72);
 /// As in the tests of sprites.

@@ -3,9 +3,7 @@
 mod fire_detail;
 mod flicker;
 mod history;
-mod layer;
 mod life;
-mod oracle;
 mod sprites;
 mod streaks;
 mod truth;

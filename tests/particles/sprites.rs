@@ -1,13 +1,13 @@
 //! Sprites in awkward places, before and in solids, across tiles, in colours and in great numbers.
 
-use super::layer::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth, view, worst};
-use super::oracle::{FLAKES, random, snow_beside};
 use glam::{DVec3, Vec3, vec3};
 use paprsek::frame::Renderer;
 use paprsek::particles::{Emitter, Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, fires, flakes};
 use paprsek::settings::Quality;
 use testkit::levels;
+use testkit::particles::{FLAKES, random, snow_beside};
+use testkit::sprites::{Behind, Size, burn, draw, dusk, off, same, snow, still, truth, view, worst};
 
 /// Light, where places on the screen are good to some 1e-5 pixels and sprites are about a pixel large, or larger.
 const PLACES: f64 = 1e-4;

@@ -1,12 +1,12 @@
 //! Flakes whose shutter stays open: rain.
 
-use super::layer::{Size, draw, view};
-use super::oracle::{Camera, Time, flake, random};
 use glam::{DMat2, DVec2, DVec3, Vec3, dvec2, vec3};
 use paprsek::frame::Renderer;
 use paprsek::particles::{Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, flakes};
 use paprsek::settings::Quality;
+use testkit::particles::{Camera, Time, flake, random};
+use testkit::sprites::{Size, draw, view};
 
 const SIZE: Size = (300, 240);
 

@@ -1,11 +1,11 @@
 //! The renderer's pictures of the bench scenes beside the oracle's.
 
-use super::oracle::{FLAKES, SPARKS, fire, flakes_in_the_cylinder, scene, snow};
 use glam::DVec3;
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use testkit::levels;
+use testkit::particles::{FLAKES, SPARKS, fire, flakes_in_the_cylinder, scene, snow};
 
 /// A multiple of neither tiles nor lanes in one direction, so that their edges are somewhere else in each row of them.
 const SIZE: (usize, usize) = (632, 356);

@@ -11,8 +11,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
 /// Codes of requests (X11/Xproto.h).
-const CREATE_WINDOW: u8 = 1;
-const CHANGE_WINDOW_ATTRIBUTES: u8 = 2;
+pub const CREATE_WINDOW: u8 = 1;
+pub const CHANGE_WINDOW_ATTRIBUTES: u8 = 2;
 const WINDOW_ATTRIBUTES: u8 = 3;
 pub const DESTROY_WINDOW: u8 = 4;
 pub const MAP_WINDOW: u8 = 8;

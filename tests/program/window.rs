@@ -428,6 +428,68 @@ fn a_window_keeps_the_aspect_when_resized() {
     succeeds(ending(child, AT_ONCE));
 }
 
+/// Most memory that a process may have had at once in a window of any size, MB.
+const MEMORY: usize = 500;
+/// Longest wait for a picture of gigabytes.
+const LONG: Duration = Duration::from_secs(120);
+
+/// Plays in a window of that size, whose middle is on the screen: the middle of what X can draw.
+fn play_large(display: &Display, [width, height]: [i32; 2]) -> Child {
+    let child = display.play(&["--at", "12"]);
+    let window = display.window();
+    display.xdotool(&["windowsize", &window, &width.to_string(), &height.to_string()]);
+    let [left, top] = [width, height].map(|side| 240 - side.min(32_767) / 2);
+    display.xdotool(&["windowmove", &window, &left.to_string(), &top.to_string()]);
+    let began = Instant::now();
+    while display.colours() < 3 {
+        assert!(began.elapsed() < LONG, "nothing to see at {width}x{height}");
+    }
+    child
+}
+
+#[test]
+fn a_window_of_any_size_has_pictures_and_esc_ends_at_once() {
+    let Some(display) = Display::open() else { return };
+    for size in [[16_400, 200], [40_000, 30_000], [65_535, 65_535]] {
+        let child = play_large(&display, size);
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.strip_suffix("kB")?.trim().parse().ok());
+        let most: usize = most.unwrap();
+        assert!(most < 1000 * MEMORY, "{most} kB at {size:?}");
+        display.xdotool(&["key", "Escape"]);
+        assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+    }
+}
+
+#[test]
+fn in_a_large_window_keys_are_heard_and_it_may_be_small_again() {
+    let Some(display) = Display::open() else { return };
+    let child = play_large(&display, [20_000, 9_000]);
+    let began = Instant::now();
+    let mut seen = Vec::new();
+    // Until a picture is whole.
+    while display.picture() != seen {
+        assert!(began.elapsed() < LONG, "a still that moves");
+        seen = display.picture();
+        sleep(Duration::from_millis(300));
+    }
+    display.xdotool(&["key", "Right"]);
+    while display.picture() == seen {
+        assert!(began.elapsed() < LONG, "no key is heard");
+    }
+    let window = display.window();
+    display.xdotool(&["windowsize", &window, "320", "180", "windowmove", &window, "160", "150"]);
+    let lit = |x: usize, y: usize| {
+        let picture = display.picture();
+        picture[3 * (640 * y + x)..][..3 * 20].iter().any(|byte| *byte > 0)
+    };
+    while !lit(170, 160) || !lit(450, 320) || lit(100, 240) || lit(320, 120) {
+        assert!(began.elapsed() < LONG, "nothing to see in an ordinary window again");
+    }
+    display.xdotool(&["key", "Escape"]);
+    assert!(succeeds(ending(child, AT_ONCE)).is_empty());
+}
+
 /// Has it minifb, a terminal and the benchmark?
 const PLAIN: bool = cfg!(feature = "minifb");
 

@@ -2,171 +2,12 @@
 //!
 //! The projection is the identity, so corners are where a test puts them, in steps of 1/256 pixel.
 
-use fearless_simd::{Level, Simd, dispatch};
-use glam::{Affine3A, Vec3, Vec4, vec3};
-use paprsek::frame::Tile;
-use paprsek::raster::bins::Bins;
-use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
-use paprsek::raster::id::{NOTHING, parts};
-use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
-use paprsek::raster::{Face, Mesh, Paint, Projection};
+use paprsek::raster::fill::CENTER;
+use paprsek::raster::triangle::SUB;
+use testkit::coverage::{
+    Corner, Corners, NEARNESS, SIZES, Shown, any_triangle, area, counts, covers, draw, piece, plane, sample_of, turn,
+};
 use testkit::{ULP, random::Random};
-
-/// Steps of 1/256 pixel, and nearness.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Corner {
-    x: i32,
-    y: i32,
-    near: f32,
-}
-
-type Corners = [Corner; 3];
-
-/// Odd, one pixel, whole tiles, a pixel more and less than tiles.
-const SIZES: [[u32; 2]; 5] = [[100, 70], [64, 64], [65, 63], [1, 1], [131, 5]];
-/// Corners may be that far from the picture's middle before they are clipped, steps.
-const GUARD: i32 = 16384 * SUB;
-
-fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> SetupMesh {
-    let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }], ..Mesh::default() };
-    for corners in triangles {
-        let first = mesh.points.len() as u16;
-        mesh.faces.push(Face { corners: [first, first + 1, first + 2], paint: 0 });
-        let step = 1.0 / SUB as f32;
-        mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
-    }
-    let projection = Projection { rows: Vec4::AXES, size, texel: 1.0 };
-    TriangleSetup { projection, back_faces, shaded: false }.set_up(&mesh, &Affine3A::IDENTITY)
-}
-
-/// What each pixel of a picture shows: nearness and number of the triangle.
-#[derive(Clone, PartialEq, Debug)]
-struct Shown(Vec<(f32, Option<usize>)>);
-
-/// Draws pieces as a frame does: by the tiles' lists.
-fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: SubPixel) -> Shown {
-    #[inline(always)]
-    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], sample: SubPixel, out: &mut Visible) {
-        fill(simd, pieces, ids, at[0] as i32, at[1] as i32, sample, out);
-    }
-    let [width, height] = size.map(|n| n as usize);
-    let bins = Bins::new(pieces, size);
-    let mut shown = vec![(0.0, None); width * height];
-    let mut out = Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
-    for y in (0..height).step_by(Tile::SIZE) {
-        for x in (0..width).step_by(Tile::SIZE) {
-            let ids = bins.of(x / Tile::SIZE, y / Tile::SIZE);
-            if ids.is_empty() {
-                continue;
-            }
-            out.inv_depth.fill(0.0);
-            out.id.fill(NOTHING);
-            dispatch!(level, simd => tile(simd, pieces, ids, [x, y], sample, &mut out));
-            for row in 0..Tile::SIZE.min(height - y) {
-                for column in 0..Tile::SIZE.min(width - x) {
-                    let at = row * Tile::SIZE + column;
-                    let id = (out.id[at] != NOTHING).then(|| parts(out.id[at]).1);
-                    shown[(y + row) * width + x + column] = (out.inv_depth[at], id);
-                }
-            }
-        }
-    }
-    Shown(shown)
-}
-
-/// Where the sample of a pixel is, steps.
-fn sample_of(pixel: usize, width: u32, sample: SubPixel) -> [i128; 2] {
-    let (x, y) = (pixel as i128 % width as i128, pixel as i128 / width as i128);
-    [x * SUB as i128 + sample[0] as i128, y * SUB as i128 + sample[1] as i128]
-}
-
-/// Twice the area of `a`, `b` and a point; positive where they turn clockwise on the screen.
-fn turn(a: Corner, b: Corner, s: [i128; 2]) -> i128 {
-    (b.x as i128 - a.x as i128) * (s[1] - a.y as i128) - (b.y as i128 - a.y as i128) * (s[0] - a.x as i128)
-}
-
-fn area(t: &Corners) -> i128 {
-    turn(t[0], t[1], [t[2].x as i128, t[2].y as i128])
-}
-
-/// Is a point a hair to the right of the sample, and a hair of that hair below it, inside? That is the top-left rule:
-/// such a point is on no edge.
-fn covers(t: &Corners, s: [i128; 2]) -> bool {
-    let sign = area(t).signum();
-    sign != 0
-        && (0..3).all(|k| {
-            let (a, b) = (t[k], t[(k + 1) % 3]);
-            let (dx, dy) = (sign * (b.x as i128 - a.x as i128), sign * (b.y as i128 - a.y as i128));
-            (sign * turn(a, b, s), -dy, dx) > (0, 0, 0)
-        })
-}
-
-/// A number of steps that is likely to go wrong, about a picture of `size` pixels.
-fn hard(random: &mut Random, size: u32) -> i32 {
-    let pixel = random.range(-20.0, size as f64 + 20.0).floor() as i32 * SUB;
-    match (random.unit() * 6.0) as u32 {
-        0 => pixel,
-        1 => pixel + SUB / 2,
-        2 => (pixel / (SUB * 64)) * SUB * 64 + (random.unit() * 3.0) as i32 - 1,
-        3 => pixel + SUB / 2 + (random.unit() * 3.0) as i32 - 1,
-        4 => pixel + (random.unit() * SUB as f64) as i32,
-        _ => [0, SUB / 2, size as i32 * SUB, size as i32 * SUB - SUB / 2][(random.unit() * 4.0) as usize],
-    }
-}
-
-/// Triangles of every hard kind.
-fn any_triangle(random: &mut Random, size: [u32; 2]) -> Corners {
-    let mut t = [Corner::default(); 3];
-    for corner in &mut t {
-        *corner = Corner {
-            x: hard(random, size[0]),
-            y: hard(random, size[1]),
-            near: random.log(1e-5, 1.0) as f32, // More than nothing, which is 0.
-        };
-    }
-    let wiggle = |random: &mut Random, k: i32| (random.unit() * (2 * k + 1) as f64) as i32 - k;
-    match (random.unit() * 8.0) as u32 {
-        // Tiny.
-        0 => {
-            for i in 1..3 {
-                (t[i].x, t[i].y) = (t[0].x + wiggle(random, 300), t[0].y + wiggle(random, 300));
-            }
-        }
-        // Slivers: two corners in almost one place, or the third almost on the edge between the others.
-        1 => (t[1].x, t[1].y) = (t[0].x + wiggle(random, 2), t[0].y + wiggle(random, 2)),
-        2 => {
-            let k = random.unit();
-            let between = |a: i32, b: i32| a + ((b - a) as f64 * k).round() as i32;
-            (t[2].x, t[2].y) = (between(t[0].x, t[1].x), between(t[0].y, t[1].y));
-            (t[2].x, t[2].y) = (t[2].x + wiggle(random, 1), t[2].y + wiggle(random, 1));
-        }
-        // An edge along a row or a column of samples.
-        3 => t[1].y = t[0].y,
-        4 => t[2].x = t[0].x,
-        // Huge, up to the guard band and exactly on it.
-        5 => {
-            for corner in &mut t {
-                let at = |random: &mut Random, size: u32| {
-                    let far = random.range(-1.0, 1.0) * 1.3 * GUARD as f64;
-                    (far as i32).clamp(-GUARD, GUARD) + size as i32 * SUB / 2
-                };
-                (corner.x, corner.y) = (at(random, size[0]), at(random, size[1]));
-            }
-        }
-        // A hair wide, with a long edge through samples: all digits of f32 cancel in its plane.
-        6 => {
-            for corner in &mut t[..2] {
-                let center = |x: i32| x.div_euclid(SUB) * SUB + SUB / 2;
-                (corner.x, corner.y) = (center(corner.x), center(corner.y));
-            }
-            (t[1].x, t[1].y) =
-                (t[0].x + (t[1].x - t[0].x) / SUB / 4 * 4 * SUB, t[0].y + (t[1].y - t[0].y) / SUB / 4 * 4 * SUB);
-            (t[2].x, t[2].y) = (t[1].x + wiggle(random, 2), t[1].y + wiggle(random, 2));
-        }
-        _ => {}
-    }
-    t
-}
 
 #[test]
 fn coverage_is_exact() {
@@ -197,19 +38,6 @@ fn coverage_is_exact() {
     }
     // The cases are worth something: about half of the triangles look here, and they cover pixels.
     assert!(drawn > 1200 && covered > pixels / 100, "{drawn} triangles, {covered} of {pixels} pixels");
-}
-
-/// How often each pixel is covered when each triangle is drawn alone.
-fn counts(level: Level, triangles: &[Corners], size: [u32; 2], sample: SubPixel) -> Vec<u32> {
-    let mut counts = vec![0; (size[0] * size[1]) as usize];
-    for t in triangles {
-        // Whichever way it looks.
-        let shown = draw(level, &[piece(&[*t], size, area(t) > 0)], size, sample);
-        for (count, pixel) in counts.iter_mut().zip(shown.0) {
-            *count += pixel.1.is_some() as u32;
-        }
-    }
-    counts
 }
 
 #[test]
@@ -287,28 +115,6 @@ fn fans_cover_their_polygon_exactly_once() {
     }
     assert!(inside > 100_000, "{inside}");
 }
-
-/// Nearness of a triangle's plane at a point, and the sum of the terms' sizes that f32 adds up, whatever corner it
-/// starts from.
-fn plane(t: &Corners, s: [i128; 2]) -> (f64, f64) {
-    let whole = area(t) as f64;
-    let mut z = 0.0;
-    let (mut zx, mut zy) = (0.0, 0.0);
-    for k in 0..3 {
-        let (a, b) = (t[(k + 1) % 3], t[(k + 2) % 3]);
-        let near = t[k].near as f64;
-        z += near * (turn(a, b, s) as f64 / whole);
-        zx -= near * (b.y as f64 - a.y as f64) / whole;
-        zy += near * (b.x as f64 - a.x as f64) / whole;
-    }
-    let reach = |at: i128, v: [i32; 3]| v.map(|x| (x as f64 - at as f64).abs()).into_iter().fold(0.0, f64::max);
-    let (dx, dy) = (reach(s[0], t.map(|c| c.x)), reach(s[1], t.map(|c| c.y)));
-    let largest = t.map(|c| c.near as f64).into_iter().fold(0.0, f64::max);
-    (z, largest + zx.abs() * dx + zy.abs() * dy)
-}
-
-/// Roundings of the largest term: two slopes, two offsets, two products, two sums.
-const NEARNESS: f64 = 6.0;
 
 #[test]
 fn nearness_is_the_plane_and_stays_between_the_corners() {

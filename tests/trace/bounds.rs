@@ -1,6 +1,5 @@
 //! Which bodies a packet may meet: never one too few, against crossings in exact numbers; and how many too many.
 
-use crate::span::{Crossing, span};
 use fearless_simd::{Simd, dispatch, prelude::*};
 use glam::{Mat3, Vec3, vec3};
 use paprsek::simd::lanes::{F, M, U, V3};
@@ -9,6 +8,7 @@ use paprsek::trace::ray::{RayPacket, Search, nearest};
 use paprsek::trace::world::NOWHERE;
 use paprsek::trace::{Material, Object, Shape, World};
 use testkit::random::Random;
+use testkit::span::{Crossing, span};
 
 /// Most lanes of any level.
 const LANES: usize = 16;

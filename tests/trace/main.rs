@@ -3,8 +3,6 @@
 
 mod adaptive;
 mod bounds;
-mod exact;
 mod fresnel;
 mod shapes;
-mod span;
 mod whitted;

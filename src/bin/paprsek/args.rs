@@ -191,7 +191,11 @@ impl Args {
     /// Reads the command line of this process. An error is one line without the program's name.
     #[inline(never)]
     pub fn from_env() -> Result<Args, Vec<u8>> {
-        let mut words = words();
+        Args::from_words(words())
+    }
+
+    /// Reads the words of a command line.
+    pub fn from_words(mut words: impl Iterator<Item = &'static [u8]>) -> Result<Args, Vec<u8>> {
         let (mut scene, mut values, mut settings) = (None, [None; OPTIONS], Vec::new());
         // The first is the program's own name.
         words.next();

@@ -2,70 +2,111 @@
 
 #![allow(unsafe_code)]
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-use std::io::{Write, stderr};
-use std::process;
 #[cfg(target_os = "linux")]
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Most bytes that may be asked for at once within [`bounded`]: minifb's picture for a window of 16,384 x 16,384 pixels,
-/// in a vector that doubles where it grows.
-const MOST: usize = 2 << 30;
-/// What is said where more is asked for.
-pub const TOO_LARGE: &str = "the window is too large";
+#[cfg(all(unix, not(target_os = "macos"), feature = "x11", not(feature = "wayland")))]
+pub use size::too_large;
+#[cfg(all(unix, not(target_os = "macos"), feature = "x11"))]
+pub use size::{LARGEST, bound};
 
-thread_local! {
-    // Without a destructor, and known before the program runs, so it may be asked for wherever memory is.
-    static IS_BOUNDED: Cell<bool> = const { Cell::new(false) };
-}
+/// The bound to the size that minifb hears of.
+#[cfg(all(unix, not(target_os = "macos"), feature = "x11"))]
+mod size {
+    use raw_window_handle::{HasDisplayHandle, HasWindowHandle, RawDisplayHandle, RawWindowHandle};
+    use std::ffi::c_int;
+    use std::sync::OnceLock;
+    use std::sync::atomic::{AtomicU32, Ordering};
+    use x11_dl::xlib::{ConfigureNotify, Display, Window, XEvent, Xlib, xEvent};
 
-/// Makes a call into minifb, which keeps a picture as large as its window, whatever size the display says that is: 17 GB
-/// for the largest. Where that is too large the process ends with one line on stderr, before there is such memory.
-pub fn bounded<T>(call: impl FnOnce() -> T) -> T {
-    IS_BOUNDED.set(true);
-    let value = call();
-    IS_BOUNDED.set(false);
-    value
-}
+    /// Largest side of a window that minifb hears of, pixels: that of the largest frame.
+    pub const LARGEST: u16 = 16_384;
 
-/// The system's memory, with that bound.
-struct Memory;
+    /// What Xlib makes an event of, from the bytes that the server has sent.
+    type Convert = unsafe extern "C" fn(*mut Display, *mut XEvent, *mut xEvent) -> c_int;
 
-#[global_allocator]
-static MEMORY: Memory = Memory;
-
-/// To be called before so many bytes are asked for.
-fn check(size: usize) {
-    if size > MOST && IS_BOUNDED.replace(false) {
-        let _ = stderr().write_all(format!("paprsek: {TOO_LARGE}\n").as_bytes());
-        process::exit(1);
-    }
-}
-
-// SAFETY: every call goes to the system's allocator as it came, or does not return.
-unsafe impl GlobalAlloc for Memory {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        check(layout.size());
-        // SAFETY: the caller's promise is the one that is asked for.
-        unsafe { System.alloc(layout) }
+    /// How minifb's window is bounded.
+    struct Bound {
+        window: Window,
+        /// The side that minifb is told of in the place of a larger one where the window is too large.
+        instead: u16,
+        /// Xlib's own conversion.
+        convert: Convert,
     }
 
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        check(layout.size());
-        // SAFETY: as above.
-        unsafe { System.alloc_zeroed(layout) }
+    static BOUND: OnceLock<Bound> = OnceLock::new();
+    /// Width and height of the window while it is too large for minifb, 16 bits each, and else 0.
+    static TOO_LARGE: AtomicU32 = AtomicU32::new(0);
+
+    /// Width and height of the window in pixels while one of them is above [`LARGEST`]. minifb does not know then.
+    #[cfg(not(feature = "wayland"))]
+    pub fn too_large() -> Option<(usize, usize)> {
+        let size = TOO_LARGE.load(Ordering::Relaxed) as usize;
+        (size > 0).then_some((size & 0xffff, size >> 16))
     }
 
-    unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        check(size);
-        // SAFETY: as above.
-        unsafe { System.realloc(place, layout, size) }
+    /// Bounds what minifb hears of its window's size, which it keeps a picture of: 17 GB for the largest. Where a side is
+    /// above [`LARGEST`], minifb hears of a window of at most `instead` per side. Only the first window is bounded, and
+    /// none where the window is not an X server's.
+    ///
+    /// Another client may resize the window between any question of ours and minifb's, and any client may send minifb an
+    /// event that names a size. So the bound is where Xlib makes events of what has come, which is a hook of its own for
+    /// its extensions.
+    pub fn bound(window: &(impl HasDisplayHandle + HasWindowHandle), instead: u16) {
+        let handles = (window.display_handle().map(|handle| handle.as_raw()), window.window_handle());
+        let (Ok(RawDisplayHandle::Xlib(display)), Ok(handle)) = handles else { return };
+        let (Some(display), RawWindowHandle::Xlib(handle)) = (display.display, handle.as_raw()) else { return };
+        let (display, window) = (display.cast::<Display>().as_ptr(), handle.window);
+        // minifb has opened the same library.
+        let Ok(xlib) = Xlib::open() else { return };
+        // SAFETY: the display is open as long as the window, which is borrowed here. The hook is a function that stays,
+        // and is called as Xlib's own is: with a display, room for an event, and the 32 bytes that make it.
+        let Some(convert) = (unsafe { (xlib.XESetWireToEvent)(display, ConfigureNotify, Some(convert)) }) else {
+            return;
+        };
+        let bound = BOUND.get_or_init(|| Bound { window, instead, convert });
+        // What has come while the window was opened has been converted already. The last word counts.
+        let mut last = None;
+        let mut event = XEvent { pad: [0; 24] };
+        // SAFETY: as above; the event is written, and read back as the type that was asked for.
+        while unsafe { (xlib.XCheckTypedWindowEvent)(display, window, ConfigureNotify, &mut event) } != 0 {
+            last = Some(event);
+        }
+        if let Some(mut event) = last {
+            bound.apply(&mut event);
+            // SAFETY: as above; Xlib copies the event.
+            unsafe { (xlib.XPutBackEvent)(display, &mut event) };
+        }
     }
 
-    unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
-        // SAFETY: as above.
-        unsafe { System.dealloc(place, layout) }
+    /// Xlib's conversion of a window's new size, bounded.
+    unsafe extern "C" fn convert(display: *mut Display, event: *mut XEvent, wire: *mut xEvent) -> c_int {
+        // It has been set before the next event can come.
+        let Some(bound) = BOUND.get() else { return 0 };
+        // SAFETY: Xlib's own function gets what Xlib has called this one with.
+        let is_wanted = unsafe { (bound.convert)(display, event, wire) };
+        // SAFETY: the event is Xlib's to write, and has just been written.
+        bound.apply(unsafe { &mut *event });
+        is_wanted
+    }
+
+    impl Bound {
+        /// Notes the size that an event of the right type names, and bounds it.
+        fn apply(&self, event: &mut XEvent) {
+            // SAFETY: the event is a `ConfigureNotify`, and every bit pattern is a number.
+            let configure = unsafe { &mut event.configure };
+            if configure.window != self.window {
+                return;
+            }
+            // 16 bits each, as the server has sent them.
+            let [width, height] = [configure.width, configure.height].map(|side| side as u16);
+            let is_too_large = width.max(height) > LARGEST;
+            let size = if is_too_large { u32::from(width) | u32::from(height) << 16 } else { 0 };
+            TOO_LARGE.store(size, Ordering::Relaxed);
+            if is_too_large {
+                (configure.width, configure.height) = (width.min(self.instead).into(), height.min(self.instead).into());
+            }
+        }
     }
 }
 

@@ -39,7 +39,7 @@ struct Effort {
     instants: u64,
 }
 
-const FULL: Effort = Effort { size: (320, 180), instants: 5 };
+const FULL: Effort = Effort { size: (640, 360), instants: 3 };
 const QUICK: Effort = Effort { size: (160, 90), instants: 1 };
 
 /// An instant of a scene.

@@ -1,13 +1,37 @@
-//! What Paprsek's tests, benches and report share: oracles, pictures and metrics, and running the program.
+//! What Paprsek's tests, benches and tools share: oracles, pictures and metrics, and running the program.
 
+// Oracles of renderers, for what the 64 kB build may leave out.
+#[cfg(feature = "full")]
+pub mod bodies;
+#[cfg(feature = "full")]
+pub mod coverage;
 pub mod drawn;
+pub mod elementary;
+#[cfg(feature = "full")]
+pub mod exact;
+pub mod found;
 pub mod frames;
+pub mod fresnel;
+#[cfg(feature = "full")]
+pub mod lines;
 pub mod metrics;
 mod needs;
+#[cfg(feature = "full")]
+pub mod particles;
+pub mod perlin;
 pub mod picture;
 pub mod random;
 pub mod run;
+pub mod sky;
+#[cfg(feature = "full")]
+pub mod span;
+#[cfg(feature = "full")]
+pub mod sprites;
+pub mod sunny;
+#[cfg(feature = "full")]
+pub mod voxels;
 
+pub use found::Found;
 pub use needs::{Tool, left_out, needs};
 pub use paprsek::simd::level::all as levels;
 

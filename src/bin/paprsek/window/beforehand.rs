@@ -25,12 +25,14 @@ const NO_INPUT_METHOD: &str = "@im=none";
 /// An authority file that is a device, but ends: the usual way to have none.
 const NULL: &str = "/dev/null";
 
-/// Checks that nothing keeps minifb from opening a window or ends it. The error says what would.
-pub fn check() -> Result<(), String> {
+/// Checks that nothing keeps minifb from opening a window or ends it, and says whether the X server is one of this
+/// machine, which takes a connection of our own too. The error says what would keep minifb or end it.
+pub fn check() -> Result<bool, String> {
     descriptors()?;
     authority()?;
-    server()?;
-    input_method()
+    let is_near = server()?;
+    input_method()?;
+    Ok(is_near)
 }
 
 fn descriptors() -> Result<(), String> {
@@ -49,11 +51,11 @@ fn authority() -> Result<(), String> {
 }
 
 /// A server that is not found here may be one of another machine, and Xlib's error for that is a safe one.
-fn server() -> Result<(), String> {
+fn server() -> Result<bool, String> {
     let mut why = "";
     match Server::find(&mut why) {
-        Some(server) => server.screen().map(drop).ok_or(UNFIT.into()),
-        None if why.is_empty() => Ok(()),
+        Some(server) => server.screen().map(|_| true).ok_or(UNFIT.into()),
+        None if why.is_empty() => Ok(false),
         None => Err(why.into()),
     }
 }

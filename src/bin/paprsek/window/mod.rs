@@ -6,6 +6,8 @@
 
 #[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
 mod beforehand;
+#[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
+mod beside;
 mod common;
 #[cfg(all(feature = "minifb", unix, not(feature = "wayland")))]
 mod ears;
@@ -15,6 +17,8 @@ mod minifb;
 mod patience;
 #[cfg(all(unix, not(feature = "wayland")))]
 mod protocol;
+#[cfg(all(unix, not(feature = "wayland")))]
+mod put;
 #[cfg(not(feature = "minifb"))]
 mod x11;
 #[cfg(all(unix, feature = "minifb"))]

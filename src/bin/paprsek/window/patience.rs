@@ -58,6 +58,12 @@ pub fn leave() {
     LEAVING.store(true, Ordering::Relaxed);
 }
 
+/// Whether Esc has been heard so.
+#[cfg(not(feature = "wayland"))]
+pub fn is_leaving() -> bool {
+    LEAVING.load(Ordering::Relaxed)
+}
+
 /// Has the process wait for this, where Esc ends it in the middle of a call.
 pub fn leave_once(may_end: impl Fn() -> bool + Send + Sync + 'static) {
     let _ = MAY_END.set(Box::new(may_end));

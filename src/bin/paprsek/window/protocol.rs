@@ -29,6 +29,8 @@ pub const fn request(code: u32, detail: u32, words: u32) -> u32 {
 // Codes of requests and events (X11/Xproto.h).
 const CONFIGURE_WINDOW: u32 = 12;
 const INTERN_ATOM: u32 = 16;
+/// Makes a graphics context.
+pub const CREATE_GC: u32 = 55;
 const GET_KEYBOARD_MAPPING: u32 = 101;
 const SEND_EVENT: u32 = 25;
 /// The bits of an event's code. The eighth says that another client has sent the event.
@@ -49,6 +51,8 @@ const PLACE_AND_SIZE: u32 = 0b1111;
 const FROM_APPLICATION: u32 = 1;
 
 // Words of what the server says of itself.
+/// The first of the numbers that the client may give to what it makes.
+pub const SETUP_ID: usize = 1;
 /// The length of the vendor's name in bytes, and of the longest request in words, 16 bits each.
 pub const SETUP_LENGTHS: usize = 4;
 /// The number of screens, the number of formats, and the byte order of pixels, 8 bits each.

@@ -3,10 +3,10 @@
 
 use super::common::{TITLE, keysym};
 use super::protocol::{
-    BITS_32, CLIENT_MESSAGE, EVENT_CODE, KEY_PRESS, Keyboard, PACKET, SETUP_LENGTHS, Server, UNFIT, WAITS, bytes,
-    request,
+    BITS_32, CLIENT_MESSAGE, CREATE_GC, EVENT_CODE, KEY_PRESS, Keyboard, PACKET, SETUP_ID, Server, UNFIT, request,
 };
-use paprsek::frame::{Frame, resample};
+use super::put::{Surface, Target, put};
+use paprsek::frame::Frame;
 use rustix::io::read;
 use std::array::from_fn;
 use std::mem::take;
@@ -16,19 +16,12 @@ const CREATE_WINDOW: u32 = 1;
 const MAP_WINDOW: u32 = 8;
 const CHANGE_PROPERTY: u32 = 18;
 const CREATE_PIXMAP: u32 = 53;
-const CREATE_GC: u32 = 55;
-const CLEAR_AREA: u32 = 61;
 const POLY_FILL_RECTANGLE: u32 = 70;
-const PUT_IMAGE: u32 = 72;
 const CREATE_CURSOR: u32 = 93;
 
 const KEY_RELEASE: u32 = 3;
 const DESTROY_NOTIFY: u32 = 17;
 const CONFIGURE_NOTIFY: u32 = 22;
-
-// Words of what the server says of itself.
-/// The first of the numbers that the client may give to what it makes.
-const SETUP_ID: usize = 1;
 
 // Words of events.
 /// When a key was pressed or released, milliseconds.
@@ -45,8 +38,6 @@ const WM_NAME: u32 = 39;
 
 /// The size of the letters of a property.
 const BITS_8: u32 = 8;
-/// The layout of an image: whole pixels.
-const Z_PIXMAP: u32 = 2;
 /// What is set when a window is created: background, events and cursor.
 const BACKGROUND_EVENTS_CURSOR: u32 = 1 << 1 | 1 << 11 | 1 << 14;
 /// The events that are heard: key down, key up, and what happens to the window (StructureNotify).
@@ -64,11 +55,6 @@ const CURSOR: u32 = 3;
 /// The graphics context that draws the cursor's picture.
 const PEN: u32 = 4;
 
-/// Words of a PutImage request before its pixels.
-const PUT_IMAGE_HEAD: usize = 6;
-/// Largest side of what is drawn, pixels: X counts them no further. In a larger window the picture is in the upper left
-/// corner. A frame has at most half of that, and is scaled.
-const MAX_SIDE: usize = 0x7fff;
 /// Most events that are heard at once, so that a server that never stops talking does not keep us.
 const EVENTS_AT_ONCE: usize = 64;
 /// Longest time from the release to the press that the server makes up while a held key repeats, milliseconds.
@@ -189,47 +175,7 @@ impl Window {
 
     /// Shows a frame, as large as it fits into the window at its own aspect.
     pub fn show(&mut self, frame: &Frame) -> Result<(), String> {
-        self.put(frame).ok_or_else(|| "the display went away".into())
-    }
-
-    fn put(&mut self, frame: &Frame) -> Option<()> {
-        // Pixels that the longest request has room for. A picture is no wider, so that one row fits, and no higher
-        // either.
-        let room = (self.server.setup[SETUP_LENGTHS] >> 16) as usize;
-        let room = room.saturating_sub(PUT_IMAGE_HEAD).clamp(1, MAX_SIDE);
-        let size = (self.size.0.min(room), self.size.1.min(room));
-        let (columns, count) = resample::fit(frame, size);
-        let (left, top) = (size.0.saturating_sub(columns) / 2, size.1.saturating_sub(count) / 2);
-        let id = self.server.setup[SETUP_ID];
-        let band_rows = room / columns;
-        self.server.waits = WAITS;
-        if take(&mut self.resized) {
-            // What was sent for another size may lie outside of this picture.
-            self.server.send(&[request(CLEAR_AREA, 0, 4), id, 0, 0])?;
-        }
-        for first in (0..count).step_by(band_rows) {
-            let rows = first..count.min(first + band_rows);
-            let mut band = bytes(&[
-                request(PUT_IMAGE, Z_PIXMAP, (PUT_IMAGE_HEAD + rows.len() * columns) as u32),
-                id,
-                id | CONTEXT,
-                columns as u32 | (rows.len() as u32) << 16,
-                left as u32 | ((top + first) as u32) << 16,
-                self.depth << 8,
-            ]);
-            band.extend_from_slice(&resample::rows(frame, columns, count, rows));
-            self.server.waits = WAITS;
-            let mut rest = &*band;
-            while !rest.is_empty() {
-                // However long the whole frame takes, Esc ends at once.
-                self.listen()?;
-                if self.pressed.contains(&keysym::ESCAPE) {
-                    return Some(());
-                }
-                rest = &rest[self.server.push(rest)?..];
-            }
-        }
-        Some(())
+        put(self, frame).ok_or_else(|| "the display went away".into())
     }
 
     /// Fills the screen, or goes back to the usual size.
@@ -286,6 +232,30 @@ impl Window {
             }
         }
         Some(())
+    }
+}
+
+impl Surface for Window {
+    #[inline(always)]
+    fn server(&mut self) -> &mut Server {
+        &mut self.server
+    }
+
+    #[inline(always)]
+    fn target(&self) -> Target {
+        let id = self.server.setup[SETUP_ID];
+        Target { window: id, context: id | CONTEXT, depth: self.depth, size: self.size }
+    }
+
+    #[inline(always)]
+    fn take_resized(&mut self) -> bool {
+        take(&mut self.resized)
+    }
+
+    #[inline(always)]
+    fn leaves(&mut self) -> Option<bool> {
+        self.listen()?;
+        Some(self.pressed.contains(&keysym::ESCAPE))
     }
 }
 

@@ -6,7 +6,6 @@
 //! lasts. So the destructor of a thread local reads what Xlib said, and says it in the program's own words.
 
 use crate::io::{complain, keep_stderr};
-use crate::raw::TOO_LARGE;
 use rustix::io::ioctl_fionbio;
 use rustix::stdio::dup2_stderr;
 use std::cell::Cell;
@@ -56,7 +55,7 @@ impl Drop for Stderr {
         if WINDOW_IS_GONE.iter().any(|name| says(name)) {
             process::exit(0);
         }
-        complain(if says(TOO_LARGE.as_bytes()) { TOO_LARGE.as_bytes() } else { b"the display went away" });
+        complain(b"the display went away");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Particles of any kind as a layer, in linear light, and what they should be in f64.
 
-use super::oracle::{Camera, Spot, random, smoothstep};
+use super::particles::{Camera, Spot, random, smoothstep};
 use fearless_simd::Level;
 use glam::{DVec3, Vec3, dvec3, vec3};
 use paprsek::frame::encode::Transfer;

@@ -33,6 +33,7 @@ fn mix(a: DVec3, b: DVec3, x: f64) -> DVec3 {
     a + (b - a) * x
 }
 
+/// 0 below `a`, 1 above `b`, with no slope at either.
 pub fn smoothstep(a: f64, b: f64, x: f64) -> f64 {
     let u = ((x - a) / (b - a)).clamp(0.0, 1.0);
     u * u * (3.0 - 2.0 * u)
@@ -88,9 +89,13 @@ pub struct Camera {
 
 /// A sprite on the screen: its middle and radius in pixels from the top left, before anything clamps it, and its depth.
 pub struct Spot {
+    /// Column of the middle, pixels.
     pub x: f64,
+    /// Row of the middle, pixels.
     pub y: f64,
+    /// Pixels.
     pub radius: f64,
+    /// Metres along the view axis.
     pub depth: f64,
 }
 

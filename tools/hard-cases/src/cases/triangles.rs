@@ -1,0 +1,300 @@
+//! Coverage and depth of triangles.
+
+use super::rays::any3;
+use crate::case::{Case, Effort, Runs};
+use glam::{DVec3, Vec3, vec3};
+use paprsek::raster::World;
+use paprsek::raster::fill::CENTER;
+use paprsek::raster::project::NEAR;
+use paprsek::raster::triangle::SUB;
+use paprsek::settings::Quality;
+use paprsek::view::Camera;
+use testkit::coverage::{
+    Corner, Corners, NEARNESS, SIZES, any_triangle, area, counts, covers, draw, piece, plane, sample_of,
+};
+use testkit::drawn::{self, body, dark, ground, ray, triangles};
+use testkit::random::Random;
+use testkit::{Found, ULP, levels};
+
+const fn case(name: &'static str, source: &'static str, oracle: &'static str, run: fn(&Effort) -> Found) -> Case {
+    Case { name, source, oracle, runs: Runs::Levels, unit: "failures", target: 0.0, run }
+}
+
+pub const CASES: &[Case] = &[
+    case(
+        "triangles of every hard kind: slivers, corners on samples, huge ones at the guard band",
+        "[Pineda88], top-left rule",
+        "24.8 in i128, every pixel",
+        exact,
+    ),
+    case("grids of triangles: gaps and overdraw", "shared edges, top-left rule", "each pixel once", grids),
+    case(
+        "fans around a corner on a sample: gaps and overdraw",
+        "shared corners",
+        "each pixel of the polygon once",
+        fans,
+    ),
+    Case {
+        unit: "roundings",
+        target: NEARNESS,
+        ..case("depth of slivers and of planes from the near plane to the horizon", "depth precision", "f64", depths)
+    },
+    case("depth outside of its corners' range", "extrapolation at edges", "order", between),
+    Case {
+        unit: "of the bound",
+        target: 1.0,
+        ..case(
+            "level ground through the eye's plane, 3 m to 20 km, from 6 cm up",
+            "[SutherlandHodgman74], w <= 0",
+            "rays in f64, corners snapped by 1/100 pixel",
+            clipped,
+        )
+    },
+    case("triangles behind the eye or before the near plane", "w <= 0", "nothing is covered", behind),
+    case("corners of any bits", "0, -0, denormals, MAX, infinities, NaN", "finite light, no panic", any_bits),
+    Case { unit: "failures", ..case("layers 1 m apart, 5 km away", "reversed depth", "the nearer is seen", layers) },
+];
+
+fn exact(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(100));
+    for case in 0..effort.of(2000) as usize {
+        let size = SIZES[if case % 3 == 0 { case / 3 % SIZES.len() } else { 0 }];
+        let t = any_triangle(&mut random, size);
+        let sample = match case % 4 {
+            0 | 1 => CENTER,
+            2 => [[0, 0], [SUB - 1, 0], [0, SUB - 1], [SUB - 1; 2]][case / 4 % 4],
+            _ => [0, 1].map(|_| (random.unit() * SUB as f64) as i32),
+        };
+        let back_faces = case % 5 == 0;
+        // Counter-clockwise looks here.
+        let here = if back_faces { area(&t) > 0 } else { area(&t) < 0 };
+        let piece = [piece(&[t], size, back_faces)];
+        let truth: Vec<bool> = (0..(size[0] * size[1]) as usize)
+            .map(|pixel| here && covers(&t, sample_of(pixel, size[0], sample)))
+            .collect();
+        for (name, level) in levels() {
+            let shown = draw(level, &piece, size, sample);
+            for (pixel, (shown, truth)) in shown.0.iter().zip(&truth).enumerate() {
+                found.judge(shown.1.is_some() == *truth, || {
+                    format!("{name}: pixel {pixel} of {size:?}, {sample:?}: {t:?}")
+                });
+            }
+        }
+    }
+    found
+}
+
+fn grids(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(101));
+    let size = [100, 70];
+    for case in 0..effort.of(40) as usize {
+        // Cells of 16 to 40 pixels, all around the picture; their jitter is less than would turn a triangle over.
+        let cell = [16 * SUB, 20 * SUB + SUB / 2, 40 * SUB, 25 * SUB + 77, 16 * SUB + SUB / 2][case % 5];
+        let (columns, rows) = (100 * SUB / cell + 4, 70 * SUB / cell + 4);
+        let jitter = [0, 1, SUB / 2, cell / 5][case % 4];
+        let mut points = Vec::new();
+        for j in 0..=rows {
+            for i in 0..=columns {
+                let mut off = || random.range(-jitter as f64, jitter as f64 + 1.0).floor() as i32;
+                points.push(Corner { x: (i - 1) * cell - SUB + off(), y: (j - 1) * cell - SUB + off(), near: 1.0 });
+            }
+        }
+        let mut mesh: Vec<Corners> = Vec::new();
+        for j in 0..rows as usize {
+            for i in 0..columns as usize {
+                let at = |i: usize, j: usize| points[j * (columns as usize + 1) + i];
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+                mesh.extend(if random.unit() < 0.5 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] });
+            }
+        }
+        let sample = if case % 2 == 0 { CENTER } else { [(random.unit() * SUB as f64) as i32, 0] };
+        for (name, level) in levels() {
+            for (pixel, count) in counts(level, &mesh, size, sample).into_iter().enumerate() {
+                found.judge(count == 1, || format!("{name}, case {case}, pixel {pixel}: {count} times"));
+            }
+        }
+    }
+    found
+}
+
+fn fans(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(102));
+    let size = [100, 70];
+    for case in 0..effort.of(120) as usize {
+        let grid = [1, SUB / 2, SUB][case % 3];
+        let round = |x: f64| (x * SUB as f64 / grid as f64).round() as i32 * grid;
+        let (x, y) = (round(random.range(20.0, 80.0)), round(random.range(20.0, 50.0)));
+        let spokes = 3 + case as i32 % 40;
+        let mut rim: Vec<Corner> = Vec::new();
+        for k in 0..spokes {
+            let (sin, cos) = ((k as f64 + random.range(0.0, 0.8)) / spokes as f64 * std::f64::consts::TAU).sin_cos();
+            let r = if case % 6 < 5 { random.log(0.3, 45.0) } else { random.log(300.0, 9000.0) };
+            rim.push(Corner { x: x + round(r * cos), y: y + round(r * sin), near: 1.0 });
+        }
+        let center = Corner { x, y, near: 1.0 };
+        let fan: Vec<Corners> = (0..rim.len()).map(|k| [center, rim[k], rim[(k + 1) % rim.len()]]).collect();
+        // Rounding may turn a triangle over, or three spokes leave more than half a turn between two.
+        if fan.iter().any(|t| area(t) < 0) {
+            continue;
+        }
+        let due: Vec<u32> = (0..(size[0] * size[1]) as usize)
+            .map(|pixel| fan.iter().filter(|t| covers(t, sample_of(pixel, size[0], CENTER))).count() as u32)
+            .collect();
+        for (name, level) in levels() {
+            for (pixel, count) in counts(level, &fan, size, CENTER).into_iter().enumerate() {
+                let right = count == due[pixel] && count <= 1;
+                found.judge(right, || format!("{name}, case {case}, pixel {pixel}: {count} for {}", due[pixel]));
+            }
+        }
+    }
+    found
+}
+
+/// Every covered pixel of hard triangles: the nearness found, the triangle, and the pixel.
+fn covered(effort: &Effort, mut each: impl FnMut(&str, f64, &Corners, usize)) {
+    let mut random = Random(103);
+    for _ in 0..effort.of(3000) {
+        let mut t = any_triangle(&mut random, SIZES[0]);
+        if random.unit() < 0.3 {
+            // From the near plane to the horizon.
+            t.iter_mut().for_each(|c| c.near = random.log(1e-5, 20.0) as f32);
+        }
+        let piece = [piece(&[t], SIZES[0], area(&t) > 0)];
+        for (name, level) in levels() {
+            let shown = draw(level, &piece, SIZES[0], CENTER);
+            for (pixel, shown) in shown.0.iter().enumerate().filter(|(_, p)| p.1.is_some()) {
+                each(name, shown.0 as f64, &t, pixel);
+            }
+        }
+    }
+}
+
+fn depths(effort: &Effort) -> Found {
+    let mut found = Found::default();
+    covered(effort, |name, near, t, pixel| {
+        let (truth, terms) = plane(t, sample_of(pixel, SIZES[0][0], CENTER));
+        // It is clamped to the corners' range, in which the truth is.
+        found.see((near - truth).abs() / (ULP * terms), || format!("{name}: {near} for {truth}: {t:?}"));
+    });
+    found
+}
+
+fn between(effort: &Effort) -> Found {
+    let mut found = Found::default();
+    covered(effort, |name, near, t, _| {
+        let (low, high) = t.iter().fold((f64::MAX, 0f64), |(l, h), c| (l.min(c.near as f64), h.max(c.near as f64)));
+        found.judge((low..=high).contains(&near), || format!("{name}: {near} of {t:?}"));
+    });
+    found
+}
+
+const SIZE: [usize; 2] = [97, 61];
+const FOV: f32 = 0.9;
+/// Corners are snapped to 1/256 pixel, and f32 adds a 1000th at the end of the guard band.
+const SNAP: f64 = 1.0 / 100.0;
+
+fn clipped(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(104));
+    for case in 0..effort.of(60) as usize {
+        let half = [3.0, 50.0, 2000.0, 20_000.0][case % 4];
+        let cells = [1, 2, 13, 40][case / 4 % 4];
+        let up = random.log(0.06, 100.0);
+        let aside = |random: &mut Random| (random.range(-0.8, 0.8) * half) as f32;
+        let eye = vec3(aside(&mut random), up as f32, aside(&mut random));
+        let camera = Camera::look_at(eye, eye + random.direction(), FOV, random.range(-1.0, 1.0) as f32);
+        let world = dark(vec![body(ground(half as f32, 0.0, cells))]);
+        let meets = |d: DVec3| {
+            let t = -eye.as_dvec3().y / d.y;
+            let p = eye.as_dvec3() + d * t;
+            (d.y < 0.0 && t >= NEAR as f64 && p.x.abs() <= half && p.z.abs() <= half).then_some(1.0 / t)
+        };
+        // f32 of the far corners' places: metres of the eye's height, at most this share of it.
+        let slack = 1e-5 + 4.0 * ULP * half / up;
+        for (name, level) in levels() {
+            let planes = drawn::draw(&world, camera, SIZE, Quality::EXACT, level);
+            for (pixel, near) in planes.inv_depth.iter().enumerate() {
+                let (x, y) = ((pixel % SIZE[0]) as f64 + 0.5, (pixel / SIZE[0]) as f64 + 0.5);
+                let around = [(0.0, 0.0), (-SNAP, -SNAP), (SNAP, -SNAP), (-SNAP, SNAP), (SNAP, SNAP)];
+                let hits = around.map(|(dx, dy)| meets(ray(&camera, SIZE, x + dx, y + dy)));
+                if hits.iter().any(Option::is_some) && hits.iter().any(Option::is_none) {
+                    continue;
+                }
+                let (low, high) = hits.iter().flatten().fold((f64::MAX, 0f64), |(l, h), n| (l.min(*n), h.max(*n)));
+                let error = match hits[0] {
+                    None if *near == 0.0 => 0.0,
+                    Some(truth) if *near > 0.0 => (*near as f64 - truth).abs() / ((high - low) + slack * truth),
+                    _ => f64::INFINITY,
+                };
+                found.see(error, || format!("{name}, case {case}, eye {eye}, pixel {pixel}: {near} for {:?}", hits[0]));
+            }
+        }
+    }
+    found
+}
+
+fn behind(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(105));
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    for _ in 0..effort.of(400) {
+        // All corners at or behind the near plane, and up to it.
+        let corner = |random: &mut Random| {
+            let z = if random.unit() < 0.3 {
+                -NEAR * random.range(0.0, 0.999) as f32
+            } else {
+                random.log(1e-6, 1e6) as f32
+            };
+            vec3(random.range(-3.0, 3.0) as f32, random.range(-3.0, 3.0) as f32, z)
+        };
+        let [a, b, c] = [corner(&mut random), corner(&mut random), corner(&mut random)];
+        let world = dark(vec![body(triangles(&[[a, b, c], [a, c, b]]))]);
+        for (name, level) in levels() {
+            let planes = drawn::draw(&world, camera, SIZE, Quality::DEFAULT, level);
+            found.judge(planes.inv_depth.iter().all(|n| *n == 0.0), || format!("{name}: {a} {b} {c}"));
+        }
+    }
+    found
+}
+
+fn any_bits(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(106));
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    for round in 0..effort.of(2000) {
+        let faces: Vec<[Vec3; 3]> = (0..4).map(|_| [any3(&mut random), any3(&mut random), any3(&mut random)]).collect();
+        let world = World { ambient: [Vec3::ONE; 2], ..dark(vec![body(triangles(&faces))]) };
+        let quality = [Quality::EXACT, Quality::DEFAULT][round as usize % 2];
+        for (name, level) in levels() {
+            let planes = drawn::draw(&world, camera, [33, 21], quality, level);
+            let right = planes.color.iter().all(|c| c.is_finite())
+                && planes.inv_depth.iter().all(|n| n.is_finite() && *n >= 0.0)
+                && planes.coverage.iter().all(|c| (0.0..=1.0 + 1e-6).contains(c));
+            found.judge(right, || format!("{name}: {faces:?}"));
+        }
+    }
+    found
+}
+
+/// Walls that stand one behind another far away, in any order.
+fn layers(effort: &Effort) -> Found {
+    let (mut found, mut random) = (Found::default(), Random(107));
+    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.1, 0.0);
+    for _ in 0..effort.of(60) {
+        let (first, gap) = (random.range(4000.0, 5000.0), random.range(1.0, 3.0));
+        let mut walls: Vec<f64> = (0..5).map(|k| first + gap * k as f64).collect();
+        if random.unit() < 0.5 {
+            walls.reverse();
+        }
+        let wall = |z: f64| {
+            let at = |x: f32, y: f32| vec3(x, y, -z as f32);
+            [[at(-2e3, -2e3), at(2e3, -2e3), at(2e3, 2e3)], [at(-2e3, -2e3), at(2e3, 2e3), at(-2e3, 2e3)]]
+        };
+        let world = dark(walls.iter().map(|z| body(triangles(&wall(*z)))).collect());
+        for (name, level) in levels() {
+            let planes = drawn::draw(&world, camera, SIZE, Quality::EXACT, level);
+            for near in &planes.inv_depth {
+                let seen = 1.0 / *near as f64;
+                found.judge((seen - first).abs() < 0.4 * gap, || format!("{name}: {seen} of {walls:?}"));
+            }
+        }
+    }
+    found
+}
