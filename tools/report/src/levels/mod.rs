@@ -20,7 +20,7 @@ const KEPT: &str = "tests/frames/frames.txt";
 pub struct Options {
     #[command(flatten)]
     pub common: Common,
-    /// Render every N-th frame of the table where an emulator takes seconds per frame [default: 7, quick: 61].
+    /// Render every N-th frame of the table where an emulator takes seconds per frame [default: 7, quick: 151].
     #[arg(long, value_name = "N")]
     pub every: Option<usize>,
 }
@@ -28,7 +28,7 @@ pub struct Options {
 /// Runs every level, and writes `levels.md`. Fails where a frame differs or a check does.
 pub fn run(options: &Options) -> Result {
     let Common { quick, out } = &options.common;
-    let slow = options.every.unwrap_or(if *quick { 61 } else { 7 });
+    let slow = options.every.unwrap_or(if *quick { 151 } else { 7 });
     let kept = fs::read_to_string(KEPT).map_err(|error| format!("{KEPT}: {error} (run from the repository's root)"))?;
     let kept: HashSet<_> = kept.lines().collect();
     let date = machine::date()?;
