@@ -36,7 +36,8 @@ pub struct TraceSettings {
 pub struct RasterSettings {
     /// Coverage samples per pixel: 1, 2, 4, 8 or 16. Each triangle in a pixel is shaded once.
     pub coverage: usize,
-    /// Texels along an edge of the shadow maps of scenes that do not fix their size. At 0 shadows are traced.
+    /// Texels along an edge of the shadow maps of scenes that do not fix their size: a multiple of 64, the edge of a tile;
+    /// others panic. At 0 shadows are traced.
     pub shadow_map: u32,
     /// Samples along each axis of every pixel: 1, or 8 for the reference. Above 1 it replaces `coverage`.
     pub grid: usize,

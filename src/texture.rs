@@ -15,6 +15,9 @@ use fearless_simd_macros::simd;
 use glam::{Mat3, Vec3};
 use std::f32::consts::{LOG2_E, TAU};
 
+/// Largest phase of marble's layers, radians: beyond, floats have less and less of one, and its sine is none.
+const FARTHEST: f32 = 1e5;
+
 /// A scalar field in texture space, about 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pattern {
@@ -275,7 +278,8 @@ fn wave<S: Simd>(simd: S, wood: bool, p: V3<S>, n: F<S>, warp: f32, scale: f32) 
         let ring = (p.x * p.x + p.z * p.z).sqrt() + n * warp;
         ring - ring.floor() - 0.5
     } else {
-        math::sin(simd, p.x * scale + n * warp) * 0.5
+        // Points that are far away have no phase left, but the sine has its range.
+        math::sin(simd, (p.x * scale + n * warp).max(-FARTHEST).min(FARTHEST)) * 0.5
     }
 }
 

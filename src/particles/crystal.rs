@@ -19,8 +19,8 @@ const BRANCH: f32 = 0.055;
 /// Sine and cosine of the angles between an arm and the lines that a point is folded at: 60 and 30 degrees.
 const FOLDS: [(f32, f32); 2] = [(0.866_025_4, 0.5), (0.5, 0.866_025_4)];
 
-/// The weight of a crystal with a radius of `radius` pixels at points (`u`, `v`) of the unit disc. From [`LEAST`] on,
-/// the soft disc of a sprite fades into it.
+/// The weight of a crystal with a radius of `radius` pixels at points (`u`, `v`), which is 0 outside of the unit disc.
+/// From [`LEAST`] on, the soft disc of a sprite fades into it.
 #[inline(always)]
 pub fn weight<S: Simd>(simd: S, u: F<S>, v: F<S>, radius: f32) -> F<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
@@ -38,5 +38,6 @@ pub fn weight<S: Simd>(simd: S, u: F<S>, v: F<S>, radius: f32) -> F<S> {
     let inside = middle.max(-y + ARM).max(side).min(one - x);
     let edge = (inside * radius + 0.5).max(zero).min(one);
     let share = ((radius - LEAST) * 0.4).min(1.0);
-    rest * rest + (edge - rest * rest) * share
+    // Which pixels beyond the disc are asked for depends on the number of lanes.
+    rest.simd_gt(zero).select(rest * rest + (edge - rest * rest) * share, zero)
 }

@@ -26,6 +26,15 @@ const STEEP: f32 = 4.0;
 /// Share of the bias that is left where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
+/// Where light falls.
+pub struct Places<'a> {
+    /// Points, metres.
+    pub points: &'a Block3,
+    /// The same on the smooth surface that the normals describe, where shadows are traced: a point is hidden if both its
+    /// places are. See [`super::exact_shadow::lifted`].
+    pub lifted: Option<&'a Block3>,
+}
+
 /// Adds to `out` what a light gives to points with unit normals, without albedo.
 #[simd]
 #[inline(never)] // Called per light and for snow: one copy.
@@ -34,14 +43,15 @@ pub fn shine<S: Simd>(
     context: &ShadeContext,
     light: &Light,
     lookup: &ShadowLookup,
-    points: &Block3,
+    places: &Places,
     normals: &Block3,
     out: &mut Block3,
 ) {
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (V3::load(simd, points, i), V3::load(simd, normals, i));
-        let mut gives = light_at(simd, light, lookup, p, n);
+        let (p, n) = (V3::load(simd, places.points, i), V3::load(simd, normals, i));
+        let lifted = places.lifted.map(|points| V3::load(simd, points, i));
+        let mut gives = light_at(simd, light, lookup, (p, lifted), n);
         if let (Source::Sun(_), Some(clouds)) = (light.source, &context.world.cloud_shadow)
             && !cfg!(without = "cloud-shadows")
         {
@@ -54,7 +64,13 @@ pub fn shine<S: Simd>(
 
 /// Light at points with unit normals, clouds aside.
 #[inline(always)]
-fn light_at<S: Simd>(simd: S, light: &Light, lookup: &ShadowLookup, point: V3<S>, normal: V3<S>) -> V3<S> {
+fn light_at<S: Simd>(
+    simd: S,
+    light: &Light,
+    lookup: &ShadowLookup,
+    (point, lifted): (V3<S>, Option<V3<S>>),
+    normal: V3<S>,
+) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (towards, left) = match light.source {
         Source::Sun(direction) => (V3::splat(simd, direction), one),
@@ -70,9 +86,11 @@ fn light_at<S: Simd>(simd: S, light: &Light, lookup: &ShadowLookup, point: V3<S>
     if let Some(views) = light.shadow_views()
         && wanted.any_true()
     {
-        let facet = Facet { point, normal, cosine };
-        let points = locate(simd, views, light.source, &facet, wanted);
-        share *= unshadowed(simd, views, lookup, &points);
+        let open = |point| {
+            let points = locate(simd, views, light.source, &Facet { point, normal, cosine }, wanted);
+            unshadowed(simd, views, lookup, &points)
+        };
+        share *= lifted.map_or_else(|| open(point), |lifted| open(point).max(open(lifted)));
     }
     V3::splat(simd, light.color) * Lane(share)
 }

@@ -12,8 +12,10 @@
 //! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term `[Schlick94]`.
 
 use super::context::{ShadeContext, ShadowLookup};
+use super::exact_shadow::lifted;
 use super::id::{Id, parts};
-use super::lighting::shine;
+use super::light::Light;
+use super::lighting::{Places, shine};
 use super::queue::FragmentQueue;
 use super::snow_cover::{GRAIN, SnowCover};
 use super::triangle::{SUB, SetupMesh, Triangle};
@@ -56,9 +58,12 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
         settle(simd, context, snow, lookup, queue);
     }
     let (low, high) = bounds(simd, &queue.point);
+    let traced = |light: &Light| light.shadow_views().is_some_and(|views| views.traced);
+    let lifted = (cuts::TRACED_SHADOWS && world.lights.iter().any(traced)).then(|| lifted(context, queue));
+    let places = Places { points: &queue.point, lifted: lifted.as_ref() };
     for (light, lookup) in world.lights.iter().zip(lookups) {
         if light.meets(simd, low, high) {
-            shine(simd, context, light, lookup, &queue.point, &queue.normal, &mut queue.light);
+            shine(simd, context, light, lookup, &places, &queue.normal, &mut queue.light);
         }
     }
     finish(simd, context, queue);
@@ -163,7 +168,8 @@ fn settle<S: Simd>(
     queue: &mut FragmentQueue,
 ) {
     let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    shine(simd, context, &snow.fall, lookup, &queue.point, &queue.normal, &mut open);
+    let places = Places { points: &queue.point, lifted: None };
+    shine(simd, context, &snow.fall, lookup, &places, &queue.normal, &mut open);
     texture::shade(simd, &GRAIN, &queue.point, BLOCK, Some(&queue.footprint), &mut grain);
     snow.whiten(simd, &open, &grain, queue);
 }

@@ -8,6 +8,7 @@
 use super::id::TRIANGLES;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
+use crate::cuts;
 use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 /// Steps per pixel of the grid that corners are snapped to, along x and along y.
@@ -36,6 +37,8 @@ pub struct Triangle {
     pub range: [f32; 2],
     /// What the triangle is painted with.
     pub paint: Paint,
+    /// The number of its face in the mesh; 0 in the 64 kB build, where nothing asks for it.
+    pub face: u32,
 }
 
 impl Triangle {
@@ -107,7 +110,7 @@ impl TriangleSetup {
         }
         let mut out = SetupMesh::default();
         let mut polygon = Vec::new();
-        for face in &mesh.faces {
+        for (number, face) in mesh.faces.iter().enumerate() {
             let index = face.corners.map(usize::from);
             let [a, b, c] = index.map(|i| corners[i].outside);
             if a & b & c != 0 {
@@ -131,6 +134,11 @@ impl TriangleSetup {
                         normals = [turned(place, (b - a).cross(c - a)); 3];
                     }
                     self.push(&mut out, fan, normals, twice, &mesh.paints[face.paint as usize]);
+                    if cuts::TRACED_SHADOWS
+                        && let Some(triangle) = out.triangles.last_mut()
+                    {
+                        triangle.face = number as u32;
+                    }
                 }
             }
         }
@@ -232,6 +240,7 @@ impl TriangleSetup {
             by: [((b * by + c * ay) * inverse).as_vec4(), ((b * bx + c * ax) * inverse).as_vec4()],
             range,
             paint: *paint,
+            face: 0,
         });
     }
 }

@@ -7,8 +7,10 @@
 use glam::{Affine3A, Vec2, Vec3, vec3};
 use paprsek::frame::Cache;
 use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, World};
+use paprsek::view::Camera;
+use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
-use testkit::drawn::{Planes, block, body, dark, draw, draw_with, enters, ground, ray};
+use testkit::drawn::{Planes, blank, block, body, dark, draw, draw_with, enters, ground, ray};
 use testkit::sunny::{BOX, MARGIN, NEAR, QUALITY, REACH, SHARE, SIZE, Sunny, cameras};
 
 #[test]
@@ -76,6 +78,53 @@ fn traced_shadows_have_their_outline() {
             }
         }
     }
+}
+
+/// A ball of few faces with the normals of a round one. Its corners lie on the unit sphere, its poles on the y axis.
+fn coarse_ball(rings: usize, sides: usize) -> Mesh {
+    let mut mesh = blank();
+    for i in 0..=rings {
+        for k in 0..=sides {
+            let (sin, cos) = (PI * i as f32 / rings as f32).sin_cos();
+            let turn = TAU * (k % sides) as f32 / sides as f32;
+            // Exactly one point at each pole, so that no face there has two corners in one place.
+            let sin = if i == 0 || i == rings { 0.0 } else { sin };
+            mesh.points.push(vec3(-turn.sin() * sin, -cos, -turn.cos() * sin));
+        }
+    }
+    mesh.normals = mesh.points.clone();
+    mesh.loft(0, sides + 1, 0, &[]);
+    mesh
+}
+
+/// Of a smooth convex body every point that faces the light is lit, also where it is drawn with flat faces, some of which
+/// are turned away. Without lifting up to a third of the lit pixels were in shadow.
+#[test]
+fn a_coarse_ball_does_not_shadow_itself() {
+    let mut failed = Vec::new();
+    for (rings, sides) in [(5, 7), (8, 12), (20, 30)] {
+        for turn in [0.3f32, 1.1, 2.0, 2.6] {
+            let towards = vec3(turn.sin(), 0.4, turn.cos()).normalize();
+            let views = vec![Projection::parallel(towards, Vec3::ZERO, 3.0, 256)];
+            let bias = Bias { constant: 0.02, slope: 1.0, normal: 1.0 };
+            let picture = |shadow| {
+                let lights = vec![Light { shadow, ..Light::sun(towards, Vec3::ONE) }];
+                let world = World { lights, ..dark(vec![body(coarse_ball(rings, sides))]) };
+                let camera = Camera::look_at(vec3(0.0, 0.5, 3.0), Vec3::ZERO, 0.9, 0.0);
+                draw(&world, camera, SIZE, QUALITY, testkit::levels()[0].1)
+            };
+            let truth = picture(None);
+            let found = picture(Some(ShadowViews { traced: true, ..ShadowViews::new(views, bias) }));
+            let lit = truth.color.iter().filter(|color| color.x > 0.0).count();
+            let pairs = found.color.iter().zip(&truth.color);
+            let hidden = pairs.filter(|(found, truth)| truth.x > found.x + 1e-6).count();
+            assert!(lit > 200, "{lit}");
+            if hidden * 1000 > lit {
+                failed.push(format!("{rings} rings, turn {turn}: {hidden} of {lit}"));
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
 }
 
 #[test]

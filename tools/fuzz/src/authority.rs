@@ -1,6 +1,6 @@
 //! The authority file: any bytes, and files of many entries, whose fitting cookies all have to be tried in their order.
 
-use crate::display::{Display, count_leak};
+use crate::display::Display;
 use crate::input::Input;
 use crate::window::protocol::Server;
 use std::fs;
@@ -25,7 +25,6 @@ pub fn run(bytes: &[u8]) {
     let (file, fitting) = if input.flag() { (bytes.to_vec(), Vec::new()) } else { entries(input, &display.number) };
     fs::write(&display.authority, file).unwrap();
     display.says(REFUSAL);
-    count_leak();
     let began = Instant::now();
     let mut why = "";
     assert!(Server::find(&mut why).is_none(), "a refusal is taken for a welcome");

@@ -1,7 +1,6 @@
 //! The command line: an error of one line, or values that are all within their ranges.
 
 use crate::args::{Args, Mode};
-use crate::display;
 
 /// Words are split where this byte is.
 const BETWEEN: u8 = b'\n';
@@ -13,7 +12,6 @@ pub fn run(bytes: &[u8]) {
     // Words of a command line have no zeros inside, and live as long as the process: so it forgets each.
     let bytes: Vec<u8> = bytes.iter().copied().filter(|byte| *byte != 0).collect();
     let words = bytes.leak().split(|byte| *byte == BETWEEN).filter(|word| !word.is_empty());
-    display::count_leak();
     let args = match Args::from_words([&b"paprsek"[..]].into_iter().chain(words)) {
         Ok(args) => args,
         Err(why) => {

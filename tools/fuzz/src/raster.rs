@@ -77,6 +77,8 @@ fn light(input: &mut Input, view: &View) -> Light {
 fn mesh(input: &mut Input, textures: usize) -> Mesh {
     let mut mesh = Mesh::default();
     let is_smooth = input.flag();
+    // Normals may have any length, 0 among them.
+    let length = input.one_of(&[1.0, 1.0, 0.0]);
     for _ in 0..3 + input.below(POINTS) {
         // Further ones would all be the same.
         if input.is_empty() && mesh.points.len() > 3 {
@@ -84,7 +86,7 @@ fn mesh(input: &mut Input, textures: usize) -> Mesh {
         }
         mesh.points.push(input.vector(5.0));
         if is_smooth {
-            let normal = input.vector(3.0);
+            let normal = input.vector(3.0) * length;
             mesh.normals.push(normal);
         }
     }

@@ -3,7 +3,6 @@
 //! A script has no errors: one that is not valid was never compiled. So an input is read as statements, which are both
 //! coded, by the rules that `src/scenes/script.rs` states, and carried out, by a walk over their expressions.
 
-use crate::display::count_leak;
 use crate::input::Input;
 use crate::scenes::script::{Script, VARIABLES};
 
@@ -83,7 +82,6 @@ pub fn run(bytes: &[u8]) {
     code.push(FIRST);
     trace.push((FIRST, Vec::new()));
     script_numbers = script_numbers.map(|number| number + 0.0);
-    count_leak();
     let mut script = Script::new(code.leak(), script_numbers);
     for (operation, operands) in &trace {
         assert_eq!(script.next(), *operation);

@@ -1,6 +1,6 @@
 //! An X server that says anything: set-up, answers, events and errors, over a true socket.
 
-use crate::display::{Display, count_leak};
+use crate::display::Display;
 use crate::window::protocol::Server;
 use crate::window::x11::Window;
 use paprsek::frame::Frame;
@@ -66,7 +66,6 @@ pub fn run(bytes: &[u8]) {
     let polite = polite();
     let kept = if beginning < 128 { polite.len() } else { polite.len() * usize::from(beginning - 128) / 128 };
     display.says(&[&polite[..kept], rest].concat());
-    count_leak();
     let began = Instant::now();
     let mut why = "";
     if let Some(mut server) = Server::find(&mut why) {

@@ -87,7 +87,7 @@ fn any_quality(random: &mut Random) -> Quality {
         },
         raster: RasterSettings {
             coverage: pick(random, &cells),
-            shadow_map: pick(random, &[0, 64, 256, 1024]),
+            shadow_map: pick(random, &[0, 64, 192, 256, 1024]),
             grid: 1,
         },
         cloud: CloudSettings {
@@ -125,7 +125,7 @@ fn request(random: &mut Random) -> Request {
     let special = [0.0, -0.0, -1.0, -1e9, 1e9, 86_400.0, 1e-300, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
     let time = if random.unit() < 0.1 { pick(random, &special) } else { random.range(0.0, scene.duration) };
     let size = match (random.unit() * 20.0) as u32 {
-        0 => (1, (random.log(1.0, 200.0)) as usize),
+        0 => pick(random, &[(0, 9), (9, 0), (0, 0), (1, 200), (1, 65)]),
         1 => (random.log(1.0, 200.0) as usize, 1),
         2 => (random.range(60.0, 70.0) as usize, random.range(60.0, 70.0) as usize),
         3 => (random.log(60.0, 320.0) as usize, random.log(40.0, 180.0) as usize),

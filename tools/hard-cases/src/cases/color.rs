@@ -51,7 +51,13 @@ pub const CASES: &[Case] = &[
     Case { unit: "failures", ..levelled("codes rise with light", "monotone", "order", 0.0, rising) },
     Case {
         unit: "failures",
-        ..levelled("NaN, infinities, negative light, light beyond 1, denormals", "", "0 or 255", 0.0, nonsense)
+        ..levelled(
+            "NaN, infinities, negative light, light beyond 1, denormals",
+            "the maximum of NaN and a number",
+            "0 or 255",
+            0.0,
+            nonsense,
+        )
     },
     Case { unit: "codes", ..levelled("mean of the dither over 256 x 256 pixels", "no bias", "f64", 1e-3, dither) },
     Case { runs: Runs::Levels, ..case("2^x for x of -126 to 127", "[Cephes]", "f64, relative", 2e-7, exp2) },

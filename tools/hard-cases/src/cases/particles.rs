@@ -51,14 +51,17 @@ pub const CASES: &[Case] = &[
             fire,
         )
     },
-    case("discs of 1e-3 to 1e18 m anywhere before the eye", "", "f64, every pixel's middle", PLACES, discs),
-    case(
-        "sprites near the near plane, and with middles far outside of the picture",
-        "",
-        "f64; 1e-4 of the radius in pixels",
-        1.0,
-        near,
-    ),
+    case("discs of 1e-3 to 1e18 m anywhere before the eye", "[Reeves83]", "f64, every pixel's middle", PLACES, discs),
+    Case {
+        unit: "of the bound",
+        ..case(
+            "sprites near the near plane, and with middles far outside of the picture",
+            "near plane, places beyond f32",
+            "f64; 1e-4 of the radius in metres",
+            1.0,
+            near,
+        )
+    },
     case(
         "sprites behind the eye, on the near plane, of no size, not numbers",
         "w <= 0",

@@ -56,7 +56,10 @@ pub const CASES: &[Case] = &[
             mirrors,
         )
     },
-    case("matt floors under lamps, Lambert's cosine", "", "f64", "", 2e-6, lambert),
+    Case {
+        runs: Runs::Levels,
+        ..case("matt floors under a sun, Lambert's cosine", "Lambert", "f64", "", 2e-6, lambert)
+    },
     Case {
         runs: Runs::All,
         ..case(

@@ -38,7 +38,7 @@ pub const CASES: &[Case] = &[
         lines::BALL,
         |e| bodies::globes(e.of(60_000)).found,
     ),
-    lines("planes from all sides", "", lines::BALL, |e| bodies::planes(e.of(60_000)).found),
+    lines("planes from all sides", "nearly parallel lines", lines::BALL, |e| bodies::planes(e.of(60_000)).found),
     lines("turned boxes at edges and corners, from inside and 1e4 away", "[Williams05]", lines::TURNED, |e| {
         bodies::blocks(e.of(40_000)).found
     }),
@@ -48,9 +48,12 @@ pub const CASES: &[Case] = &[
         "closed form",
         zeros,
     ),
-    lines("cylinders along, almost along and across the axis", "", lines::TURNED, |e| {
-        bodies::cylinders(e.of(40_000)).found
-    }),
+    lines(
+        "cylinders along, almost along and across the axis",
+        "a quadratic without a leading term",
+        lines::TURNED,
+        |e| bodies::cylinders(e.of(40_000)).found,
+    ),
     failures("segments between points outside of a body", "shadow rays", EXACT, |e| {
         bodies::segments(e.of(60_000) as usize).0
     }),
@@ -80,7 +83,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "points to pixels and back to rays, 1e-2 to 1e6 m away",
-        source: "",
+        source: "two ways that have to agree",
         oracle: "f64",
         runs: Runs::Scalar,
         unit: "pixels",

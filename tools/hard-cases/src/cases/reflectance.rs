@@ -42,7 +42,7 @@ pub const CASES: &[Case] = &[
     Case {
         unit: "failures",
         ..case(
-            "any ratio, any cosine: a share from 0 to 1, or NaN for total",
+            "any ratio, any cosine: a share from 0 to 1; NaN reflects totally",
             "1e-8 to 1e8 with specials",
             "range; levels have the reference's bits",
             0.0,

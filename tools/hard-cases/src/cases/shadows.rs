@@ -57,7 +57,14 @@ pub const CASES: &[Case] = &[
         1e-4,
         grazing,
     ),
-    case("traced shadows farther than 0.1 texels from the edge", "", "rays in f64: points", "points", 0.0, traced),
+    case(
+        "traced shadows farther than 0.1 texels from the edge",
+        "[Whitted80]",
+        "rays in f64: points",
+        "points",
+        0.0,
+        traced,
+    ),
     case(
         "twice the texels: misclassified points fall by the first order",
         "refinement",
@@ -77,14 +84,17 @@ pub const CASES: &[Case] = &[
             lookups,
         )
     },
-    case(
-        "lamps 0.5 to 5 m above level ground",
-        "fading light",
-        "cosine over squared distance, in f64",
-        "relative",
-        1e-3,
-        lamps,
-    ),
+    Case {
+        runs: Runs::Levels,
+        ..case(
+            "lamps 0.5 to 5 m above level ground",
+            "fading light",
+            "cosine over 1 + a d + b d^2, in f64",
+            "relative",
+            1e-3,
+            lamps,
+        )
+    },
 ];
 
 const ELEVATIONS: [f64; 7] = [30.0, 1.0, 90.0, 5.0, 60.0, 15.0, 75.0];

@@ -16,7 +16,7 @@ const fn case(
     target: f64,
     run: fn(&Effort) -> Found,
 ) -> Case {
-    Case { name, source, oracle, runs: Runs::Scalar, unit, target, run }
+    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
 }
 
 pub const CASES: &[Case] = &[

@@ -26,7 +26,14 @@ pub const CASES: &[Case] = &[
         1e-6,
         monotone,
     ),
-    case("keys themselves, and times before, behind and NaN", "", "the key, bit for bit", "failures", 0.0, keys),
+    case(
+        "keys themselves, and times before, behind and NaN",
+        "interpolation that misses its keys",
+        "the key, bit for bit",
+        "failures",
+        0.0,
+        keys,
+    ),
     case(
         "an ease at 1e9 s, in eighths of a second",
         "time never enters as f32",
