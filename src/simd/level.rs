@@ -11,7 +11,7 @@ pub fn best() -> Level {
 }
 
 /// The name of the level that kernels run at when they are asked for `level`: `avx512`, `avx2`, `sse4.2`, `sse2`,
-/// `neon` or `scalar`.
+/// `neon`, `simd128` or `scalar`.
 ///
 /// A build may hold kernels for fewer levels than the machine has; then it is the name of the one that runs.
 pub fn name(level: Level) -> &'static str {
@@ -26,6 +26,8 @@ pub fn name(level: Level) -> &'static str {
         Level::Sse2(_) => "sse2",
         #[cfg(target_arch = "aarch64")]
         Level::Neon(_) => "neon",
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        Level::WasmSimd128(_) => "simd128",
         _ => "scalar",
     }
 }

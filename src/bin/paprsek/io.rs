@@ -19,8 +19,8 @@ mod system {
     use std::{fs::File, io, sync::OnceLock};
 
     /// Permissions before the umask: a directory's, and a file's.
-    const DIRECTORY_MODE: u32 = 0o777;
-    const FILE_MODE: u32 = 0o666;
+    const DIRECTORY_MODE: rustix::fs::RawMode = 0o777;
+    const FILE_MODE: rustix::fs::RawMode = 0o666;
     /// Most bytes that [`contents`] reads.
     const MAX_CONTENTS: usize = 1 << 20;
 

@@ -1,7 +1,9 @@
 //! The machine that measures.
 
+use crate::options::Result;
 use fearless_simd::Level;
 use paprsek::simd::level;
+use std::process::Command;
 
 /// The processor's name and number of threads.
 pub fn machine() -> String {
@@ -20,4 +22,21 @@ pub fn levels() -> Vec<(&'static str, Level)> {
         levels.push(all[0]);
     }
     levels
+}
+
+/// The day in Greenwich, as in 2026-11-22.
+pub fn date() -> Result<String> {
+    let date = Command::new("date").args(["-u", "+%F"]).output()?.stdout;
+    Ok(String::from_utf8(date)?.trim().into())
+}
+
+/// The compiler and the revision of the sources.
+pub fn versions() -> String {
+    let first = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).output().ok()?.stdout;
+        Some(String::from_utf8(output).ok()?.trim().to_string()).filter(|line| !line.is_empty())
+    };
+    let rustc = first("rustc", &["--version"]).unwrap_or("unknown compiler".into());
+    let revision = first("git", &["describe", "--always", "--dirty"]).unwrap_or("unknown revision".into());
+    format!("{rustc}, revision {revision}")
 }

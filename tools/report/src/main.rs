@@ -7,21 +7,29 @@ mod cloud_light;
 mod depth_maps;
 mod dome;
 mod figures;
+mod films;
+mod fronts;
+mod html;
 mod imposters;
+mod levels;
 mod lights;
 mod likeness;
 mod machine;
 mod metrics;
+mod not_modelled;
 mod options;
 mod particles;
 mod picture;
 mod plot;
 mod program;
+mod proof;
 mod quality;
 mod samples;
 mod shadows;
 mod show;
 mod stills;
+mod unseen;
+mod worst;
 
 use clap::{Parser, Subcommand};
 use options::{Common, Quick, Result};
@@ -71,6 +79,18 @@ enum Measurement {
     Pace(pace::Options),
     /// Time and memory from the start to the first frame, to a pipe and in a window.
     Start(start::Options),
+    /// Kept frames at every SIMD level, on this machine, under emulators and in node.
+    Levels(levels::Options),
+    /// Error of default quality at instants that a hash of the date draws.
+    Unseen(unseen::Options),
+    /// Fronts of speed against error, with other renderers beside.
+    Fronts(fronts::Options),
+    /// Films of the show against the reference, by ColorVideoVDP.
+    Films(Common),
+    /// What the renderers leave out, against references that have it.
+    NotModelled(Common),
+    /// One report: knobs, fronts, instants not tuned on, films and what is not modelled, and one HTML file of all pages.
+    Proof(proof::Options),
     /// Everything that draws by itself: all but the four that build and play programs.
     All(Common),
 }
@@ -103,6 +123,12 @@ fn run(measurement: Measurement) -> Result {
         Measurement::IntroSpeed(options) => intro_speed::run(&options),
         Measurement::Pace(options) => pace::run(&options),
         Measurement::Start(options) => start::run(&options),
+        Measurement::Levels(options) => levels::run(&options),
+        Measurement::Unseen(options) => unseen::run(&options),
+        Measurement::Fronts(options) => fronts::run(&options),
+        Measurement::Films(options) => films::run(&options),
+        Measurement::NotModelled(options) => not_modelled::run(&options),
+        Measurement::Proof(options) => proof::run(&options),
         Measurement::All(options) => all(&options),
     }
 }
@@ -113,7 +139,12 @@ fn all(common: &Common) -> Result {
     let file = |name: &str| -> Box<Path> { out.join(name).into() };
     std::fs::create_dir_all(&out)?;
     for measurement in [
-        Measurement::Quality(quality::Options { common: common.clone(), threads: None, scenes: Vec::new() }),
+        Measurement::Quality(quality::Options {
+            common: common.clone(),
+            threads: None,
+            half: false,
+            scenes: Vec::new(),
+        }),
         Measurement::Figures(Quick { quick }),
         Measurement::Show(common.clone()),
         Measurement::Shadows(common.clone()),

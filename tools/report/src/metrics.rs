@@ -4,7 +4,7 @@
 use crate::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
-use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
+use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut};
 use paprsek::frame::Frame;
 use testkit::metrics::{Difference, psnr};
 
@@ -29,8 +29,7 @@ impl Error {
         let Difference { mean_square: square, bad, .. } = Difference::between(picture, truth);
         let (picture, truth) = (rgb(picture), rgb(truth));
         let ssim = rgb_similarity_structure(&Algorithm::MSSIMSimple, &truth, &picture).expect("equal sizes").score;
-        let image = |from: &RgbImage| FlipImageRgb8::with_data(from.width(), from.height(), from.as_raw());
-        let mut pool = FlipPool::from_image(&flip(image(&truth), image(&picture), DEFAULT_PIXELS_PER_DEGREE));
+        let mut pool = FlipPool::from_image(&flips(&picture, &truth));
         let flip99 = f64::from(pool.get_percentile(0.99, false));
         Error { square, ssim, flip: f64::from(pool.mean()), flip99, bad }
     }
@@ -56,4 +55,16 @@ impl Error {
     pub fn psnr(&self) -> f64 {
         psnr(self.square)
     }
+}
+
+/// FLIP of every pixel at the default viewing distance.
+fn flips(picture: &RgbImage, truth: &RgbImage) -> FlipImageFloat {
+    let image = |from: &RgbImage| FlipImageRgb8::with_data(from.width(), from.height(), from.as_raw());
+    flip(image(truth), image(picture), DEFAULT_PIXELS_PER_DEGREE)
+}
+
+/// FLIP as a picture, black where nothing is seen to yellow at 1.
+pub fn flip_map(picture: &Frame, truth: &Frame) -> RgbImage {
+    let map = flips(&rgb(picture), &rgb(truth)).apply_color_lut(&magma_lut());
+    RgbImage::from_raw(map.width(), map.height(), map.to_vec()).expect("three bytes a pixel")
 }

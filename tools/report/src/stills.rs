@@ -97,7 +97,7 @@ fn draw(
 
 /// Writes a picture, compressed as well as the crate can, since pictures are in the repository. It is not buffered, since a
 /// buffer loses the last error when it is dropped.
-fn save(picture: &RgbImage, file: &Path) -> Result {
+pub fn save(picture: &RgbImage, file: &Path) -> Result {
     let encoder = PngEncoder::new_with_quality(File::create(file)?, CompressionType::Best, RowFilter::Adaptive);
     Ok(picture.write_with_encoder(encoder)?)
 }

@@ -10,6 +10,7 @@ pub mod elementary;
 #[cfg(feature = "full")]
 pub mod exact;
 pub mod found;
+pub mod frames;
 pub mod fresnel;
 #[cfg(feature = "full")]
 pub mod lines;

@@ -30,9 +30,11 @@ pub fn report(setting: &Setting, results: &[(Sweep, Vec<(&'static str, Table)>)]
          Written by `{command}`; not edited by hand.\n\n\
          {machine}; {width}x{height}, {threads} threads, SIMD level {simd} unless said otherwise. \
          Each scene is drawn at these shares of its length: {}. One knob moves at a time; the others stay where the named \
-         quality has them. The default is **bold** in the tables and ringed in the curves.\n\n\
+         quality has them. The default is **bold** in the tables and ringed in the curves; a triangle marks the \
+         curve's knee, the point farthest from the line between its ends (logarithm of the time, error).\n\n\
          * **ms**: median time of {rounds} frames. Each round draws every point of a sweep once, so that other load on the \
-         machine affects all points alike. **x exact**: how many times as fast as `exact` on {threads} threads, median over \
+         machine affects all points alike. In brackets the interval that holds the median with 95 %, by order statistics of \
+         the rounds, each relative to its instant. **x exact**: how many times as fast as `exact` on {threads} threads, median over \
          the rounds. Trust this ratio before the milliseconds.\n\
          * **samples**: eye rays per pixel or, for triangles, shaded fragments per pixel. **fewer**: how many times fewer \
          than one per pixel; {OTHERS}.\n\
@@ -94,12 +96,12 @@ fn head(first: &str) -> String {
     format!("| {first} | {} |\n|---|{}\n", columns.join(" | "), "--:|".repeat(columns.len()))
 }
 
-fn row(label: &str, Row { ms, ratio, samples, error, .. }: &Row) -> String {
+fn row(label: &str, Row { ms, interval: [low, high], ratio, samples, error, .. }: &Row) -> String {
     let psnr = if error.square > 0.0 { format!("{:.1}", error.psnr()) } else { "equal".into() };
     // The sky has no samples to count.
     let samples = if *samples > 0.0 { format!("{samples:.3} | {:.1}", 1.0 / samples) } else { "| ".into() };
     format!(
-        "| {label} | {ms:.1} | {ratio:.2} | {samples} | {:.2} | {psnr} | {:.4} | {:.4} | {:.3} | {:.2} % |\n",
+        "| {label} | {ms:.1} ({low:.1} to {high:.1}) | {ratio:.2} | {samples} | {:.2} | {psnr} | {:.4} | {:.4} | {:.3} | {:.2} % |\n",
         error.rmse(),
         error.ssim,
         error.flip,

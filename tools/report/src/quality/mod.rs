@@ -30,6 +30,9 @@ pub struct Options {
     /// Number of threads of all but the sweep of threads [default: 2].
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
+    /// Halve width and height, for a quarter of the time.
+    #[arg(long)]
+    pub half: bool,
     /// Scenes, or rows of the tables; `dome` is the sky alone. All if none is named.
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
@@ -40,7 +43,8 @@ impl Options {
     fn command(&self) -> String {
         let threads = self.threads.map(|threads| format!(" --threads {threads}")).unwrap_or_default();
         let scenes = self.scenes.iter().map(|scene| format!(" '{scene}'"));
-        self.common.command("quality") + &threads + &scenes.collect::<String>()
+        let half = if self.half { " --half" } else { "" };
+        self.common.command("quality") + half + &threads + &scenes.collect::<String>()
     }
 }
 
@@ -50,6 +54,9 @@ pub fn run(options: &Options) -> Result {
     let (mut effort, names, out) =
         (if options.common.quick { QUICK } else { FULL }, &options.scenes, &options.common.out);
     effort.threads = options.threads.unwrap_or(effort.threads).max(1);
+    if options.half {
+        effort.size = (effort.size.0 / 2, effort.size.1 / 2);
+    }
     let command = options.command();
     std::fs::create_dir_all(out)?;
 

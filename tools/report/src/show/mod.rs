@@ -1,7 +1,7 @@
 //! The show, part by part: speed, error, and whether anything pops. Writes `show.md`, in about twelve minutes on two cores.
 
 mod error;
-mod parts;
+pub mod parts;
 mod pops;
 mod speed;
 

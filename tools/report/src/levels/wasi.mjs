@@ -1,0 +1,8 @@
+// Runs a program of the WebAssembly System Interface in node, with this program's arguments and its stdout.
+import { readFile } from 'node:fs/promises';
+import { WASI } from 'node:wasi';
+
+const [file, ...rest] = process.argv.slice(2);
+const wasi = new WASI({ version: 'preview1', args: [file, ...rest] });
+const { instance } = await WebAssembly.instantiate(await readFile(file), wasi.getImportObject());
+process.exit(wasi.start(instance));
