@@ -5,3 +5,4 @@
 mod calendar;
 mod dome;
 mod ephemeris;
+mod published;
