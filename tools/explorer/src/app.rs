@@ -2,7 +2,7 @@
 
 use crate::compare::Compare;
 use crate::flight::Stick;
-use crate::input::Input;
+use crate::input::{Input, Pressed};
 use crate::keys::{self, Action};
 use crate::model::Model;
 use crate::overlay::Overlay;
@@ -10,6 +10,7 @@ use crate::painter::Painter;
 use crate::panel::{self, Graph, Turned};
 use crate::probing::Probing;
 use crate::record::{self, Recording};
+use crate::request::milliseconds;
 use crate::still;
 use crate::window::Events;
 use crate::worker::Shown;
@@ -106,18 +107,22 @@ impl App {
         self.ends |= events.closed;
         let typing = self.ctx.wants_keyboard_input();
         if !typing {
-            for &(key, repeated) in &pressed {
-                let action = keys::action(key, self.input.shift(), self.input.ctrl());
+            for &Pressed { key, repeated, shift, ctrl } in &pressed {
+                let action = keys::action(key, shift, ctrl);
                 if let Some(action) = action.filter(|action| !repeated || keys::repeats(*action)) {
                     self.act(action, now);
                 }
             }
-        } else if pressed.iter().any(|(key, _)| *key == Key::Escape) {
+        } else if pressed.iter().any(|pressed| pressed.key == Key::Escape) {
             self.ctx.memory_mut(|memory| memory.stop_text_input());
         }
         self.mouse(events, size);
         let stick = self.hold(typing, seconds);
-        // A recording moves time on by itself, frame by frame.
+        // A recording moves time on by itself, once it has the frame of that time.
+        let has = |shown: &Shown| shown.request.time == milliseconds(self.model.time);
+        if self.recording.is_some() && self.model.playing && self.shown.as_ref().is_some_and(has) {
+            self.model.seek(self.model.rate / record::RATE);
+        }
         let playing = self.model.playing;
         self.model.playing = playing && self.recording.is_none();
         self.model.advance(seconds, stick);
@@ -215,6 +220,7 @@ impl App {
                 Recording::start(&self.out, self.pipe.as_deref(), size).map(|recording| {
                     let told = format!("recording into {}; F9 ends it", recording.name);
                     self.recording = Some(recording);
+                    self.keep(now);
                     told
                 })
             }
@@ -222,15 +228,13 @@ impl App {
         self.tell(told.unwrap_or_else(|why| why), now);
     }
 
-    /// Gives a frame to the recording, and moves time on to the next one.
+    /// Gives the frame that is shown to the recording.
     fn keep(&mut self, now: f64) {
         let (Some(recording), Some(shown)) = (&mut self.recording, &self.shown) else { return };
         let frame = &shown.frame;
         // A frame of another size ends it, and so does a program that has gone.
         if (frame.width, frame.height) != recording.size || !recording.take(frame) {
             self.record(now);
-        } else if self.model.playing {
-            self.model.seek(self.model.rate / record::RATE);
         }
     }
 

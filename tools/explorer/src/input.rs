@@ -8,6 +8,19 @@ use std::collections::BTreeSet;
 /// Points that a notch of the wheel scrolls.
 const NOTCH: f32 = 40.0;
 
+/// A key that went down.
+#[derive(Clone, Copy, Debug)]
+pub struct Pressed {
+    /// The key.
+    pub key: Key,
+    /// Whether it was down already.
+    pub repeated: bool,
+    /// Whether Shift was down then.
+    pub shift: bool,
+    /// Whether Ctrl was down then.
+    pub ctrl: bool,
+}
+
 /// What the mouse and the keyboard are doing.
 #[derive(Default)]
 pub struct Input {
@@ -46,15 +59,8 @@ impl Input {
         self.buttons
     }
 
-    /// Takes the window's events. Gives egui's, and the keys that went down and were not down already, with those that
-    /// repeat marked.
-    pub fn take(
-        &mut self,
-        events: &Events,
-        size: (usize, usize),
-        scale: f32,
-        time: f64,
-    ) -> (RawInput, Vec<(Key, bool)>) {
+    /// Takes the window's events. Gives egui's, and the keys that went down.
+    pub fn take(&mut self, events: &Events, size: (usize, usize), scale: f32, time: f64) -> (RawInput, Vec<Pressed>) {
         let mut out = Vec::new();
         let mut pressed = Vec::new();
         if self.active && !events.active {
@@ -66,7 +72,8 @@ impl Input {
         for &(key, down) in &events.keys {
             let repeated = if down { !self.held.insert(key as u8) } else { !self.held.remove(&(key as u8)) };
             if down {
-                pressed.push((key, repeated));
+                // Shift may be up again before anybody looks.
+                pressed.push(Pressed { key, repeated, shift: self.shift(), ctrl: self.ctrl() });
             }
             if let Some(key) = named(key) {
                 let modifiers = self.modifiers();
