@@ -35,6 +35,8 @@ fn one_walks_looks_and_comes_home() {
     explorer.expect("faster walk", |state| number(state, "speed") > 1.2 * speed);
     explorer.xdotool("keydown Control_L sleep 0.2 click 4 sleep 0.3 keyup Control_L");
     explorer.expect("narrower view", |state| numbers(state, "camera")[6] < own[6] - 1.0);
+    explorer.xdotool("key semicolon");
+    explorer.expect("key of the camera", |state| state["keys"] == "1");
     explorer.xdotool("key Home");
     explorer.expect("way home", |state| state["own"] == "1" && numbers(state, "camera") == own);
 }
