@@ -64,13 +64,10 @@ pub struct FrameSpec<'a> {
 }
 
 impl FrameSpec<'_> {
-    /// The scene's camera, moved to where the values `camera.*` put it. In the 64 kB build the scene's own.
-    #[inline(always)]
+    /// The scene's camera, moved to where the values `camera.*` put it.
+    #[cfg(feature = "full")]
     pub fn placed(&self, camera: Camera) -> Camera {
-        #[cfg(feature = "full")]
-        return placement::camera(self.values, self.cache, camera);
-        #[cfg(not(feature = "full"))]
-        camera
+        placement::camera(self.values, self.cache, camera)
     }
 
     /// The scene's aeroplane, moved to where the values `plane.*` put it: its place, metres, and its turn, from axes to
@@ -90,9 +87,11 @@ impl FrameSpec<'_> {
         self.view(camera)
     }
 
-    /// The scene's camera, [`placed`](FrameSpec::placed), and moved to the eye that the picture is for.
+    /// The scene's camera, placed where the values put it, and moved to the eye that the picture is for.
     pub fn camera(&self, camera: Camera) -> Camera {
-        self.placed(camera).at(self.eye)
+        #[cfg(feature = "full")]
+        let camera = self.placed(camera);
+        camera.at(self.eye)
     }
 
     /// The view of the scene's camera, moved to the eye that the picture is for.

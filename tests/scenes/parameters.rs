@@ -1,6 +1,7 @@
 //! The parameters of all scenes: tables that make sense, defaults that change nothing, others that do, and ends of
 //! ranges that still give a picture.
 
+use paprsek::frame::knobs::KNOBS;
 use paprsek::frame::{Frame, Options, Parameter, Renderer, Scene};
 use paprsek::scenes;
 use paprsek::settings::Quality;
@@ -112,5 +113,25 @@ fn what_was_set_before_leaves_no_trace() {
             render(&mut renderer, scene, INSTANTS[0], &[(parameter.name, parameter.range.1)]);
         }
         assert!(render(&mut renderer, scene, INSTANTS[0], &[]) == plain, "{}", scene.name);
+    }
+}
+
+/// Each field of the settings renders at both ends of its range, whatever the others are.
+#[test]
+fn every_setting_renders_at_its_ends() {
+    let mut renderer = Renderer::new(2).unwrap();
+    let mut frame = Frame::new(40, 24);
+    for name in ["spheres-glass", "shadow", "shadow-cube", "sky-of-clouds", "fire", "torches", "clouds"] {
+        let scene = scenes::named(name).unwrap();
+        for knob in KNOBS {
+            for (base, value) in [(Quality::DEFAULT, knob.parameter.range.0), (Quality::FAST, knob.parameter.range.1)] {
+                let mut quality = base;
+                (knob.set)(&mut quality, value);
+                frame.pixels.fill(0);
+                renderer.render(&scene, 1.5, &quality, &mut frame);
+                let lit = frame.pixels.iter().filter(|pixel| **pixel != 0).count();
+                assert!(lit > 40, "{name} with {} = {value}", knob.parameter.name);
+            }
+        }
     }
 }

@@ -292,7 +292,10 @@ impl Args {
         let start = (at || since || to).then_some(if at { instant } else { from });
         let end = to.then_some(until);
         let (still, governed) = (at, !sized && !rated);
+        #[cfg(feature = "full")]
         let changes = set_values(scene, settings)?;
+        #[cfg(not(feature = "full"))]
+        let (changes, _): (Values, _) = (&[], settings);
         #[cfg(feature = "full")]
         let (governed, _quality_name, quality) = turned(changes, governed, _quality_name, quality);
         let args = Args {
@@ -391,12 +394,6 @@ fn turned(
         }
     }
     if said == name { (governed, name, quality) } else { (false, said.leak(), Box::leak(Box::new(own))) }
-}
-
-/// There is nothing to be set in the 64 kB build.
-#[cfg(not(feature = "full"))]
-fn set_values(_: Option<&'static Scene>, _: &[&[u8]]) -> Result<Values<'static>, Vec<u8>> {
-    Ok(&[])
 }
 
 /// The SIMD level of that name, or the best one without a name; none where this machine lacks it.

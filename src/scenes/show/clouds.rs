@@ -200,7 +200,9 @@ fn picture(spec: &FrameSpec) -> Picture {
     let turn = Mat3::from_cols(x, y, -ahead);
     let eye = shot.way(since * shot.follows * 0.01) + Mat3::from_rotation_y(-shot.heading) * Vec3::from(shot.eye);
     let target = place + ahead * shot.ahead;
-    let camera = spec.placed(Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01));
+    let camera = Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01);
+    #[cfg(feature = "full")]
+    let camera = spec.placed(camera);
     // The clouds are those around the eye, wherever it is put.
     let eye = if cuts::PARAMETERS { camera.eye } else { eye };
     let view = spec.view(camera);

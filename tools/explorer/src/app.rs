@@ -196,12 +196,17 @@ impl App {
     fn copy(&mut self, now: f64) {
         let Some(shown) = &self.shown else { return };
         let command = shown.request.command();
-        println!("{command}");
+        self.put(command, "command line", now);
+    }
+
+    /// Puts a text on the clipboard, and on stdout for where there is none.
+    fn put(&mut self, text: String, what: &str, now: f64) {
+        println!("{}", text.trim_end());
         if self.clipboard.is_none() {
             self.clipboard = arboard::Clipboard::new().ok();
         }
-        let copied = self.clipboard.as_mut().is_some_and(|clipboard| clipboard.set_text(command).is_ok());
-        self.tell(if copied { "copied the command line" } else { "the command line is on stdout" }.into(), now);
+        let copied = self.clipboard.as_mut().is_some_and(|clipboard| clipboard.set_text(text).is_ok());
+        self.tell(if copied { format!("copied: {what}") } else { format!("on stdout: {what}") }, now);
     }
 
     fn still(&mut self, now: f64) {
@@ -273,6 +278,9 @@ impl App {
         let output = ctx.run(raw, |ctx| self.draw(ctx));
         if let Some(told) = self.turned.told.take() {
             self.tell(told, now);
+        }
+        if let Some(rows) = self.turned.rows.take() {
+            self.put(rows, "rows of keys", now);
         }
         if std::mem::take(&mut self.turned.copy) {
             self.copy(now);

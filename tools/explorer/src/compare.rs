@@ -8,7 +8,7 @@ use paprsek::Quality;
 use paprsek::frame::{Frame, Tile};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
-use testkit::metrics::{Difference, channels};
+use testkit::metrics::{Difference, channels, ssim};
 
 /// A comparison of a frame.
 pub struct Compared {
@@ -18,6 +18,10 @@ pub struct Compared {
     pub truth: Frame,
     /// How far they are apart.
     pub difference: Difference,
+    /// Their structural similarity, 1 for equal pictures.
+    pub ssim: f64,
+    /// FLIP at the default viewing distance, the mean over the pixels; none without the feature `flip`.
+    pub flip: Option<f32>,
 }
 
 /// What the comparison is set to, and what it has found.
@@ -57,7 +61,8 @@ impl Compare {
                 return Ok(None);
             }
             let difference = Difference::between(&frame, &truth);
-            Ok(Some(Compared { request, truth, difference }))
+            let (ssim, flip) = (ssim(&frame, &truth), flip(&frame, &truth));
+            Ok(Some(Compared { request, truth, difference, ssim, flip }))
         };
         let thread = Background::start(work)?;
         Ok(Compare {
@@ -119,6 +124,21 @@ impl Compare {
             }
         }
     }
+}
+
+/// FLIP `[Andersson20]` of a picture against the truth.
+#[cfg(feature = "flip")]
+fn flip(picture: &Frame, truth: &Frame) -> Option<f32> {
+    use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool};
+    let (width, height) = (truth.width as u32, truth.height as u32);
+    let [picture, truth] = [picture, truth].map(|frame| FlipImageRgb8::with_data(width, height, &frame.to_rgb()));
+    Some(FlipPool::from_image(&nv_flip::flip(truth, picture, DEFAULT_PIXELS_PER_DEGREE)).mean())
+}
+
+/// There is no FLIP in this build.
+#[cfg(not(feature = "flip"))]
+fn flip(_: &Frame, _: &Frame) -> Option<f32> {
+    None
 }
 
 /// The difference of two pixels, times a factor, around grey.

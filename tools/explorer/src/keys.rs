@@ -43,6 +43,8 @@ pub enum Action {
     Reset,
     /// The scene's own camera.
     Home,
+    /// A key of the camera, where it is.
+    Key,
     /// Takes the aeroplane, or leaves it.
     Fly,
     /// From the pilot's eyes, or from behind.
@@ -88,6 +90,7 @@ const ROWS: &[Row] = &[
     (Key::N, false, Action::Snow),
     (Key::Delete, false, Action::Reset),
     (Key::Home, false, Action::Home),
+    (Key::Semicolon, false, Action::Key),
     (Key::B, false, Action::Fly),
     (Key::V, false, Action::Person),
     (Key::C, false, Action::Copy),
@@ -142,6 +145,7 @@ pub const HELP: &[(&str, &[(&str, &str)])] = &[
         ("drag", "look around, with either button"),
         ("wheel", "walk faster or slower; with Ctrl the field of view"),
         ("Home", "back to the scene's own camera"),
+        (";", "a key of the camera; the panel plays and writes them"),
         ("Z X", "the scene before, the next scene"),
     ]),
     ("Fly", &[

@@ -12,6 +12,7 @@ mod compare;
 mod file;
 mod flight;
 mod input;
+mod keyframes;
 mod keys;
 mod model;
 mod overlay;

@@ -2,6 +2,7 @@
 
 use crate::calendar::months_later;
 use crate::flight::{Flight, Stick};
+use crate::keyframes::Keyframes;
 use crate::keys::Action;
 use crate::request::{Request, camera, milliseconds, plane, rounded};
 use paprsek::Quality;
@@ -35,6 +36,10 @@ pub struct Model {
     pub values: Vec<(&'static str, f64)>,
     /// Where the camera has been put; none while the scene moves it.
     pub pose: Option<Pose>,
+    /// Keys of the camera.
+    pub keys: Keyframes,
+    /// Whether the camera goes by its keys.
+    pub keyed: bool,
     /// The aeroplane, while it is flown.
     pub flight: Option<Flight>,
     /// Metres per second that one walks.
@@ -61,6 +66,8 @@ impl Model {
             quality: Quality::DEFAULT,
             values: Vec::new(),
             pose: None,
+            keys: Keyframes::default(),
+            keyed: false,
             flight: None,
             speed: SPEEDS[2],
             placed: Placed::default(),
@@ -78,8 +85,8 @@ impl Model {
             if self.placed.plane.is_some() {
                 values.extend(plane(&flight.plane));
             }
-        } else if let Some(pose) = &self.pose {
-            values.extend(camera(pose));
+        } else if let Some(pose) = self.by_keys().or(self.pose) {
+            values.extend(camera(&pose));
         }
         let (scene, time, base) = (self.scene, milliseconds(self.time), self.base);
         Request { scene, time, size, base, quality: self.quality, values, threads: self.threads, simd: self.simd }
@@ -87,7 +94,19 @@ impl Model {
 
     /// The camera of the frame that is to be shown.
     pub fn camera(&self) -> Option<Pose> {
-        self.flight.map(|flight| flight.camera()).or(self.pose).or(self.placed.camera)
+        self.flight.map(|flight| flight.camera()).or_else(|| self.by_keys()).or(self.pose).or(self.placed.camera)
+    }
+
+    /// The camera by its keys, where it goes by these.
+    fn by_keys(&self) -> Option<Pose> {
+        self.keys.pose(milliseconds(self.time)).filter(|_| self.keyed)
+    }
+
+    /// Adds a key where the camera is.
+    pub fn add_key(&mut self) {
+        if let Some(pose) = self.camera() {
+            self.keys.add(milliseconds(self.time), &pose);
+        }
     }
 
     /// Moves on by so many seconds of real time.
@@ -107,7 +126,8 @@ impl Model {
         let turn = pose.turn();
         let way = turn.x_axis.as_dvec3() * right - turn.z_axis.as_dvec3() * ahead;
         pose.eye += way + glam::DVec3::Y * up;
-        self.pose = Some(pose);
+        // Who moves by hand leaves the keys.
+        (self.pose, self.keyed) = (Some(pose), false);
     }
 
     /// Turns the eye as a drag of so many pixels over a picture of `height` rows turns it.
@@ -116,7 +136,7 @@ impl Model {
         let degrees = DEGREES * 720.0 / height as f64 * pose.fov / 50.0;
         pose.heading = (pose.heading - f64::from(x) * degrees + 180.0).rem_euclid(360.0) - 180.0;
         pose.pitch = (pose.pitch + f64::from(y) * degrees).clamp(-90.0, 90.0);
-        self.pose = Some(pose);
+        (self.pose, self.keyed) = (Some(pose), false);
     }
 
     /// Walks faster or slower, or widens the view, by notches of the wheel.
@@ -127,7 +147,7 @@ impl Model {
             flight.plane.fov = (flight.plane.fov * 0.95f64.powf(notches)).clamp(5.0, 140.0);
         } else if let Some(pose) = self.camera() {
             let fov = (pose.fov * 0.95f64.powf(notches)).clamp(5.0, 140.0);
-            self.pose = Some(Pose { fov, ..pose });
+            (self.pose, self.keyed) = (Some(Pose { fov, ..pose }), false);
         }
     }
 
@@ -202,7 +222,8 @@ impl Model {
                 self.values.clear();
                 self.start_from("default");
             }
-            Action::Home => (self.pose, self.flight) = (None, None),
+            Action::Home => (self.pose, self.flight, self.keyed) = (None, None, false),
+            Action::Key => self.add_key(),
             Action::Fly => self.fly(),
             Action::Person => {
                 if let Some(flight) = &mut self.flight {
@@ -278,6 +299,22 @@ mod tests {
                 assert!(parameter.takes(value));
             }
         }
+    }
+
+    #[test]
+    fn the_camera_goes_by_its_keys_until_it_is_moved() {
+        let mut model = model("snow");
+        for (time, x) in [(1.0, 0.0), (3.0, 8.0)] {
+            model.time = time;
+            model.pose = Some(Pose { eye: glam::dvec3(x, 2.0, 3.0), heading: 0.0, pitch: 0.0, roll: 0.0, fov: 50.0 });
+            model.act(Action::Key);
+        }
+        (model.keyed, model.time) = (true, 2.0);
+        let asked = model.request((64, 36));
+        let x = asked.values.iter().find(|value| value.0 == "camera.x").unwrap().1;
+        assert!((x - 4.0).abs() < 1e-3, "{asked:?}");
+        model.walk([1.0, 0.0, 0.0]);
+        assert!(!model.keyed && (model.pose.unwrap().eye.x - 5.0).abs() < 1e-3);
     }
 
     #[test]

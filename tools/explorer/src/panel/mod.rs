@@ -3,6 +3,7 @@
 mod graph;
 mod help;
 mod hud;
+mod keyed;
 mod row;
 mod study;
 mod turn;

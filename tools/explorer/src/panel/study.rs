@@ -79,7 +79,11 @@ pub fn compared(ctx: &Context, compare: &mut Compare, shown: Option<&Shown>) {
                 let psnr = if psnr.is_finite() { format!("{psnr:.2} dB") } else { "equal".into() };
                 ui.label(RichText::new(format!("PSNR {psnr}")).strong().color(LOUD));
                 let bad = 100.0 * difference.bad;
-                ui.label(format!("{bad:.3} % bad pixels, off by more than 8 codes"));
+                ui.label(format!("SSIM {:.5}", found.ssim));
+                if let Some(flip) = found.flip {
+                    ui.label(format!("FLIP {flip:.5}"));
+                }
+                ui.label(format!("{bad:.3} % bad pixels (by 8 codes)"));
                 ui.label(format!("largest difference {} codes", difference.largest));
             }
             None => drop(ui.label(format!("rendering the truth, {:.0} %", 100.0 * compare.progress()))),

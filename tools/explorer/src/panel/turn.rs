@@ -1,5 +1,6 @@
 //! The panel: every parameter of the scene, the camera, and every field of the settings.
 
+use super::keyed::keyed;
 use super::row::row;
 use super::{GROUND, QUIET};
 use crate::calendar;
@@ -26,6 +27,8 @@ pub struct Turned {
     pub copy: bool,
     /// Where the first slider of the scene is, points.
     pub slider: Option<Rect>,
+    /// Rows of keys to copy.
+    pub rows: Option<String>,
     /// What to tell.
     pub told: Option<String>,
 }
@@ -49,6 +52,9 @@ pub fn panel(ctx: &Context, own: &mut Turned, model: &mut Model, overlay: &mut O
             }
             parameters(ui, &mut slider, model, &found);
             camera(ui, model, &found);
+            if own.search.trim().is_empty() {
+                own.rows = keyed(ui, model).or(own.rows.take());
+            }
             settings(ui, model, &found);
             own.slider = slider;
         });

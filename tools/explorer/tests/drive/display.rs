@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -18,6 +19,8 @@ pub struct Explorer {
     pub xvfb: Child,
     pub child: Child,
     number: String,
+    /// One at a time: a script's pauses are as long as they seem only where nothing else runs.
+    _turn: MutexGuard<'static, ()>,
     /// Where the explorer writes its files and its states.
     pub out: TempDir,
 }
@@ -31,6 +34,8 @@ impl Explorer {
         if !needs(&[Tool::Xvfb, Tool::Xdotool, Tool::Xlib]) {
             return None;
         }
+        static TURN: Mutex<()> = Mutex::new(());
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let mut xvfb = Command::new("Xvfb");
         xvfb.args(["-displayfd", "1", "-screen", "0", "1400x800x24", "-nolisten", "tcp", "-noreset"]);
         let mut xvfb = xvfb.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
@@ -42,7 +47,7 @@ impl Explorer {
         explorer.args(words).arg("--out").arg(out.path()).arg("--state").arg(out.path().join("states"));
         explorer.env("DISPLAY", &number).env_remove("WAYLAND_DISPLAY");
         let child = explorer.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        let explorer = Explorer { xvfb, child, number, out };
+        let explorer = Explorer { xvfb, child, number, _turn: turn, out };
         explorer.expect("a picture", |state| state.contains_key("scene"));
         // To the upper left corner, so that places in the window are places on the screen. Keys go to where the mouse is.
         explorer.xdotool("search --name explorer windowmove 0 0 mousemove 310 20");
