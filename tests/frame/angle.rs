@@ -2,14 +2,15 @@
 
 use glam::{Mat3, Vec3};
 use paprsek::angle::{sin, sin_cos, tan, turn_x, turn_y, turn_z};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// An angle, and the bits of its sine and cosine, rounded from 200 binary digits (mpmath).
 const ROUNDED: [(f32, u32, u32); 23] = [
     // Nearest to multiples of a right angle, so that one of both is all cancellation.
-    (1.570_796_4, 0x3f80_0000, 0xb33b_bd2e),
-    (3.141_592_7, 0xb3bb_bd2e, 0xbf80_0000),
+    (FRAC_PI_2, 0x3f80_0000, 0xb33b_bd2e),
+    (PI, 0xb3bb_bd2e, 0xbf80_0000),
     (4.712_389, 0xbf80_0000, 0x324c_de2e),
-    (6.283_185_5, 0x343b_bd2e, 0x3f80_0000),
+    (TAU, 0x343b_bd2e, 0x3f80_0000),
     (7.853_981_5, 0x3f80_0000, 0x3415_5386),
     (10.995_574, 0xbf80_0000, 0xb49b_ba77),
     (157.079_64, 0x3645_5799, 0x3f80_0000),
@@ -22,7 +23,7 @@ const ROUNDED: [(f32, u32, u32); 23] = [
     (1e-4, 0x38d1_b717, 0x3f80_0000),
     (0.41, 0x3ecc_1685, 0x3f6a_c86e),
     (0.5, 0x3ef5_7744, 0x3f60_a940),
-    (0.785_398_2, 0x3f35_04f3, 0x3f35_04f3),
+    (FRAC_PI_4, 0x3f35_04f3, 0x3f35_04f3),
     (1.0, 0x3f57_6aa4, 0x3f0a_5140),
     (-1.0, 0xbf57_6aa4, 0x3f0a_5140),
     (2.5, 0x3f19_3578, 0xbf4d_17bf),
@@ -63,13 +64,12 @@ fn what_is_no_angle_gives_nan() {
 
 #[test]
 fn turns_lead_from_axis_to_axis() {
-    let quarter = std::f32::consts::FRAC_PI_2;
     for (turn, axis, from, to) in [
         (turn_x as fn(f32) -> Mat3, Vec3::X, Vec3::Y, Vec3::Z),
         (turn_y, Vec3::Y, Vec3::Z, Vec3::X),
         (turn_z, Vec3::Z, Vec3::X, Vec3::Y),
     ] {
-        assert!((turn(quarter) * from).distance(to) < 1e-7);
+        assert!((turn(FRAC_PI_2) * from).distance(to) < 1e-7);
         for x in [-7.0, -0.3, 0.0, 1e-3, 0.5, 2.0, 100.0] {
             assert_eq!(turn(x) * axis, axis);
             assert!((turn(x).determinant() - 1.0).abs() < 3e-7);
