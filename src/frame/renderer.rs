@@ -151,7 +151,14 @@ impl Renderer {
 
     /// Draws bands of a prepared picture from band `first` on, as many as the frame has pixels for.
     #[inline(always)]
-    pub(super) fn draw_bands(&self, picture: &Picture, first: usize, x: usize, width: usize, frame: &mut Frame) -> Stats {
+    pub(super) fn draw_bands(
+        &self,
+        picture: &Picture,
+        first: usize,
+        x: usize,
+        width: usize,
+        frame: &mut Frame,
+    ) -> Stats {
         let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
         let transfer = if cuts::TRANSFERS { picture.transfer } else { Transfer::Srgb };
         let columns = width.div_ceil(Tile::SIZE);

@@ -21,11 +21,12 @@ async function start() {
   if (lacks) return trouble(lacks);
   const module = await load(new URL('./paprsek.wasm', import.meta.url));
   const arrived = performance.now();
-  const player = new Player(document.getElementById('picture'), await Instance.of(module));
+  const instance = await Instance.of(module);
+  const player = new Player(document.getElementById('picture'), instance);
   const controls = new Controls(player);
   player.addEventListener('frame', () => (paprsek.firstFrame = performance.now() - arrived), { once: true });
   // For the console, and for tests.
-  globalThis.paprsek = { player, controls };
+  globalThis.paprsek = { instance, player, controls };
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) player.go(REST);
   else player.play();
   player.pool = new Pool(module, navigator.hardwareConcurrency || 1, () => player.take(), trouble);

@@ -97,6 +97,11 @@ export class Player extends EventTarget {
     return this.#shown?.request.time;
   }
 
+  /** Whether time stands still and its frame is shown. */
+  get atRest() {
+    return this.#clock.rests && this.#still === undefined && !this.#plays && this.#shown?.epoch === this.#epoch;
+  }
+
   get playing() {
     return this.#plays;
   }

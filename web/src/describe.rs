@@ -1,8 +1,8 @@
 //! What there is to choose from, as JSON.
 
 use paprsek::frame::{Parameter, Scene};
-use paprsek::scenes::show::intro::{INTRO, PARTS};
 use paprsek::scenes;
+use paprsek::scenes::show::intro::{INTRO, PARTS};
 use paprsek::settings::Quality;
 use serde_json::{Value, json};
 

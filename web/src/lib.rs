@@ -10,5 +10,3 @@ pub mod exports;
 #[path = "../../src/bin/paprsek/governor.rs"]
 mod governor;
 pub mod rows;
-
-pub use governor::{EIGHTHS, Governor};

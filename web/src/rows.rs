@@ -47,8 +47,9 @@ impl Rows {
             // The last one goes first, so that there is memory for one only.
             self.prepared = None;
             let asked = scene.parameters.iter().zip(&request.values).filter(|(_, value)| !value.is_nan());
-            let values: Vec<_> =
-                asked.map(|(parameter, value)| (parameter.name, value.clamp(parameter.range.0, parameter.range.1))).collect();
+            let values: Vec<_> = asked
+                .map(|(parameter, value)| (parameter.name, value.clamp(parameter.range.0, parameter.range.1)))
+                .collect();
             let options = Options { quality, stereo: None, values: &values };
             let prepared = self.renderer.prepare_rows(scene, request.time, &options, request.size);
             self.prepared = Some((request.clone(), prepared));
@@ -99,7 +100,9 @@ mod tests {
         for scene in 0..scenes::ALL.len() {
             let request = Request { scene, time: 1.5, size: (70, 150), quality: scene % 2, values: vec![] };
             let whole = whole(&request, &[]);
-            for (first, last) in [(128, 150), (0, 64), (64, 128), (3, 5), (60, 131), (0, 150), (149, 999), (7, 7), (150, 9)] {
+            for (first, last) in
+                [(128, 150), (0, 64), (64, 128), (3, 5), (60, 131), (0, 150), (149, 999), (7, 7), (150, 9)]
+            {
                 let end = last.min(150);
                 let expected = &whole[first.min(end) * 70..end * 70];
                 assert!(rows.render(&request, first, last) == expected, "{scene}: {first} to {last}");

@@ -1,14 +1,10 @@
-//! The page: builds it into one directory of plain files, and serves such a directory on this machine.
-//!
 //! `page build` compiles `web/` to WebAssembly with SIMD and puts the module beside the files of `web/page`, in
 //! `target/web`. `page serve` serves that directory to this machine alone, until it is ended.
 
-mod build;
-mod serve;
-
+use page::{build, serve};
 use std::env;
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const USAGE: &str = "usage: page build [--out DIR], page serve [--port N] [--dir DIR]";
 /// Where the server listens if it is not told.
@@ -44,9 +40,4 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err(USAGE.into()),
     }
     Ok(())
-}
-
-/// The root of the repository.
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }

@@ -35,7 +35,8 @@ impl Server {
         if !directory.join("index.html").is_file() {
             return Err(format!("{} has no index.html; page build makes it", directory.display()).into());
         }
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| format!("port {port}: {error}"))?;
+        let listener =
+            TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| format!("port {port}: {error}"))?;
         Ok(Server { listener, directory: directory.to_owned() })
     }
 
@@ -84,7 +85,8 @@ fn answer(mut stream: TcpStream, directory: &Path) -> io::Result<()> {
 /// might lead out of the directory, which has no directories in it.
 fn requested(line: &str) -> Option<&str> {
     let path = line.strip_prefix("GET /")?.split([' ', '?', '#']).next()?;
-    let plain = path.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._-".contains(&byte)) && !path.starts_with('.');
+    let plain =
+        path.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"._-".contains(&byte)) && !path.starts_with('.');
     plain.then_some(if path.is_empty() { "index.html" } else { path })
 }
 
@@ -102,7 +104,13 @@ mod tests {
     fn nothing_leads_out_of_the_directory() {
         assert_eq!(requested("GET / HTTP/1.1\r\n"), Some("index.html"));
         assert_eq!(requested("GET /main.js?v=1 HTTP/1.1\r\n"), Some("main.js"));
-        for line in ["GET /../secret HTTP/1.1", "GET /.git HTTP/1.1", "GET //etc/passwd HTTP/1.1", "POST / HTTP/1.1", "GET /a%2e"] {
+        for line in [
+            "GET /../secret HTTP/1.1",
+            "GET /.git HTTP/1.1",
+            "GET //etc/passwd HTTP/1.1",
+            "POST / HTTP/1.1",
+            "GET /a%2e",
+        ] {
             assert_eq!(requested(line), None, "{line}");
         }
     }

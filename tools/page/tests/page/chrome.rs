@@ -1,5 +1,7 @@
 //! A browser without a screen, driven by its DevTools protocol.
+#![allow(dead_code, reason = "the tests and the examples each use some of it")]
 
+use base64::prelude::{BASE64_STANDARD, Engine};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read};
 use std::net::TcpStream;
@@ -35,7 +37,13 @@ impl Chrome {
         let directory = tempfile::tempdir().unwrap();
         let mut command = Command::new("chromium");
         // The sandbox takes rights that the gate's container lacks; the pages are our own.
-        command.args(["--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--disable-gpu", "--no-first-run"]);
+        command.args([
+            "--headless=new",
+            "--no-sandbox",
+            "--remote-debugging-port=0",
+            "--disable-gpu",
+            "--no-first-run",
+        ]);
         command.arg(format!("--user-data-dir={}", directory.path().join("profile").display()));
         command.arg(format!("--window-size={width},{height}")).arg("about:blank");
         let mut child = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
@@ -175,10 +183,15 @@ impl Chrome {
         }
     }
 
-    /// A picture of the page, as PNG in base64.
-    pub fn screenshot(&mut self) -> String {
+    /// Has every page that is opened from now on run a script before its own.
+    pub fn before(&mut self, script: &str) {
+        self.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
+    }
+
+    /// A picture of the page, as a PNG file.
+    pub fn screenshot(&mut self) -> Vec<u8> {
         let picture = self.call("Page.captureScreenshot", json!({ "format": "png" }));
-        picture["data"].as_str().unwrap().to_owned()
+        BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap()
     }
 }
 
