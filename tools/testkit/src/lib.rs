@@ -9,6 +9,7 @@ pub mod drawn;
 pub mod elementary;
 #[cfg(feature = "full")]
 pub mod exact;
+pub mod flip;
 pub mod found;
 pub mod frames;
 pub mod fresnel;

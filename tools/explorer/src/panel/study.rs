@@ -80,9 +80,7 @@ pub fn compared(ctx: &Context, compare: &mut Compare, shown: Option<&Shown>) {
                 ui.label(RichText::new(format!("PSNR {psnr}")).strong().color(LOUD));
                 let bad = 100.0 * difference.bad;
                 ui.label(format!("SSIM {:.5}", found.ssim));
-                if let Some(flip) = found.flip {
-                    ui.label(format!("FLIP {flip:.5}"));
-                }
+                ui.label(format!("FLIP {:.5}", found.flip));
                 ui.label(format!("{bad:.3} % bad pixels (by 8 codes)"));
                 ui.label(format!("largest difference {} codes", difference.largest));
             }
