@@ -137,12 +137,12 @@ fn imposters_age_from_frame_to_frame() {
     };
     for age in 0..3 {
         let found = ages(&look(4.0, 1.0));
-        assert!(found.len() > 1000 && found.iter().all(|found| *found == age as f32), "{age}");
+        assert!(found.len() > 1000 && found.iter().all(|found| (found - age as f32).abs() < 1e-4), "{age}");
     }
     // Some serve the next frame too, and are a frame older; what is new is as new as can be.
     let later = ages(&look(4.2, 1.0));
-    assert!(later.iter().all(|age| (0.0..=3.0).contains(age)));
-    assert!(later.contains(&3.0));
+    assert!(later.iter().all(|age| (0.0..3.0001).contains(age)));
+    assert!(later.iter().any(|age| *age > 2.9999) && later.iter().any(|age| *age < 2.9));
     assert!(ages(&look(4.0, 0.0)).is_empty());
 }
 

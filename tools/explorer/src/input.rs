@@ -100,6 +100,11 @@ impl Input {
             }
         }
         self.buttons = events.buttons;
+        for (button, clicks) in [PointerButton::Primary, PointerButton::Secondary].into_iter().zip(events.clicks) {
+            for pressed in std::iter::repeat_n([true, false], clicks.into()).flatten() {
+                out.push(Event::PointerButton { pos, button, pressed, modifiers: self.modifiers() });
+            }
+        }
         if events.wheel != 0.0 {
             let delta = vec2(0.0, events.wheel.clamp(-8.0, 8.0) * NOTCH);
             let (unit, modifiers) = (egui::MouseWheelUnit::Point, self.modifiers());

