@@ -346,11 +346,12 @@ impl App {
             let told = self.told.as_ref().map(|told| &*told.0);
             panel::hud(ctx, &self.model, self.shown.as_ref(), told);
         }
+        let mut above = 0.0;
         if self.times && free {
-            self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
+            above = self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
         }
         if let Some(coloured) = self.shown.as_ref().and_then(|shown| shown.coloured.as_ref()).filter(|_| free) {
-            panel::legend(ctx, coloured, self.times);
+            panel::legend(ctx, coloured, above);
         }
         if self.compare.on && free {
             panel::compared(ctx, &mut self.compare, self.shown.as_ref());

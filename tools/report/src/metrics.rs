@@ -31,7 +31,8 @@ impl Error {
         let (picture, truth) = (rgb(picture), rgb(truth));
         let ssim = rgb_similarity_structure(&Algorithm::MSSIMSimple, &truth, &picture).expect("equal sizes").score;
         let mean = flip::mean(&flips);
-        let (_, flip99, _) = flips.select_nth_unstable_by(flips.len() * 99 / 100, f32::total_cmp);
+        let place = flips.len() * 99 / 100;
+        let (_, flip99, _) = flips.select_nth_unstable_by(place, f32::total_cmp);
         Error { square, ssim, flip: mean, flip99: f64::from(*flip99), bad }
     }
 

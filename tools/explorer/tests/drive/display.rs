@@ -49,7 +49,7 @@ impl Explorer {
         let number = format!(":{}", number.trim());
         let out = TempDir::new().unwrap();
         let mut all = by.iter().copied().chain([env!("CARGO_BIN_EXE_explorer")]);
-        let mut explorer = Command::new(all.next()?);
+        let mut explorer = Command::new(all.next().expect("a program"));
         explorer.args(all).args(words).arg("--out").arg(out.path()).arg("--state").arg(out.path().join("states"));
         explorer.env("DISPLAY", &number).env_remove("WAYLAND_DISPLAY");
         let child = explorer.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
