@@ -13,88 +13,76 @@ use testkit::random::Random;
 use testkit::sunny::{REACH, SHARE, Sunny, cameras};
 use testkit::{Found, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Best,
         "a box's shadow at 1 to 90 degrees, maps of 512 and 2048 texels",
         "[Williams78], [Reeves87]",
         "rays in f64: share misclassified",
-        "",
         SHARE,
         outline,
     ),
-    case(
+    Case::new(
+        Runs::Best,
         "the same farther than 1.5 texels from the edge, from 128 texels on",
         "leaks and acne",
         "rays in f64: points",
-        "points",
         0.0,
         far,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "level ground that shadows itself at 1 to 90 degrees",
         "acne, [Isidoro06]",
         "rays in f64: points",
-        "points",
         0.0,
         acne,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "light that level ground loses at 0.5 to 30 degrees",
         "grazing light, [Isidoro06]",
         "closed form: none",
-        "",
         1e-4,
         grazing,
     ),
-    case(
+    Case::new(
+        Runs::Best,
         "traced shadows farther than 0.1 texels from the edge",
         "[Whitted80]",
         "rays in f64: points",
-        "points",
         0.0,
         traced,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "twice the texels: misclassified points fall by the first order",
         "refinement",
         "rays in f64, order 1",
-        "orders short",
         0.35,
         order,
+    )
+    .unit("orders short"),
+    Case::new(
+        Runs::Levels,
+        "lookups in the map, on its border and beyond, interpolated and not",
+        "[Reeves87]",
+        "area of the lit texels in f64",
+        2e-4,
+        lookups,
     ),
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "lookups in the map, on its border and beyond, interpolated and not",
-            "[Reeves87]",
-            "area of the lit texels in f64",
-            "",
-            2e-4,
-            lookups,
-        )
-    },
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "lamps 0.5 to 5 m above level ground",
-            "fading light",
-            "cosine over 1 + a d + b d^2, in f64",
-            "relative",
-            1e-3,
-            lamps,
-        )
-    },
+    Case::new(
+        Runs::Levels,
+        "lamps 0.5 to 5 m above level ground",
+        "fading light",
+        "cosine over 1 + a d + b d^2, in f64",
+        1e-3,
+        lamps,
+    )
+    .unit("relative"),
 ];
 
 const ELEVATIONS: [f64; 7] = [30.0, 1.0, 90.0, 5.0, 60.0, 15.0, 75.0];

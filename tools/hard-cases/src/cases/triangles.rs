@@ -16,43 +16,74 @@ use testkit::drawn::{self, body, dark, ground, ray, triangles};
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
-const fn case(name: &'static str, source: &'static str, oracle: &'static str, run: fn(&Effort) -> Found) -> Case {
-    Case { name, source, oracle, runs: Runs::Levels, unit: "failures", target: 0.0, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Levels,
         "triangles of every hard kind: slivers, corners on samples, huge ones at the guard band",
         "[Pineda88], top-left rule",
         "24.8 in i128, every pixel",
+        0.0,
         exact,
-    ),
-    case("grids of triangles: gaps and overdraw", "shared edges, top-left rule", "each pixel once", grids),
-    case(
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "grids of triangles: gaps and overdraw",
+        "shared edges, top-left rule",
+        "each pixel once",
+        0.0,
+        grids,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
         "fans around a corner on a sample: gaps and overdraw",
         "shared corners",
         "each pixel of the polygon once",
+        0.0,
         fans,
-    ),
-    Case {
-        unit: "roundings",
-        target: NEARNESS,
-        ..case("depth of slivers and of planes from the near plane to the horizon", "depth precision", "f64", depths)
-    },
-    case("depth outside of its corners' range", "extrapolation at edges", "order", between),
-    Case {
-        unit: "of the bound",
-        target: 1.0,
-        ..case(
-            "level ground through the eye's plane, 3 m to 20 km, from 6 cm up",
-            "[SutherlandHodgman74], w <= 0",
-            "rays in f64, corners snapped by 1/100 pixel",
-            clipped,
-        )
-    },
-    case("triangles behind the eye or before the near plane", "w <= 0", "nothing is covered", behind),
-    case("corners of any bits", "0, -0, denormals, MAX, infinities, NaN", "finite light, no panic", any_bits),
-    Case { unit: "failures", ..case("layers 1 m apart, 5 km away", "reversed depth", "the nearer is seen", layers) },
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "depth of slivers and of planes from the near plane to the horizon",
+        "depth precision",
+        "f64",
+        NEARNESS,
+        depths,
+    )
+    .unit("roundings"),
+    Case::new(Runs::Levels, "depth outside of its corners' range", "extrapolation at edges", "order", 0.0, between)
+        .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "level ground through the eye's plane, 3 m to 20 km, from 6 cm up",
+        "[SutherlandHodgman74], w <= 0",
+        "rays in f64, corners snapped by 1/100 pixel",
+        1.0,
+        clipped,
+    )
+    .unit("of the bound"),
+    Case::new(
+        Runs::Levels,
+        "triangles behind the eye or before the near plane",
+        "w <= 0",
+        "nothing is covered",
+        0.0,
+        behind,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "corners of any bits",
+        "0, -0, denormals, MAX, infinities, NaN",
+        "finite light, no panic",
+        0.0,
+        any_bits,
+    )
+    .unit("failures"),
+    Case::new(Runs::Levels, "layers 1 m apart, 5 km away", "reversed depth", "the nearer is seen", 0.0, layers)
+        .unit("failures"),
 ];
 
 fn exact(effort: &Effort) -> Found {

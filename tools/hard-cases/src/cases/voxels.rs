@@ -15,55 +15,59 @@ const FOREVER: f32 = f32::INFINITY;
 /// Places in voxels are good to 1e-5, where a hard edge has a slope of 10 in optical depth.
 const PLACES: f64 = 1e-4;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Levels, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case("a cumulus, light and transmittance", "[Kajiya84]", "the same steps in f64", PLACES, cumulus),
-    case(
+    Case::new(
+        Runs::Levels,
+        "a cumulus, light and transmittance",
+        "[Kajiya84]",
+        "the same steps in f64",
+        PLACES,
+        cumulus,
+    ),
+    Case::new(
+        Runs::Levels,
         "the same from 1e3 and 1e5 half edges away",
         "places were counted from the eye: 3e-3",
         "the same steps in f64",
         PLACES,
         far,
     ),
-    case("one cube against eight", "seams between bricks", "each other", PLACES, bricks),
-    case("a needle of one voxel from all sides", "leaps over what is empty", "the same steps in f64", PLACES, needles),
-    case(
+    Case::new(Runs::Levels, "one cube against eight", "seams between bricks", "each other", PLACES, bricks),
+    Case::new(
+        Runs::Levels,
+        "a needle of one voxel from all sides",
+        "leaps over what is empty",
+        "the same steps in f64",
+        PLACES,
+        needles,
+    ),
+    Case::new(
+        Runs::Levels,
         "the eye inside, on faces, edges and corners, behind, slivers, axis-parallel, denormal slopes",
         "0 times infinity, [Williams05]",
         "closed form",
         PLACES,
         awkward,
     ),
-    case(
+    Case::new(
+        Runs::Levels,
         "any eye, direction, extinction and limit: light and transmittance make 1",
         "conservation: white furnace",
         "alpha + T = 1",
         1e-5,
         furnace,
     ),
-    Case {
-        unit: "failures",
-        ..case(
-            "eyes, directions and extinctions of any bits",
-            "0, -0, denormals, MAX, infinities, NaN",
-            "no panic, T from 0 to 1 where all is finite",
-            0.0,
-            any_bits,
-        )
-    },
-    Case {
-        unit: "failures",
-        ..case("empty clouds of any size", "an empty grid", "no light, T of 1, bit for bit", 0.0, empty)
-    },
+    Case::new(
+        Runs::Levels,
+        "eyes, directions and extinctions of any bits",
+        "0, -0, denormals, MAX, infinities, NaN",
+        "no panic, T from 0 to 1 where all is finite",
+        0.0,
+        any_bits,
+    )
+    .unit("failures"),
+    Case::new(Runs::Levels, "empty clouds of any size", "an empty grid", "no light, T of 1, bit for bit", 0.0, empty)
+        .unit("failures"),
 ];
 
 fn grown(kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
