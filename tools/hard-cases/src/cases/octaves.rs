@@ -6,7 +6,7 @@ use glam::Vec3;
 use paprsek::noise::reference::{fade, gradient};
 use paprsek::noise::{fbm, noise, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
-use testkit::perlin::exact_at;
+use testkit::perlin::{EDGES, exact_at};
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
@@ -46,29 +46,10 @@ pub const CASES: &[Case] = &[
 ];
 
 fn gradients(effort: &Effort) -> Found {
-    // The 12 edges of a cube as the paper lists them, and the four that it repeats.
-    const LIST: [[i8; 3]; 16] = [
-        [1, 1, 0],
-        [-1, 1, 0],
-        [1, -1, 0],
-        [-1, -1, 0],
-        [1, 0, 1],
-        [-1, 0, 1],
-        [1, 0, -1],
-        [-1, 0, -1],
-        [0, 1, 1],
-        [0, -1, 1],
-        [0, 1, -1],
-        [0, -1, -1],
-        [1, 1, 0],
-        [0, -1, 1],
-        [-1, 1, 0],
-        [0, -1, -1],
-    ];
     let (mut found, mut random) = (Found::default(), Random(64));
     for round in 0..effort.of(160_000) as usize {
         let offset = [0; 3].map(|_| random.range(-1.0, 1.0) as f32);
-        let terms = [0, 1, 2].map(|k| LIST[round % 16][k] as f64 * offset[k] as f64);
+        let terms = [0, 1, 2].map(|k| EDGES[round % 16][k] as f64 * offset[k] as f64);
         let (truth, size) = (terms.iter().sum::<f64>(), terms.iter().map(|t| t.abs()).sum::<f64>());
         // Any higher bits of the hash do not matter.
         let hash = round % 16 + 16 * (random.unit() * 1e6) as usize;
