@@ -8,7 +8,7 @@ use glam::{Vec3, vec3};
 use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
 use std::sync::Arc;
 use testkit::random::Random;
-use testkit::voxels::{DAY, FURNACE, aim, cloud, filled, ray, rays, truth};
+use testkit::voxels::{DAY, FURNACE, aim, cloud, eighths, filled, ray, rays, truth, whole_and_eighths};
 use testkit::{Found, levels};
 
 const FOREVER: f32 = f32::INFINITY;
@@ -100,28 +100,11 @@ fn far(effort: &Effort) -> Found {
 
 fn bricks(effort: &Effort) -> Found {
     let whole = cloud(grown(&CloudKind::CUMULUS, 2, 64), 8.0);
-    // Each part has two voxels of its neighbours around it, which its rays do not reach.
-    let part = |corner: [usize; 3]| {
-        filled(36, |place| {
-            let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
-            whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
-        })
-    };
-    let parts = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| {
-        let corner = [k & 1, k >> 1 & 1, k >> 2];
-        let centre = Vec3::from(corner.map(|bit| bit as f32 - 0.5));
-        Cloud { voxels: Arc::new(part(corner)), centre, size: 36.0 / 64.0, extinction: 8.0 * 36.0 / 64.0 }
-    });
+    let parts = eighths(&whole);
     let (mut found, mut random) = (Found::default(), Random(81));
     for _ in 0..effort.of(400) {
         let (y, z) = (random.range(-0.95, 0.95) as f32, random.range(-0.95, 0.95) as f32);
-        let (_, one) = ray(&whole, &FURNACE, vec3(-1.0, y, z), Vec3::X, 2.0, 1600.0);
-        let mut eight = 1.0;
-        for part in &parts {
-            if (part.centre.y > 0.0) == (y > 0.0) && (part.centre.z > 0.0) == (z > 0.0) {
-                eight *= ray(part, &FURNACE, vec3(part.centre.x - 0.5, y, z), Vec3::X, 1.0, 800.0).1;
-            }
-        }
+        let [one, eight] = whole_and_eighths(&whole, &parts, y, z);
         found.see((one - eight).abs() as f64, || format!("at {y}, {z}: {one} and {eight}"));
     }
     found
