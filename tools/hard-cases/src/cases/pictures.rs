@@ -6,6 +6,7 @@ use paprsek::settings::Quality;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::{Background, Light, Material, Object, Shape, World};
 use paprsek::view::Camera;
+use testkit::fresnel::by_angles as fresnel;
 use testkit::lines::alone;
 use testkit::picture::{eye_ray, plain, traced};
 use testkit::random::Random;
@@ -48,19 +49,6 @@ pub const CASES: &[Case] = &[
     )
     .unit("of the bound"),
 ];
-
-/// Unpolarised reflectance from the angles, as Fresnel wrote it: sines and tangents of sums.
-fn fresnel(n: f64, angle: f64) -> f64 {
-    if angle == 0.0 {
-        return ((n - 1.0) / (n + 1.0)).powi(2);
-    }
-    if angle.sin() >= n {
-        return 1.0;
-    }
-    let behind = (angle.sin() / n).asin();
-    let (minus, plus) = (angle - behind, angle + behind);
-    0.5 * ((minus.sin() / plus.sin()).powi(2) + (minus.tan() / plus.tan()).powi(2))
-}
 
 fn furnace(effort: &Effort) -> Found {
     let mut found = Found::default();
