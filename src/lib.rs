@@ -54,7 +54,7 @@
 //! | [`effects`] | fog and fades |
 //! | [`frame`] | scenes, layers, tiles, threads, and pixels |
 //! | [`settings`] | speed against error: [`Quality`] and its five parts |
-//! | [`view`], [`texture`], [`noise`], [`timeline`] | cameras, solid textures, Perlin's noise, keyframes |
+//! | [`view`], [`angle`], [`texture`], [`noise`], [`timeline`] | cameras, turns, solid textures, Perlin's noise, keyframes |
 //! | [`simd`] | lanes, blocks, elementary functions, hashes |
 //! | [`scenes`] | the show, and scenes to measure with |
 //!
@@ -63,6 +63,7 @@
 //!
 //! Lengths are metres, angles radians, times seconds; `y` is up and axes are right-handed; light is linear, and 1 is white.
 
+pub mod angle;
 pub mod cloud;
 pub mod cuts;
 pub mod effects;

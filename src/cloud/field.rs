@@ -6,6 +6,7 @@
 
 use super::voxels::Voxels;
 use super::world::Cloud;
+use crate::angle;
 use crate::simd::hash::rnd;
 use glam::{Vec2, Vec3, vec3};
 use std::sync::Arc;
@@ -36,7 +37,7 @@ impl CloudField {
     /// second at 500 m, and the drift is the integral of that.
     pub fn drift(&self, time: f32) -> Vec2 {
         let strength = (self.height * 0.002).sqrt();
-        Vec2::new(8.0 * time + 6.0 * (time / 3.0).sin(), 4.0 * time) * strength
+        Vec2::new(8.0 * time + 6.0 * angle::sin(time / 3.0), 4.0 * time) * strength
     }
 
     /// The clouds around `eye` at `time` seconds, each of one of `shapes`.
@@ -54,7 +55,7 @@ impl CloudField {
                     continue;
                 }
                 // Each cloud swells and shrinks in its own time.
-                let swell = 1.0 + 0.06 * (0.15 * time + 40.0 * r(5)).sin();
+                let swell = 1.0 + 0.06 * angle::sin(0.15 * time + 40.0 * r(5));
                 let size = (self.size[0] + self.size[1] * r(1) * r(1)) * swell;
                 let at = |axis: usize| (place[axis] as f32 + 0.2 + 0.6 * r(2 + axis as u32)) * self.spacing;
                 let centre = vec3(at(0) + drift.x, self.height + 0.45 * size, at(1) + drift.y);

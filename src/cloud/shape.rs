@@ -9,6 +9,7 @@
 //! `tools/testkit/src/voxels.rs`.
 
 use super::voxels::Voxels;
+use crate::angle;
 use crate::noise::octaves_block;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::hash::rnd;
@@ -99,7 +100,7 @@ impl CloudKind {
             for i in 0..ring[0] {
                 let number = 800 + 16 * seed + puffs.len() as u32;
                 let draw = |k: usize, j: u32| (ring[k] as f32 + ring[k + 1] as f32 * rnd(1, number, j)) * 0.01;
-                let (sin, cos) = (TAU * (i as f32 / ring[0] as f32 + 0.1 * rnd(1, number, 0))).sin_cos();
+                let (sin, cos) = angle::sin_cos(TAU * (i as f32 / ring[0] as f32 + 0.1 * rnd(1, number, 0)));
                 let way = draw(1, 1);
                 puffs.push((vec3(way * cos, draw(3, 2), way * sin), draw(5, 3)));
             }

@@ -4,6 +4,7 @@
 //! tables of bytes, which take little room in the 64 kB build.
 
 use super::mesh::{Face, Mesh, Paint};
+use crate::angle;
 use crate::noise;
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::{PI, TAU};
@@ -87,7 +88,7 @@ impl Mesh {
             for k in 0..=sides {
                 let part = if rings.half { k } else { k % sides };
                 let angle = (part as f32 + offset) / sides as f32 * if rings.half { PI } else { TAU };
-                let (sin, cos) = angle.sin_cos();
+                let (sin, cos) = angle::sin_cos(angle);
                 // Rounded to a millionth, so that half a turn ends at exactly 0, and a rectangle at exactly 1.
                 let round = |x: f32| (x + 8.0) - 8.0;
                 let x = round(sin * (1.0 + rings.swell * cos * cos) * (1.0 - rings.taper * cos));

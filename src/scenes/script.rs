@@ -19,6 +19,7 @@
 //! An operation takes the whole stack, so operands may also be pushed before it. Expressions know `+`, `*`,
 //! parentheses, `sin`, `cos` and `abs`; there is no subtraction and no division.
 
+use crate::angle;
 use crate::texture::{Palette, Pattern, Texture};
 use glam::{Mat3, Vec3, vec3};
 
@@ -318,8 +319,8 @@ impl Script {
                 op::sin | op::cos | op::abs => {
                     at += 1;
                     match word {
-                        op::sin => b.sin(),
-                        op::cos => b.cos(),
+                        op::sin => angle::sin(b),
+                        op::cos => angle::sin_cos(b).1,
                         _ => b.abs(),
                     }
                 }

@@ -2,6 +2,7 @@
 //!
 //! The world is right-handed with y up; lengths are metres.
 
+use crate::angle;
 use crate::cuts;
 use glam::Vec3;
 
@@ -66,8 +67,8 @@ impl Camera {
         let side = forward.cross(Vec3::Y);
         let right = if side.length_squared() > 1e-12 { side.normalize() } else { Vec3::X };
         let up = right.cross(forward);
-        let scale = (0.5 * fov).tan();
-        let (sin, cos) = roll.sin_cos();
+        let scale = angle::tan(0.5 * fov);
+        let (sin, cos) = angle::sin_cos(roll);
         Camera {
             eye,
             forward,

@@ -1,6 +1,7 @@
 //! Builds a mesh from bodies of rings, as a [script](crate::scenes::script) says.
 
 use super::land;
+use crate::angle;
 use crate::raster::Mesh;
 use crate::raster::form::Rings;
 use crate::scenes::script::{Script, VARIABLES, Word, operations, variable};
@@ -44,7 +45,7 @@ pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: V
         match operation {
             op::turn => turn = Mat3::from_cols_array(n),
             op::rotate => {
-                turn = Mat3::from_rotation_y(n[0]) * Mat3::from_rotation_x(n[1]);
+                turn = angle::turn_y(n[0]) * angle::turn_x(n[1]);
                 out = turn.z_axis * n[2];
             }
             op::ground => foot.y = land::height(out.x, out.z),

@@ -4,6 +4,7 @@
 //! apart the farther out they are, as only the middle is seen from close by.
 
 use super::paint::{self, PAINTS};
+use crate::angle;
 use crate::noise::octaves;
 use crate::raster::Mesh;
 use crate::simd::math::smooth1;
@@ -88,7 +89,7 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
         // Rows go outwards, so columns go clockwise seen from above, from east by south.
         for k in start..start + COLUMNS {
             let k = k % ROUND / step * step;
-            let (sin, cos) = (k as u32 as f32 * (TAU / ROUND as u32 as f32)).sin_cos();
+            let (sin, cos) = angle::sin_cos(k as u32 as f32 * (TAU / ROUND as u32 as f32));
             let (x, z) = (r * cos, r * sin);
             mesh.points.push(vec3(x, height(x, z), z));
             mesh.normals.push(normal(x, z, 0.5 + 0.01 * r));

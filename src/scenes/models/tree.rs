@@ -7,6 +7,7 @@
 use super::build::{CHANCE, STREAM, build, op};
 use super::land::{self, height, wooded};
 use super::paint::{self, PAINTS};
+use crate::angle;
 use crate::raster::Mesh;
 use crate::raster::form::Rings;
 use crate::scenes::script::{Script, Word, fragment, script, variable, words};
@@ -150,7 +151,7 @@ pub fn trees() -> Vec<Tree> {
     for seed in 0..TRIED {
         let [b, c, d, e] = [1, 2, 3, 4].map(|k| rnd(STREAM, seed, k));
         // Denser near the middle, where they count.
-        let (sin, cos) = (TAU * around(seed)).sin_cos();
+        let (sin, cos) = angle::sin_cos(TAU * around(seed));
         let r = 24.0 + 700.0 * b * b.sqrt();
         let (x, z) = (r * cos, r * sin);
         let y = height(x, z);

@@ -4,6 +4,7 @@
 //! as it rises. Clouds shade each other and the land.
 
 use super::valley::{self, LATITUDE, LONGITUDE};
+use crate::angle;
 use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
 use crate::cuts;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
@@ -115,8 +116,8 @@ impl Shot {
     /// Where the aeroplane is `t` seconds after the start of the shot: it winds along its heading.
     #[inline(never)]
     fn way(&self, t: f32) -> Vec3 {
-        let course = Mat3::from_rotation_y(-self.heading);
-        course * vec3(70.0 * t, 8.0 * (0.6 * t).sin(), 40.0 * (0.35 * t).sin()) + Vec3::from(self.start)
+        let course = angle::turn_y(-self.heading);
+        course * vec3(70.0 * t, 8.0 * angle::sin(0.6 * t), 40.0 * angle::sin(0.35 * t)) + Vec3::from(self.start)
     }
 }
 
@@ -195,10 +196,10 @@ fn picture(spec: &FrameSpec) -> Picture {
     let since = since as f32;
     let (place, next) = (shot.way(since), shot.way(since + 0.5));
     // The steeper it turns, the steeper it banks.
-    let bank = 0.42 * (0.35 * since + 0.26).sin();
+    let bank = 0.42 * angle::sin(0.35 * since + 0.26);
     let Camera { right: x, up: y, forward: ahead, .. } = Camera::look_at(place, next, FRAC_PI_2, bank);
     let turn = Mat3::from_cols(x, y, -ahead);
-    let eye = shot.way(since * shot.follows * 0.01) + Mat3::from_rotation_y(-shot.heading) * Vec3::from(shot.eye);
+    let eye = shot.way(since * shot.follows * 0.01) + angle::turn_y(-shot.heading) * Vec3::from(shot.eye);
     let target = place + ahead * shot.ahead;
     let camera = Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01);
     #[cfg(feature = "full")]

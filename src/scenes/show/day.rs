@@ -5,11 +5,12 @@
 
 use super::valley;
 use super::valley::{HOUR, LATITUDE, LONGITUDE};
+use crate::angle;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::scenes::script::{Script, Word, operations, script};
 use crate::timeline::{self, ease};
 use crate::view::Camera;
-use glam::{Mat3, vec3};
+use glam::vec3;
 
 /// The scene.
 pub const DAY: Scene = Scene {
@@ -98,7 +99,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     // The aeroplane comes over the hill every 15 seconds.
     let flights = spec.time / 15.0;
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
-    let turn = Mat3::from_rotation_y(-1.0) * Mat3::from_rotation_z(0.25);
+    let turn = angle::turn_y(-1.0) * angle::turn_z(0.25);
     let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
     #[cfg(feature = "full")]
     let (place, turn) = spec.flown(place, turn);

@@ -5,6 +5,7 @@
 //! thickens with the shower; and snow that settles on what the sky sees.
 
 use super::valley;
+use crate::angle;
 use crate::cuts;
 use crate::effects::{Fog, FogLayer};
 use crate::frame::encode::Transfer;
@@ -121,10 +122,10 @@ fn altered(spec: &FrameSpec) -> [Flakes; 2] {
 fn picture(spec: &FrameSpec) -> Picture {
     let [_, x, z, heading, pitch] = timeline::sample(&WALK, spec.time);
     // A step is 0.85 m.
-    let step = 0.025 * (7.4 * z).sin();
+    let step = 0.025 * angle::sin(7.4 * z);
     let eye = vec3(x, land::height(x, z) + 1.7 + step, z);
-    let (sin, cos) = heading.sin_cos();
-    let camera = Camera::look_at(eye, eye + vec3(sin, pitch.tan(), -cos), 0.82, 0.0);
+    let (sin, cos) = angle::sin_cos(heading);
+    let camera = Camera::look_at(eye, eye + vec3(sin, angle::tan(pitch), -cos), 0.82, 0.0);
     let view = spec.view(camera);
     // The land in autumn's colours. Clouds hide the sky of that day, and its light is replaced below.
     let dome = valley::sky(spec, days(2026, 11, 28));

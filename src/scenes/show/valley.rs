@@ -5,6 +5,7 @@
 //! sun or moon, their shadow [`cascades`], the [`lamp`] in the chapel, and the picture of it all ([`show`]). Axes: x
 //! east, y up, z south, metres; the chapel is at the origin.
 
+use crate::angle;
 use crate::cuts;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture};
@@ -198,7 +199,7 @@ pub fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time:
     let mut bodies = bodies();
     // Five turns per second.
     let turns = 5.0 * time;
-    let spin = turn * Mat3::from_rotation_z((turns - turns.floor()) as f32 * TAU);
+    let spin = turn * angle::turn_z((turns - turns.floor()) as f32 * TAU);
     let aeroplane = bodies.len() - 2;
     for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
         body.put(Affine3A::from_mat3_translation(turn, place));

@@ -46,7 +46,7 @@ mod window {
 mod scenes {
     pub mod script;
 }
-use paprsek::texture;
+use paprsek::{angle, texture};
 
 /// A target: what is done with an input.
 pub type Target = fn(&[u8]);

@@ -20,22 +20,6 @@ pub const CHECKS: [(&str, &str); 6] = [
     ("wasm32-unknown-unknown", "--lib --no-default-features --features full"),
 ];
 
-/// Rows that the C library decides: the tangent of a camera's field of view and sines of a flight are f32, and musl's differ
-/// from glibc's in the last bit. Whatever else differs is a fault.
-const OTHER_LIBRARY: [&str; 11] = [
-    "intro 41.58 fast 160x90 one",
-    "intro 41.58 default 160x90 one",
-    "intro 41.58 reference 31x17 one",
-    "lumen 15.12 fast 160x90 one",
-    "lumen 15.12 default 160x90 one",
-    "lumen 15.12 exact 97x55 one",
-    "clouds 47 fast 160x90 one",
-    "clouds 47 default 160x90 one",
-    "clouds 47 exact 97x55 one",
-    "torches 14.4 default 160x90 one",
-    "torches 14.4 exact 97x55 one",
-];
-
 /// A level on a machine, made up or not.
 pub struct Run {
     /// The level's name, which the program must say too.
@@ -94,12 +78,6 @@ pub fn runs(quick: bool) -> Vec<Run> {
 }
 
 impl Run {
-    /// Whether this row may differ here, because another C library than glibc computes it.
-    pub fn may_differ(&self, row: &str) -> bool {
-        let other = matches!(self.target, Target::Arm | Target::Wasm(_));
-        other && OTHER_LIBRARY.iter().any(|known| row.rsplit_once(' ').is_some_and(|(name, _)| name == *known))
-    }
-
     /// What the program prints of every `slow`th frame, or of every frame where that takes no time; or what is missing.
     pub fn printed(&self, slow: usize) -> Result<String, String> {
         let every = if self.slow { slow } else { 1 }.to_string();
