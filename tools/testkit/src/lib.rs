@@ -5,6 +5,8 @@
 pub mod bodies;
 #[cfg(feature = "full")]
 pub mod coverage;
+#[cfg(feature = "full")]
+pub mod depth_map;
 pub mod drawn;
 pub mod elementary;
 #[cfg(feature = "full")]
