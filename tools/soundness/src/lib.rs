@@ -1,6 +1,6 @@
-//! The pool of the 64 kB build (`src/frame/pool/scoped.rs`) under many schedules, and the packer's unsafe code where it can
-//! be interpreted. All of it is in `tests/`; here is what the pool takes from the standard library, under a scheduler that
-//! chooses who goes on wherever threads meet: a test names this crate `std` and has the pool's file as a module.
+//! The pool of the 64 kB build (`src/frame/pool/scoped.rs`) under many schedules, in `tests/`. Here is what the pool takes
+//! from the standard library, under a scheduler that chooses who goes on wherever threads meet: a test names this crate
+//! `std` and has the pool's file as a module.
 
 /// Atomics of the scheduler.
 pub mod sync {
