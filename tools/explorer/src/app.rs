@@ -110,7 +110,8 @@ impl App {
     /// new to draw.
     pub fn hear(&mut self, events: &Events, size: (usize, usize), now: f64, seconds: f64) -> bool {
         let (raw, pressed) = self.input.take(events, size, panel::scale(size.1), now);
-        let fresh = !raw.events.is_empty();
+        // Keys that egui has no use for change what is drawn, too.
+        let fresh = !raw.events.is_empty() || !pressed.is_empty();
         self.waiting.append(raw);
         self.ends |= events.closed;
         let typing = self.ctx.wants_keyboard_input();

@@ -119,7 +119,18 @@ fn a_frame_that_is_copied_has_the_same_bytes() {
 fn overlays_comparison_and_probe_look_at_the_frame() {
     let Some(explorer) = Explorer::start(&["spheres", "--size", "640x360", "--at", "2"]) else { return };
     let plain = explorer.state()["words"].clone();
-    for overlay in ["tile-times", "depth", "coverage", "samples", "squares", "ray-depth", "candidates", "octaves"] {
+    for overlay in [
+        "tile-times",
+        "depth",
+        "coverage",
+        "samples",
+        "squares",
+        "ray-depth",
+        "candidates",
+        "overdraw",
+        "triangles",
+        "octaves",
+    ] {
         explorer.xdotool("key F3");
         explorer.expect(overlay, |state| state["overlay"] == overlay && state["words"] == plain);
     }
