@@ -183,6 +183,9 @@ export class Controls {
       addEventListener(kind, () => this.#awake());
     }
     new ResizeObserver(() => player.resized()).observe($('picture'));
+    // Panels end where the controls begin.
+    const height = () => document.documentElement.style.setProperty('--controls', `${$('controls').offsetHeight - 12}px`);
+    new ResizeObserver(height).observe($('controls'));
     document.addEventListener('visibilitychange', () => (player.hidden = document.hidden));
     player.hidden = document.hidden;
   }

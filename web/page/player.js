@@ -97,6 +97,11 @@ export class Player extends EventTarget {
     return this.#shown?.request.time;
   }
 
+  /** The name of the scene whose frame is on the canvas. */
+  get shownScene() {
+    return this.description.scenes[this.#shown?.request.scene]?.scene;
+  }
+
   /** Whether time stands still and its frame is shown. */
   get atRest() {
     return this.#clock.rests && this.#still === undefined && !this.#plays && this.#shown?.epoch === this.#epoch;

@@ -20,7 +20,7 @@ fn main() {
             "paprsek.player.choose('{scene}'); paprsek.player.go(0.4 * paprsek.player.scene.duration)"
         ));
         chrome.evaluate("globalThis.before = paprsek.player.time");
-        chrome.until("paprsek.player.shownTime > before + 1.5");
+        chrome.until(&format!("paprsek.player.shownScene === '{scene}' && paprsek.player.shownTime > before + 1.5"));
         fs::write(directory.join(format!("{scene}.png")), chrome.screenshot()).unwrap();
     }
     chrome.evaluate(
