@@ -146,19 +146,6 @@ impl Renderer {
         for layer in &mut picture.layers {
             layer.prepare(&self.workers, &self.cache);
         }
-        self.draw_bands(&picture, 0, x, width, frame)
-    }
-
-    /// Draws bands of a prepared picture from band `first` on, as many as the frame has pixels for.
-    #[inline(always)]
-    pub(super) fn draw_bands(
-        &self,
-        picture: &Picture,
-        first: usize,
-        x: usize,
-        width: usize,
-        frame: &mut Frame,
-    ) -> Stats {
         let (level, stride, height) = (self.workers.level(), frame.width, frame.height);
         let transfer = if cuts::TRANSFERS { picture.transfer } else { Transfer::Srgb };
         let columns = width.div_ceil(Tile::SIZE);
@@ -168,7 +155,7 @@ impl Renderer {
         let draw = |tile: &mut Tile, (row, pixels): (usize, &mut [u32])| {
             let mut samples = 0;
             for column in 0..columns {
-                tile.place(column, first + row, width, height);
+                tile.place(column, row, width, height);
                 for layer in &picture.layers {
                     layer.foresee(level, tile);
                 }
@@ -186,7 +173,7 @@ impl Renderer {
 
 /// Encodes the pixels of a tile into a band of the frame.
 #[inline(always)]
-fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
+pub(super) fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
     for row in 0..tile.height {
         let at = row * Tile::SIZE..row * Tile::SIZE + tile.width;
         let (r, g, b) = (&tile.red[at.clone()], &tile.green[at.clone()], &tile.blue[at]);
