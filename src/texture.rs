@@ -227,6 +227,15 @@ pub fn shade<S: Simd>(
     }
 }
 
+/// Octaves of noise that [`shade`] evaluates at each point of a block with these footprints.
+#[cfg(feature = "full")]
+pub fn octaves(texture: &Texture, footprint: Option<&[f32; BLOCK]>) -> u32 {
+    let (octaves, _, _, scale) = octaves_of(&texture.pattern);
+    let zoom = texture.turn.x_axis.length() * (1.0 / scale);
+    let shortest = footprint.map_or(0.0, |lengths| lengths.iter().copied().fold(f32::INFINITY, f32::min));
+    noise::evaluated(octaves, shortest * zoom)
+}
+
 /// Points and footprints in texture space times `pre`.
 #[inline(always)]
 fn localize<S: Simd>(

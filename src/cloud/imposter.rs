@@ -48,6 +48,9 @@ pub(super) struct Imposter {
     /// Along rows and columns, scaled so that products with places in the plane are texels.
     right: Vec3,
     down: Vec3,
+    /// The number of the frame that it was drawn for.
+    #[cfg(feature = "full")]
+    pub born: u32,
     /// For each texel: transmittance, light from above and light of the sun, each as a word of the bytes of four
     /// texels, as in [`Voxels`].
     cells: Vec<[u32; 3]>,
@@ -65,7 +68,17 @@ impl Imposter {
         let plane = PLANE * reach;
         let texel = to_f32(edge) * 0.5 / (wide * wide * (way - plane));
         let [right, down] = [camera.right * texel, camera.up * -texel];
-        Imposter { plan, camera, towards, plane, right, down, cells: Vec::new() }
+        Imposter {
+            plan,
+            camera,
+            towards,
+            plane,
+            right,
+            down,
+            #[cfg(feature = "full")]
+            born: 0,
+            cells: Vec::new(),
+        }
     }
 
     /// The view that it is drawn for.

@@ -63,6 +63,11 @@ impl ImposterCache {
             }
         }
         draw(&mut new, workers);
+        #[cfg(feature = "full")]
+        {
+            clouds.frame = self.frame;
+            new.iter_mut().for_each(|new| new.born = self.frame);
+        }
         self.kept.retain(|(used, _)| self.frame - used <= KEPT);
         self.kept.extend(new.into_iter().map(|new| (self.frame, Arc::new(new))));
         for Need { cloud, plan, weight } in needs {

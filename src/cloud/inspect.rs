@@ -1,5 +1,7 @@
-//! What the clouds' renderer does, made visible: steps that a ray takes, and what it meets.
+//! What the clouds' renderer does, made visible: steps that a ray takes, and what it meets. All of it runs at the level
+//! that every machine has, for one ray at a time, so that the executable has it once: every level gives the same bits.
 
+use super::imposter::Imposter;
 use super::march::{closest, cube};
 use super::seen::{SeenCloud, SeenClouds};
 use crate::frame::Tile;
@@ -17,8 +19,8 @@ pub fn ray(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> (Vec3, f32) 
 }
 
 /// Steps that a ray takes in a cloud, up to `limit` metres: those of the loop of `march`, which ends in the same way.
-pub fn steps(level: Level, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
-    dispatch!(level, simd => steps_in(simd, seen, eye, d, limit, opaque))
+pub fn steps(seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
+    dispatch!(Level::baseline(), simd => steps_in(simd, seen, eye, d, limit, opaque))
 }
 
 #[inline(always)]
@@ -56,15 +58,43 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     taken
 }
 
+/// The imposters in which the ray through a pixel meets clouds: their number, and the mean of the frames since each was
+/// drawn, weighted by what it hides; NaN where there are none.
+pub fn imposters(clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, x: usize, y: usize) -> (usize, f32) {
+    let (d, limit) = ray(clouds, tile, x, y);
+    let eye = clouds.view.camera().eye;
+    let (mut count, mut hidden, mut age) = (0, 0.0, 0.0);
+    for seen in near.iter().filter(|seen| limit > seen.distance) {
+        let q = (eye - seen.cloud.centre) / seen.cloud.size;
+        for (imposter, weight) in &seen.imposters {
+            let hides = weight * dispatch!(Level::baseline(), simd => hides(simd, imposter, q, d));
+            if hides > 0.0 {
+                count += 1;
+                hidden += hides;
+                age += hides * (clouds.frame - imposter.born) as f32;
+            }
+        }
+    }
+    (count, age / hidden)
+}
+
+/// The share of what is behind an imposter that it hides along a ray; 0 where the ray passes by.
+#[inline(always)]
+fn hides<S: Simd>(simd: S, imposter: &Imposter, q: Vec3, d: Vec3) -> f32 {
+    let at = imposter.cross(simd, q, V3::splat(simd, d));
+    let inside = at.iter().all(|lanes| (0.0..=imposter.most()).contains(&lanes.as_slice()[0]));
+    if inside { 1.0 - imposter.look_up(simd, at)[0].as_slice()[0] / 255.0 } else { 0.0 }
+}
+
 /// Tells what the ray through a pixel meets.
-pub fn explain(level: Level, clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+pub fn explain(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> Vec<String> {
     let (d, limit) = ray(clouds, tile, x, y);
     let eye = clouds.view.camera().eye;
     let near = clouds.near(tile);
     let mut lines = vec![format!("{} clouds that rays through the tile may meet", near.len())];
     let opaque = clouds.settings.built().opaque;
     for (number, seen) in near.into_iter().enumerate() {
-        let (hidden, lit, passes) = dispatch!(level, simd => met(simd, seen, eye, d, limit, opaque));
+        let (hidden, lit, passes) = dispatch!(Level::baseline(), simd => met(simd, seen, eye, d, limit, opaque));
         if hidden > 0.0 {
             let imposters = match seen.imposters.len() {
                 0 => String::new(),
@@ -76,7 +106,7 @@ pub fn explain(level: Level, clouds: &SeenClouds, tile: &Tile, x: usize, y: usiz
                 seen.distance,
                 hidden * 100.0,
                 lit / (255.0 * hidden) * 100.0,
-                steps(level, seen, eye, d, limit, opaque),
+                steps(seen, eye, d, limit, opaque),
                 seen.steps,
                 passes * 100.0
             ));

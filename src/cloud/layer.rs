@@ -58,7 +58,7 @@ impl Layer for CloudLayer {
     }
 
     #[cfg(feature = "full")]
-    fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
+    fn inspect(&self, aspect: Aspect, _: Level, tile: &mut Tile) -> Option<Vec<f32>> {
         let clouds = &self.clouds;
         let near = clouds.near(tile);
         match aspect {
@@ -67,15 +67,17 @@ impl Layer for CloudLayer {
                 let (eye, opaque) = (clouds.view.camera().eye, clouds.settings.built().opaque);
                 Some(each(tile, |x, y| {
                     let (d, limit) = inspect::ray(clouds, tile, x, y);
-                    near.iter().map(|seen| inspect::steps(level, seen, eye, d, limit, opaque)).sum::<u32>() as f32
+                    near.iter().map(|seen| inspect::steps(seen, eye, d, limit, opaque)).sum::<u32>() as f32
                 }))
             }
+            Aspect::Imposters => Some(each(tile, |x, y| inspect::imposters(clouds, &near, tile, x, y).0 as f32)),
+            Aspect::ImposterAge => Some(each(tile, |x, y| inspect::imposters(clouds, &near, tile, x, y).1)),
             _ => None,
         }
     }
 
     #[cfg(feature = "full")]
-    fn explain(&self, level: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
-        inspect::explain(level, &self.clouds, tile, x, y)
+    fn explain(&self, _: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
+        inspect::explain(&self.clouds, tile, x, y)
     }
 }

@@ -50,6 +50,9 @@ pub(super) struct SeenClouds {
     pub light: CloudLight,
     pub view: View,
     pub settings: CloudSettings,
+    /// The number of the frame, by which imposters have an age.
+    #[cfg(feature = "full")]
+    pub frame: u32,
 }
 
 impl SeenClouds {
@@ -71,7 +74,14 @@ impl SeenClouds {
             let new = SeenCloud { cloud, distance, steps, fades, veil, sunlit, imposters: Vec::new(), direct: 1.0 };
             seen.insert(at, new);
         }
-        SeenClouds { clouds: seen, light, view: *view, settings: *settings }
+        SeenClouds {
+            clouds: seen,
+            light,
+            view: *view,
+            settings: *settings,
+            #[cfg(feature = "full")]
+            frame: 0,
+        }
     }
 
     /// Puts air between the eye and the clouds: see [`CloudLayer::in_air`](super::CloudLayer::in_air).

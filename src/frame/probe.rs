@@ -4,7 +4,7 @@ use super::encode::encode;
 use super::renderer::{Options, Renderer};
 use super::scene::Scene;
 use super::tile::Tile;
-use fearless_simd::dispatch;
+use fearless_simd::{Level, dispatch};
 use std::fmt::Write;
 
 /// Tells how the pixel at column `x` and row `y` of a frame of `width` x `height` pixels comes to be: what each layer
@@ -46,7 +46,7 @@ pub fn probe(
     }
     let mut code = [0];
     let (r, g, b) = (&tile.red[at..=at], &tile.green[at..=at], &tile.blue[at..=at]);
-    dispatch!(level, simd => encode(simd, picture.transfer, x as u32, y as u32, r, g, b, &mut code));
+    dispatch!(Level::baseline(), simd => encode(simd, picture.transfer, x as u32, y as u32, r, g, b, &mut code));
     let [_, red, green, blue] = code[0].to_be_bytes();
     let _ = writeln!(text, "code {red} {green} {blue}, {:?}", picture.transfer);
     text

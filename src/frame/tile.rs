@@ -31,6 +31,9 @@ pub struct Tile {
     pub foreseen: Vec<f32>,
     /// Whether a later layer may read `inv_depth` and `coverage`. Where none does they need not be written.
     pub solids_matter: bool,
+    /// Octaves of noise that textures have evaluated for each pixel, where these are counted; empty otherwise.
+    #[cfg(feature = "full")]
+    pub octaves: Vec<f32>,
 }
 
 impl Tile {
@@ -58,7 +61,31 @@ impl Tile {
         let (red, green, blue, inv_depth, coverage) = (plane(), plane(), plane(), plane(), plane());
         let (hidden, foreseen) = (plane(), Vec::new());
         let (x, y, width, height, solids_matter) = (0, 0, 0, 0, true);
-        Tile { x, y, width, height, red, green, blue, inv_depth, coverage, hidden, foreseen, solids_matter }
+        Tile {
+            x,
+            y,
+            width,
+            height,
+            red,
+            green,
+            blue,
+            inv_depth,
+            coverage,
+            hidden,
+            foreseen,
+            solids_matter,
+            #[cfg(feature = "full")]
+            octaves: Vec::new(),
+        }
+    }
+
+    /// An empty tile in the same place, in which as much is hidden: for a layer that draws once more to be watched.
+    #[cfg(feature = "full")]
+    pub fn again(&self) -> Tile {
+        let mut tile = Tile::new();
+        (tile.x, tile.y, tile.width, tile.height) = (self.x, self.y, self.width, self.height);
+        tile.hidden = self.hidden.clone();
+        tile
     }
 
     /// Makes the tile black and empty.

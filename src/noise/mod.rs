@@ -24,5 +24,7 @@ mod permutation;
 pub mod reference;
 mod wide;
 
+#[cfg(feature = "full")]
+pub use octaves::evaluated;
 pub use octaves::{Footprint, noise_block, octaves, octaves_block};
 pub use reference::{fbm, noise, turbulence};

@@ -94,6 +94,13 @@ pub fn octaves_block<S: Simd>(
     }
 }
 
+/// How many of `octaves` [`octaves_block`] evaluates in a block whose shortest footprint has the length `shortest`, lattice
+/// units of the first octave: all of them where it is 0.
+#[cfg(feature = "full")]
+pub fn evaluated(octaves: u32, shortest: f32) -> u32 {
+    (0..octaves).take_while(|octave| shortest * 2f32.powi(*octave as i32) < LONG).count() as u32
+}
+
 /// The least number of a block.
 #[inline(always)]
 fn least<S: Simd>(simd: S, x: &[f32; BLOCK]) -> f32 {

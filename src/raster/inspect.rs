@@ -1,5 +1,6 @@
 //! What the rasterizer does, made visible: how often pixels are covered, which maps are looked up, and what one pixel
-//! shows and is lit by.
+//! shows and is lit by. All of it runs at the level that every machine has, for one point at a time, so that the
+//! executable has it once: every level gives the same bits.
 
 use super::context::ShadowLookup;
 use super::depth_map::{DepthMap, EMPTY};
@@ -68,8 +69,8 @@ pub fn visible(raster: &Raster, view: &View, x: f32, y: f32) -> Option<Shown> {
 
 /// The number of the view in which a light's shadow on a point is looked up, from 0; none where the light casts none
 /// there.
-pub fn shadow_view(level: Level, light: &Light, shown: &Shown) -> Option<usize> {
-    dispatch!(level, simd => view_in(simd, light, shown))
+pub fn shadow_view(light: &Light, shown: &Shown) -> Option<usize> {
+    dispatch!(Level::baseline(), simd => view_in(simd, light, shown))
 }
 
 #[inline(always)]
@@ -89,8 +90,8 @@ fn view_in<S: Simd>(simd: S, light: &Light, shown: &Shown) -> Option<usize> {
 }
 
 /// The light that a light gives to a point, clouds aside.
-fn given(level: Level, light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3 {
-    dispatch!(level, simd => {
+fn given(light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3 {
+    dispatch!(Level::baseline(), simd => {
         let places = (V3::splat(simd, shown.point), V3::splat(simd, shown.lifted));
         let light = light_at(simd, light, lookup, places, V3::splat(simd, shown.normal));
         Vec3::new(light.x.as_slice()[0], light.y.as_slice()[0], light.z.as_slice()[0])
@@ -98,14 +99,14 @@ fn given(level: Level, light: &Light, lookup: &ShadowLookup, shown: &Shown) -> V
 }
 
 /// Tells what a point of the picture shows, and what each light gives to it.
-pub fn explain(level: Level, world: &World, lookups: &[ShadowLookup], shown: &Shown) -> Vec<String> {
+pub fn explain(world: &World, lookups: &[ShadowLookup], shown: &Shown) -> Vec<String> {
     let ((body, triangle), p, n) = (shown.triangle, shown.point, shown.normal);
     let mut lines = vec![format!(
         "body {body}, triangle {triangle}, {:.3} m along the axis, at {:.2} {:.2} {:.2}, facing {:.2} {:.2} {:.2}",
         shown.depth, p.x, p.y, p.z, n.x, n.y, n.z
     )];
     for (number, (light, lookup)) in world.lights.iter().zip(lookups).enumerate() {
-        let all = given(level, &Light { shadow: None, ..light.clone() }, &None, shown);
+        let all = given(&Light { shadow: None, ..light.clone() }, &None, shown);
         let what = match light.source {
             Source::Sun(_) => "sun".to_owned(),
             Source::Lamp { position, .. } => format!("lamp {:.2} m away", position.distance(p)),
@@ -115,9 +116,9 @@ pub fn explain(level: Level, world: &World, lookups: &[ShadowLookup], shown: &Sh
             lines.push(format!("light {number}, {what}: gives nothing here"));
             continue;
         }
-        let left = given(level, light, lookup, shown);
+        let left = given(light, lookup, shown);
         let share = left.max_element() / most * 100.0;
-        let map = match shadow_view(level, light, shown) {
+        let map = match shadow_view(light, shown) {
             Some(_) if light.shadow_views().is_some_and(|shadow| shadow.traced) => {
                 format!("{share:.0} % of it past shadows, traced")
             }

@@ -195,6 +195,12 @@ impl Layer for RasterLayer {
                 let count = raster.bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE).len();
                 Some(each(tile, |_, _| count as f32))
             }
+            Aspect::Octaves => {
+                let mut own = tile.again();
+                own.octaves = vec![0.0; Tile::AREA];
+                self.draw(level, &mut own);
+                Some(own.octaves)
+            }
             Aspect::Overdraw => Some(each(tile, |x, y| {
                 let (x, y) = middle(x, y);
                 inspect::overdraw(raster, x, y) as f32
@@ -204,9 +210,7 @@ impl Layer for RasterLayer {
                 Some(each(tile, |x, y| {
                     let (x, y) = middle(x, y);
                     let shown = inspect::visible(raster, &self.view, x, y);
-                    shown
-                        .and_then(|shown| inspect::shadow_view(level, light, &shown))
-                        .map_or(0.0, |view| 1.0 + view as f32)
+                    shown.and_then(|shown| inspect::shadow_view(light, &shown)).map_or(0.0, |view| 1.0 + view as f32)
                 }))
             }
             Aspect::ShadowMap => {
@@ -224,9 +228,9 @@ impl Layer for RasterLayer {
     }
 
     #[cfg(feature = "full")]
-    fn explain(&self, level: Level, _: &Tile, x: usize, y: usize) -> Vec<String> {
+    fn explain(&self, _: Level, _: &Tile, x: usize, y: usize) -> Vec<String> {
         match inspect::visible(&self.raster, &self.view, x as f32 + 0.5, y as f32 + 0.5) {
-            Some(shown) => inspect::explain(level, &self.world, &self.lookups, &shown),
+            Some(shown) => inspect::explain(&self.world, &self.lookups, &shown),
             None => vec!["nothing at the middle of the pixel".into()],
         }
     }

@@ -22,6 +22,8 @@ use super::triangle::{SUB, SetupMesh, Triangle};
 use super::world::World;
 use crate::cuts;
 use crate::frame::Tile;
+#[cfg(feature = "full")]
+use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, STEPS, U, V3, float};
 use crate::simd::math;
@@ -50,11 +52,15 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
     queue.id[0][count..].fill(id);
     find(simd, context, [tile.x, tile.y], queue);
     if let Some(texture) = world.textures.get(texture) {
+        #[cfg(feature = "full")]
+        count_noise(texture, count, queue, tile);
         paint(simd, texture, queue);
     }
     if let (Some(snow), Some(lookup)) = (&world.snow, lookups.last())
         && !cfg!(without = "snow-cover")
     {
+        #[cfg(feature = "full")]
+        count_noise(&GRAIN, count, queue, tile);
         settle(simd, context, snow, lookup, queue);
     }
     let (low, high) = bounds(simd, &queue.point);
@@ -72,6 +78,16 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
     scatter(simd, count, queue, tile);
     queue.place[0] = queue.place[1];
     queue.id[0] = queue.id[1];
+}
+
+/// Counts the octaves of noise of a texture for the first `count` fragments of a queue, where they are counted.
+#[cfg(feature = "full")]
+#[inline(always)]
+fn count_noise(texture: &Texture, count: usize, queue: &FragmentQueue, tile: &mut Tile) {
+    if !tile.octaves.is_empty() {
+        let mut pixels = queue.place[0][..count].iter().map(|place| *place as usize & (Tile::AREA - 1));
+        count_octaves(tile, texture, Some(&queue.footprint), &mut pixels);
+    }
 }
 
 /// Finds the surfaces of a queue's fragments, and the ambient light on them, in the tile whose top left pixel is `corner`.

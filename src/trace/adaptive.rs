@@ -57,6 +57,17 @@ impl Scratch {
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
         self.grid.positions()
     }
+
+    /// The squares that the tile drawn last was cut into, of `unit` lattice steps per pixel: column and row of their top
+    /// left pixel in the tile, and their edge, pixels; 1/2 for a pixel with samples within. With a grid of samples per
+    /// pixel, those of its last point.
+    #[cfg(feature = "full")]
+    pub fn squares(&self, unit: usize) -> impl Iterator<Item = (usize, usize, f32)> {
+        let place = move |square: &Square| (square.x / unit, square.y / unit);
+        let whole = self.whole.iter().map(move |square| (place(square), to_f32(square.size) / to_f32(unit)));
+        let edges = self.edges.iter().map(move |square| (place(square), 0.5));
+        whole.chain(edges).map(|((x, y), size)| (x, y, size))
+    }
 }
 
 /// Draws a tile; returns the number of eye rays.

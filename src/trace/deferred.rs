@@ -7,6 +7,8 @@ use super::sample::{GAIN, REMEMBERED, Sample, hit_point};
 use super::world::World;
 use crate::cuts;
 use crate::frame::Tile;
+#[cfg(feature = "full")]
+use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{Bits, F};
 use crate::texture;
@@ -149,14 +151,12 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32,
     let last = queue.footprint[0];
     queue.footprint[queue.count..].fill(last);
     let footprint = filter.then_some(&queue.footprint);
-    texture::shade(
-        simd,
-        &world.objects[object as usize].material.albedo,
-        &queue.point,
-        queue.count,
-        footprint,
-        &mut color,
-    );
+    let albedo = &world.objects[object as usize].material.albedo;
+    #[cfg(feature = "full")]
+    if !tile.octaves.is_empty() {
+        count_octaves(tile, albedo, footprint, &mut queue.pixel[..queue.count].iter().map(|pixel| *pixel as usize));
+    }
+    texture::shade(simd, albedo, &queue.point, queue.count, footprint, &mut color);
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
         let mut i = 0;
         while i < BLOCK / F::<S>::LEN {

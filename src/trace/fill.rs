@@ -7,6 +7,8 @@ use super::sample::{
     self, GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits,
 };
 use crate::frame::Tile;
+#[cfg(feature = "full")]
+use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::to_f32;
@@ -237,6 +239,15 @@ pub fn interpolate<S: Simd>(
             if ramp.count == BLOCK {
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
                 let footprint = if filter { Some(&footprint) } else { None };
+                #[cfg(feature = "full")]
+                if !tile.octaves.is_empty() {
+                    count_octaves(
+                        tile,
+                        albedo,
+                        footprint,
+                        &mut ramp.pixel.iter().map(|offset| first + *offset as usize),
+                    );
+                }
                 add_texture(simd, albedo, &gain, &points, footprint, &mut plain);
             } else {
                 let mut pixels = [0; BLOCK];

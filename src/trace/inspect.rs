@@ -2,7 +2,20 @@
 
 use super::reference::{Exits, Ray, background, first, fresnel, local, shadowed, toward};
 use super::world::World;
+use crate::frame::Tile;
 use glam::Vec3;
+
+/// Squares of a tile, each a column, a row and an edge in pixels, as the edge at each pixel.
+pub fn squares(squares: impl Iterator<Item = (usize, usize, f32)>) -> Vec<f32> {
+    let mut numbers = vec![0.0; Tile::AREA];
+    for (x, y, size) in squares {
+        let edge = size.ceil() as usize;
+        for row in numbers.chunks_exact_mut(Tile::SIZE).skip(y).take(edge) {
+            row[x..Tile::SIZE.min(x + edge)].fill(size);
+        }
+    }
+    numbers
+}
 
 /// What a ray met.
 struct Hit {

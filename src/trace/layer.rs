@@ -126,15 +126,25 @@ impl Layer for TraceLayer {
     fn inspect(&self, aspect: Aspect, level: Level, tile: &mut Tile) -> Option<Vec<f32>> {
         match aspect {
             Aspect::Samples => {
-                let (mut own, mut numbers) = (Tile::at(0, 0, 0, 0), vec![0.0; Tile::AREA]);
-                (own.x, own.y, own.width, own.height) = (tile.x, tile.y, tile.width, tile.height);
-                for (x, y) in self.positions(level, &mut own) {
+                let mut numbers = vec![0.0; Tile::AREA];
+                for (x, y) in self.positions(level, &mut tile.again()) {
                     let [column, row] = [(x, tile.x), (y, tile.y)].map(|(at, corner)| at as usize - corner);
                     if column < tile.width && row < tile.height {
                         numbers[row * Tile::SIZE + column] += 1.0;
                     }
                 }
                 Some(numbers)
+            }
+            Aspect::Squares => {
+                let mut scratch = Scratch::default();
+                self.draw_in(level, &mut tile.again(), &mut scratch);
+                Some(inspect::squares(scratch.squares(1 + self.settings.antialias as usize)))
+            }
+            Aspect::Octaves => {
+                let mut own = tile.again();
+                own.octaves = vec![0.0; Tile::AREA];
+                self.draw_in(level, &mut own, &mut Scratch::default());
+                Some(own.octaves)
             }
             Aspect::Candidates => {
                 let mut visible = Vec::new();
@@ -161,10 +171,8 @@ impl Layer for TraceLayer {
 
     #[cfg(feature = "full")]
     fn explain(&self, level: Level, tile: &Tile, x: usize, y: usize) -> Vec<String> {
-        let mut own = Tile::at(0, 0, 0, 0);
-        (own.x, own.y, own.width, own.height) = (tile.x, tile.y, tile.width, tile.height);
         let within = |at: &(f32, f32)| at.0 as usize == x && at.1 as usize == y;
-        let count = self.positions(level, &mut own).iter().filter(|at| within(at)).count();
+        let count = self.positions(level, &mut tile.again()).iter().filter(|at| within(at)).count();
         let mut lines = vec![match count {
             0 => "no eye ray here: interpolated between the corners of a square".into(),
             1 => "1 eye ray here".into(),

@@ -2,11 +2,10 @@
 
 use fearless_simd::{Level, dispatch};
 use glam::{Vec3, vec3};
-use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
+use paprsek::cloud::{CloudKind, Voxels, sunlight};
 use proptest::prelude::*;
-use std::sync::Arc;
 use testkit::levels;
-use testkit::voxels::{DAY, FURNACE, aim, ball, cloud, filled, ray, rays, span, truth};
+use testkit::voxels::{DAY, FURNACE, aim, ball, cloud, eighths, filled, ray, rays, span, truth, whole_and_eighths};
 
 /// Transmittance is a sum of a hundred roundings of numbers up to 1.
 const ROUNDING: f64 = 100.0 * 6e-8;
@@ -215,28 +214,11 @@ fn every_level_gives_the_same_bits() {
 #[test]
 fn eight_small_cubes_are_one_large_one() {
     let whole = cloud(grown(&CloudKind::CUMULUS, 2, 64), 8.0);
-    // Each part has two voxels of its neighbours around it, which its rays do not reach.
-    let part = |corner: [usize; 3]| {
-        filled(36, |place| {
-            let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
-            whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
-        })
-    };
-    let parts = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| {
-        let corner = [k & 1, k >> 1 & 1, k >> 2];
-        let centre = Vec3::from(corner.map(|bit| bit as f32 - 0.5));
-        Cloud { voxels: Arc::new(part(corner)), centre, size: 36.0 / 64.0, extinction: 8.0 * 36.0 / 64.0 }
-    });
+    let parts = eighths(&whole);
     let mut worst = 0.0f32;
     for k in 0..100 {
         let (y, z) = (((k % 10) as f32 - 4.6) / 5.0, ((k / 10) as f32 - 4.4) / 5.0);
-        let (_, one) = ray(&whole, &FURNACE, vec3(-1.0, y, z), Vec3::X, 2.0, 1600.0);
-        let mut eight = 1.0;
-        for part in &parts {
-            if (part.centre.y > 0.0) == (y > 0.0) && (part.centre.z > 0.0) == (z > 0.0) {
-                eight *= ray(part, &FURNACE, vec3(part.centre.x - 0.5, y, z), Vec3::X, 1.0, 800.0).1;
-            }
-        }
+        let [one, eight] = whole_and_eighths(&whole, &parts, y, z);
         worst = worst.max((one - eight).abs());
     }
     println!("one cube and eight: {worst:.1e}");

@@ -5,7 +5,8 @@
 use paprsek::raster::fill::CENTER;
 use paprsek::raster::triangle::SUB;
 use testkit::coverage::{
-    Corner, Corners, NEARNESS, SIZES, Shown, any_triangle, area, counts, covers, draw, piece, plane, sample_of, turn,
+    Corners, NEARNESS, SHEET, SIZES, Shown, Single, any_triangle, area, counts, covers, deep_triangle, draw, fan, grid,
+    piece, plane, sample_of, single, turn,
 };
 use testkit::{ULP, random::Random};
 
@@ -14,16 +15,7 @@ fn coverage_is_exact() {
     let mut random = Random(1);
     let (mut pixels, mut covered, mut drawn) = (0u64, 0u64, 0u64);
     for case in 0..3000 {
-        let size = SIZES[if case % 3 == 0 { case / 3 % SIZES.len() } else { 0 }];
-        let t = any_triangle(&mut random, size);
-        let sample = match case % 4 {
-            0 | 1 => CENTER,
-            2 => [[0, 0], [SUB - 1, 0], [0, SUB - 1], [SUB - 1; 2]][case / 4 % 4],
-            _ => [0, 1].map(|_| (random.unit() * SUB as f64) as i32),
-        };
-        let back_faces = case % 5 == 0;
-        // Counter-clockwise looks here.
-        let here = if back_faces { area(&t) > 0 } else { area(&t) < 0 };
+        let Single { corners: t, size, sample, back_faces, here } = single(&mut random, case);
         let piece = [piece(&[t], size, back_faces)];
         drawn += here as u64;
         for (name, level) in testkit::levels() {
@@ -43,31 +35,10 @@ fn coverage_is_exact() {
 #[test]
 fn grids_have_no_gap_and_no_overdraw() {
     let mut random = Random(2);
-    let size = [100, 70];
     for case in 0..30 {
-        // Cells of 16 to 40 pixels, all around the picture.
-        let cell = [16 * SUB, 20 * SUB + SUB / 2, 40 * SUB, 25 * SUB + 77, 16 * SUB + SUB / 2][case % 5];
-        let (columns, rows) = (100 * SUB / cell + 4, 70 * SUB / cell + 4);
-        // Less than would turn a triangle over.
-        let jitter = [0, 1, SUB / 2, cell / 5][case % 4];
-        let mut points = Vec::new();
-        for j in 0..=rows {
-            for i in 0..=columns {
-                let mut off = || random.range(-jitter as f64, jitter as f64 + 1.0).floor() as i32;
-                points.push(Corner { x: (i - 1) * cell - SUB + off(), y: (j - 1) * cell - SUB + off(), near: 1.0 });
-            }
-        }
-        let mut triangles = Vec::new();
-        for j in 0..rows as usize {
-            for i in 0..columns as usize {
-                let at = |i: usize, j: usize| points[j * (columns as usize + 1) + i];
-                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
-                triangles.extend(if random.unit() < 0.5 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] });
-            }
-        }
-        let sample = if case % 2 == 0 { CENTER } else { [(random.unit() * SUB as f64) as i32, 0] };
+        let (triangles, sample) = grid(&mut random, case);
         for (name, level) in testkit::levels() {
-            let counts = counts(level, &triangles, size, sample);
+            let counts = counts(level, &triangles, SHEET, sample);
             let off: Vec<_> = counts.iter().enumerate().filter(|c| *c.1 != 1).take(5).collect();
             assert!(off.is_empty(), "{name}, case {case}: {off:?}");
         }
@@ -77,31 +48,13 @@ fn grids_have_no_gap_and_no_overdraw() {
 #[test]
 fn fans_cover_their_polygon_exactly_once() {
     let mut random = Random(3);
-    let size = [100, 70];
     let mut inside = 0;
     for case in 0..120 {
-        // A star of spokes around a corner, which may lie on a sample; corners rounded to whole steps.
-        let grid = [1, SUB / 2, SUB][case % 3];
-        let round = |x: f64| (x * SUB as f64 / grid as f64).round() as i32 * grid;
-        let (x, y) = (round(random.range(20.0, 80.0)), round(random.range(20.0, 50.0)));
-        let spokes = 3 + case as i32 % 40;
-        let mut rim: Vec<Corner> = Vec::new();
-        for k in 0..spokes {
-            let (sin, cos) = ((k as f64 + random.range(0.0, 0.8)) / spokes as f64 * std::f64::consts::TAU).sin_cos();
-            // The last cases reach around the picture.
-            let r = if case < 100 { random.log(0.3, 45.0) } else { random.log(300.0, 9000.0) };
-            rim.push(Corner { x: x + round(r * cos), y: y + round(r * sin), near: 1.0 });
-        }
-        let center = Corner { x, y, near: 1.0 };
-        let fan: Vec<Corners> = (0..rim.len()).map(|k| [center, rim[k], rim[(k + 1) % rim.len()]]).collect();
-        // Rounding may turn a triangle over, or three spokes leave more than half a turn between two.
-        if fan.iter().any(|t| area(t) < 0) {
-            continue;
-        }
+        let Some((fan, rim)) = fan(&mut random, case, case >= 100) else { continue };
         for (name, level) in testkit::levels() {
-            for (pixel, count) in counts(level, &fan, size, CENTER).into_iter().enumerate() {
+            for (pixel, count) in counts(level, &fan, SHEET, CENTER).into_iter().enumerate() {
                 // Edges that a line to the right crosses, from a hair to the right of the sample and below it.
-                let s = sample_of(pixel, size[0], CENTER);
+                let s = sample_of(pixel, SHEET[0], CENTER);
                 let crossed = (0..rim.len()).filter(|&k| {
                     let (a, b) = (rim[k], rim[(k + 1) % rim.len()]);
                     let (a_below, b_below) = (a.y as i128 > s[1], b.y as i128 > s[1]);
@@ -122,11 +75,7 @@ fn nearness_is_the_plane_and_stays_between_the_corners() {
     let size = SIZES[0];
     let (mut worst, mut slivers) = (0f64, 0);
     for _ in 0..4000 {
-        let mut t = any_triangle(&mut random, size);
-        if random.unit() < 0.3 {
-            // From the near plane to the horizon.
-            t.iter_mut().for_each(|c| c.near = random.log(1e-5, 20.0) as f32);
-        }
+        let t = deep_triangle(&mut random);
         let piece = [piece(&[t], size, area(&t) > 0)];
         let (low, high) = t.iter().fold((f32::MAX, 0f32), |(l, h), c| (l.min(c.near), h.max(c.near)));
         let mut first: Option<Shown> = None;

@@ -8,6 +8,7 @@ use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::{Background, Emitter, Glow, Light, Material, Object, Shape, World};
 use paprsek::view::Camera;
 use std::f64::consts::FRAC_1_SQRT_2;
+use testkit::fresnel::by_angles as fresnel;
 use testkit::metrics::gaps;
 use testkit::picture::{plain, traced};
 use testkit::random::Random;
@@ -47,20 +48,6 @@ fn floor() -> Shape {
 
 fn look(world: &World, o: Vec3, d: Vec3) -> f64 {
     reference::radiance(world, Ray::new(o, d), 1).x as f64
-}
-
-/// Unpolarised reflectance from the angles, as Fresnel wrote it: sines and tangents of sums, no cosines of ours.
-fn fresnel(n: f64, angle: f64) -> f64 {
-    if angle == 0.0 {
-        return ((n - 1.0) / (n + 1.0)).powi(2);
-    }
-    if angle.sin() >= n {
-        return 1.0;
-    }
-    let behind = (angle.sin() / n).asin();
-    let (minus, plus) = (angle - behind, angle + behind);
-    let s = (minus.sin() / plus.sin()).powi(2);
-    0.5 * (s + (minus.tan() / plus.tan()).powi(2))
 }
 
 /// What a pane of index `ior` sends back of a ray at `angle` to its normal, from above.

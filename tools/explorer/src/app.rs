@@ -9,7 +9,7 @@ use crate::overlay::Overlay;
 use crate::painter::Painter;
 use crate::panel::{self, Graph, Turned};
 use crate::probing::Probing;
-use crate::record::{self, Recording};
+use crate::record::{self, Ending, Recording};
 use crate::request::milliseconds;
 use crate::still;
 use crate::window::Events;
@@ -20,6 +20,8 @@ use std::path::PathBuf;
 
 /// Seconds after which a frame that stays the same is compared.
 const REST: f64 = 0.3;
+/// Seconds after which the progress of a comparison is shown anew.
+const PROGRESS: f64 = 0.2;
 /// Seconds that something told is shown.
 const TOLD: f64 = 4.0;
 
@@ -29,6 +31,8 @@ pub struct App {
     pub model: Model,
     /// The frame that is shown.
     pub shown: Option<Shown>,
+    /// Frames that have been rendered.
+    pub frames: u64,
     /// Whether to end.
     pub ends: bool,
     /// Whether the help is shown.
@@ -51,6 +55,8 @@ pub struct App {
     told: Option<(String, f64)>,
     /// The recording that is under way.
     pub recording: Option<Recording>,
+    /// The recording that has taken its last frame, and is still being written.
+    ending: Option<Ending>,
     pipe: Option<String>,
     out: PathBuf,
     clipboard: Option<arboard::Clipboard>,
@@ -73,6 +79,7 @@ impl App {
         Ok(App {
             model,
             shown: None,
+            frames: 0,
             ends: false,
             help: false,
             panel: true,
@@ -86,6 +93,7 @@ impl App {
             turned: Turned::default(),
             told: None,
             recording: None,
+            ending: None,
             pipe,
             out,
             clipboard: None,
@@ -102,7 +110,8 @@ impl App {
     /// new to draw.
     pub fn hear(&mut self, events: &Events, size: (usize, usize), now: f64, seconds: f64) -> bool {
         let (raw, pressed) = self.input.take(events, size, panel::scale(size.1), now);
-        let fresh = !raw.events.is_empty();
+        // Keys that egui has no use for change what is drawn, too.
+        let fresh = !raw.events.is_empty() || !pressed.is_empty();
         self.waiting.append(raw);
         self.ends |= events.closed;
         let typing = self.ctx.wants_keyboard_input();
@@ -120,14 +129,34 @@ impl App {
         let stick = self.hold(typing, seconds);
         // A recording moves time on by itself, once it has the frame of that time.
         let has = |shown: &Shown| shown.request.time == milliseconds(self.model.time);
-        if self.recording.is_some() && self.model.playing && self.shown.as_ref().is_some_and(has) {
+        let room = self.recording.as_ref().is_some_and(Recording::has_room);
+        if room && self.model.playing && self.shown.as_ref().is_some_and(has) {
             self.model.seek(self.model.rate / record::RATE);
         }
         let playing = self.model.playing;
         self.model.playing = playing && self.recording.is_none();
         self.model.advance(seconds, stick);
         self.model.playing = playing;
-        fresh || now >= self.repaint
+        let told = self.look_after(now);
+        fresh || told || now >= self.repaint
+    }
+
+    /// Looks after recordings that have failed or are complete. Gives whether there is something to tell.
+    fn look_after(&mut self, now: f64) -> bool {
+        let failed = self.recording.as_ref().is_some_and(Recording::has_failed);
+        if failed {
+            self.record(now);
+        }
+        let over = self.ending.take_if(|ending| ending.is_over());
+        let told = over.is_some();
+        if let Some(ending) = over {
+            let told = ending.told();
+            if let Err(why) = &told {
+                eprintln!("explorer: recording: {why}");
+            }
+            self.tell(told.unwrap_or_else(|why| format!("recording: {why}")), now);
+        }
+        failed || told
     }
 
     /// Walks while keys are held; gives the stick.
@@ -219,7 +248,11 @@ impl App {
     fn record(&mut self, now: f64) {
         let Some(shown) = &self.shown else { return };
         let told = match self.recording.take() {
-            Some(recording) => recording.end(),
+            Some(recording) => {
+                self.ending = Some(recording.end());
+                Ok("writing what is left".into())
+            }
+            None if self.ending.is_some() => Err("the last recording is still being written".into()),
             None => {
                 let size = (shown.frame.width, shown.frame.height);
                 Recording::start(&self.out, self.pipe.as_deref(), size).map(|recording| {
@@ -237,15 +270,23 @@ impl App {
     fn keep(&mut self, now: f64) {
         let (Some(recording), Some(shown)) = (&mut self.recording, &self.shown) else { return };
         let frame = &shown.frame;
-        // A frame of another size ends it, and so does a program that has gone.
-        if (frame.width, frame.height) != recording.size || !recording.take(frame) {
+        // A frame of another size ends it.
+        if (frame.width, frame.height) == recording.size {
+            recording.take(frame);
+        } else {
             self.record(now);
         }
     }
 
     /// Ends what is under way.
     pub fn end(&mut self) -> Result<(), String> {
-        self.recording.take().map_or(Ok(()), |recording| recording.end().map(drop))
+        let left = self.recording.take().map(Recording::end).or(self.ending.take());
+        left.map_or(Ok(()), |ending| ending.wait().map(drop))
+    }
+
+    /// What is told now.
+    pub fn told(&self) -> Option<&str> {
+        self.told.as_ref().map(|told| &*told.0)
     }
 
     fn tell(&mut self, what: String, now: f64) {
@@ -285,8 +326,12 @@ impl App {
         if std::mem::take(&mut self.turned.copy) {
             self.copy(now);
         }
-        let wait = output.viewport_output.values().map(|view| view.repaint_delay.as_secs_f64()).fold(1.0, f64::min);
-        self.repaint = now + wait;
+        let wait =
+            output.viewport_output.values().map(|view| view.repaint_delay.as_secs_f64()).fold(f64::INFINITY, f64::min);
+        // What has been told goes away by itself.
+        let told = self.told.as_ref().map_or(f64::INFINITY, |told| told.1);
+        let progress = if self.is_comparing() { now + PROGRESS } else { f64::INFINITY };
+        self.repaint = told.min(progress).min(now + wait);
         self.painter.paint(&self.ctx, output, pixels, size);
     }
 
@@ -302,11 +347,12 @@ impl App {
             let told = self.told.as_ref().map(|told| &*told.0);
             panel::hud(ctx, &self.model, self.shown.as_ref(), told);
         }
+        let mut above = 0.0;
         if self.times && free {
-            self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
+            above = self.graph.show(ctx, self.shown.as_ref().map_or(0, |shown| shown.samples));
         }
         if let Some(coloured) = self.shown.as_ref().and_then(|shown| shown.coloured.as_ref()).filter(|_| free) {
-            panel::legend(ctx, coloured, self.times);
+            panel::legend(ctx, coloured, above);
         }
         if self.compare.on && free {
             panel::compared(ctx, &mut self.compare, self.shown.as_ref());
@@ -327,8 +373,12 @@ impl App {
         // The mouse over the panel is not over the picture.
         let mouse = self.input.mouse().filter(|_| !self.ctx.is_pointer_over_area());
         let probed = self.probing.look(&shown.request, mouse)?;
-        let waits = self.compare.on && self.compare.of(&shown.request).is_none() && now >= self.repaint - 0.8;
-        Ok(compared || probed || waits)
+        Ok(compared || probed)
+    }
+
+    /// Whether the truth is being rendered.
+    fn is_comparing(&self) -> bool {
+        self.compare.on && self.shown.as_ref().is_some_and(|shown| self.compare.of(&shown.request).is_none())
     }
 
     /// Takes a new frame.
@@ -343,6 +393,7 @@ impl App {
         if self.shown.as_ref().is_none_or(|last| last.request != shown.request) {
             self.since = now;
         }
+        self.frames += 1;
         self.graph.take(&shown);
         self.shown = Some(shown);
         self.keep(now);

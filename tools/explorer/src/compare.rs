@@ -8,6 +8,7 @@ use paprsek::Quality;
 use paprsek::frame::{Frame, Tile};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
+use testkit::flip;
 use testkit::metrics::{Difference, channels, ssim};
 
 /// A comparison of a frame.
@@ -20,8 +21,8 @@ pub struct Compared {
     pub difference: Difference,
     /// Their structural similarity, 1 for equal pictures.
     pub ssim: f64,
-    /// FLIP at the default viewing distance, the mean over the pixels; none without the feature `flip`.
-    pub flip: Option<f32>,
+    /// FLIP at the usual viewing distance, the mean over the pixels.
+    pub flip: f64,
 }
 
 /// What the comparison is set to, and what it has found.
@@ -61,7 +62,7 @@ impl Compare {
                 return Ok(None);
             }
             let difference = Difference::between(&frame, &truth);
-            let (ssim, flip) = (ssim(&frame, &truth), flip(&frame, &truth));
+            let (ssim, flip) = (ssim(&frame, &truth), flip::mean(&flip::flip(&frame, &truth)));
             Ok(Some(Compared { request, truth, difference, ssim, flip }))
         };
         let thread = Background::start(work)?;
@@ -124,21 +125,6 @@ impl Compare {
             }
         }
     }
-}
-
-/// FLIP `[Andersson20]` of a picture against the truth.
-#[cfg(feature = "flip")]
-fn flip(picture: &Frame, truth: &Frame) -> Option<f32> {
-    use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool};
-    let (width, height) = (truth.width as u32, truth.height as u32);
-    let [picture, truth] = [picture, truth].map(|frame| FlipImageRgb8::with_data(width, height, &frame.to_rgb()));
-    Some(FlipPool::from_image(&nv_flip::flip(truth, picture, DEFAULT_PIXELS_PER_DEGREE)).mean())
-}
-
-/// There is no FLIP in this build.
-#[cfg(not(feature = "flip"))]
-fn flip(_: &Frame, _: &Frame) -> Option<f32> {
-    None
 }
 
 /// The difference of two pixels, times a factor, around grey.

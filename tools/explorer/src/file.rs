@@ -33,7 +33,7 @@ pub fn write(model: &Model) -> String {
 /// then.
 pub fn read(model: &mut Model, text: &str) -> Result<(), String> {
     let mut new = Model::new(model.scene, model.threads, model.simd);
-    (new.playing, new.rate, new.speed) = (false, model.rate, model.speed);
+    (new.playing, new.rate, new.speed, new.cap) = (false, model.rate, model.speed, model.cap);
     let mut camera = [None; 7];
     for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         let wrong = || format!("line {}: {line}", number + 1);

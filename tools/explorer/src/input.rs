@@ -26,6 +26,9 @@ pub struct Pressed {
 pub struct Input {
     held: BTreeSet<u8>,
     buttons: [bool; 2],
+    /// Clicks that were over between two looks and are still to be told, and whether one is down.
+    clicks: [u8; 2],
+    clicked: [bool; 2],
     mouse: Option<(f32, f32)>,
     /// How far the mouse went since the last look, pixels.
     pub moved: (f32, f32),
@@ -100,6 +103,16 @@ impl Input {
             }
         }
         self.buttons = events.buttons;
+        for (place, button) in [PointerButton::Primary, PointerButton::Secondary].into_iter().enumerate() {
+            self.clicks[place] += events.clicks[place];
+            // Down in one picture and up in the next: sliders want to be seen held.
+            let was = std::mem::take(&mut self.clicked[place]);
+            if was || self.clicks[place] > 0 {
+                self.clicked[place] = !was;
+                self.clicks[place] -= u8::from(!was);
+                out.push(Event::PointerButton { pos, button, pressed: !was, modifiers: self.modifiers() });
+            }
+        }
         if events.wheel != 0.0 {
             let delta = vec2(0.0, events.wheel.clamp(-8.0, 8.0) * NOTCH);
             let (unit, modifiers) = (egui::MouseWheelUnit::Point, self.modifiers());

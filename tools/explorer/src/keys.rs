@@ -13,6 +13,8 @@ pub enum Action {
     Hud,
     /// Shows or hides the graph of frame times.
     Times,
+    /// Another cap of the frame rate.
+    Cap(i32),
     /// Another overlay, or none.
     Overlay(i32),
     /// Compares the frame with the truth.
@@ -69,6 +71,8 @@ const ROWS: &[Row] = &[
     (Key::Tab, false, Action::Panel),
     (Key::M, false, Action::Hud),
     (Key::F2, false, Action::Times),
+    (Key::F6, false, Action::Cap(1)),
+    (Key::F6, true, Action::Cap(-1)),
     (Key::F3, false, Action::Overlay(1)),
     (Key::F3, true, Action::Overlay(-1)),
     (Key::F4, false, Action::Compare),
@@ -160,6 +164,7 @@ pub const HELP: &[(&str, &[(&str, &str)])] = &[
         ("Left Right", "5 s back, 5 s on"),
         (", .", "a frame back, a frame on"),
         ("[ ] \\", "time at half the speed, at twice, as it is"),
+        ("F6", "frames per second at most: 60 at first; with Shift fewer"),
         ("PageUp PageDown", "a day on, a day back; with Shift a month"),
     ]),
     ("Turn", &[

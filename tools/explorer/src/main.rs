@@ -8,6 +8,7 @@ mod app;
 mod args;
 mod background;
 mod calendar;
+mod clicks;
 mod compare;
 mod file;
 mod flight;
@@ -78,13 +79,24 @@ fn run(args: Args) -> Result<(), String> {
     let (mut app, mut asked) = (App::new(model, args.out, args.pipe)?, None);
     let (began, mut last) = (Instant::now(), 0.0);
     let (mut pixels, mut size) = (Vec::new(), (0, 0));
+    // When the next frame may be asked for, seconds.
+    let mut next = 0.0;
     while !app.ends {
         let now = began.elapsed().as_secs_f64();
         let resized = std::mem::replace(&mut size, window.size()) != size;
-        let mut fresh = app.hear(&window.events(), size, now, (now - last).min(LONGEST)) | resized;
+        let events = window.events();
+        if events.gone {
+            // Before Xlib hears of it, which would end the process then and there.
+            let ended = app.end();
+            return Err(ended.err().unwrap_or_else(|| "the display has gone".into()));
+        }
+        let mut fresh = app.hear(&events, size, now, (now - last).min(LONGEST)) | resized;
         last = now;
         let request = (app.model.request(size), app.overlay);
-        if asked.as_ref() != Some(&request) {
+        if asked.as_ref() != Some(&request) && now >= next {
+            // A recording waits for nothing; who is late by more than a frame does not catch up.
+            let pace = if app.recording.is_some() { 0.0 } else { app.model.pace() };
+            next = if now < next + pace { next + pace } else { now + pace };
             asked = Some(request.clone());
             worker.ask(request);
         }
@@ -103,7 +115,10 @@ fn run(args: Args) -> Result<(), String> {
             window.look();
         }
         let spent = began.elapsed().as_secs_f64() - now;
-        sleep(LOOK.saturating_sub(Duration::from_secs_f64(spent)));
+        // A frame that is due earlier is not kept waiting.
+        let wait =
+            if app.model.playing && next > now { LOOK.as_secs_f64().min(next - now) } else { LOOK.as_secs_f64() };
+        sleep(Duration::from_secs_f64((wait - spent).max(0.0)));
     }
     app.end()
 }

@@ -18,6 +18,11 @@ const SPEEDS: [f64; 3] = [0.05, 2000.0, 4.0];
 /// the mouse.
 const DEGREES: f64 = 50.0 / 720.0;
 
+/// Caps of the frame rate, frames per second; 0 for none.
+pub const CAPS: [u32; 7] = [10, 15, 24, 30, 60, 120, 0];
+/// The cap at first: a usual display's pace.
+const DISPLAY: u32 = 60;
+
 /// Everything that can be set.
 pub struct Model {
     /// The scene.
@@ -50,6 +55,8 @@ pub struct Model {
     pub threads: usize,
     /// Name of the SIMD level.
     pub simd: &'static str,
+    /// Frames per second at most; 0 for as many as there can be.
+    pub cap: u32,
     /// The share of the flakes before they were turned off.
     share: Option<f64>,
 }
@@ -73,6 +80,7 @@ impl Model {
             placed: Placed::default(),
             threads,
             simd,
+            cap: DISPLAY,
             share: None,
         }
     }
@@ -169,8 +177,8 @@ impl Model {
     /// Goes to another scene, from its start.
     pub fn go(&mut self, scene: Scene) {
         if scene.name != self.scene.name {
-            let Model { playing, rate, base, quality, speed, threads, simd, .. } = *self;
-            *self = Model { playing, rate, base, quality, speed, ..Model::new(scene, threads, simd) };
+            let Model { playing, rate, base, quality, speed, threads, simd, cap, .. } = *self;
+            *self = Model { playing, rate, base, quality, speed, cap, ..Model::new(scene, threads, simd) };
         }
     }
 
@@ -196,6 +204,10 @@ impl Model {
             }
             Action::Rate(doubled) => self.rate = (self.rate * 2f64.powi(doubled)).clamp(1.0 / 64.0, 64.0),
             Action::RealTime => self.rate = 1.0,
+            Action::Cap(by) => {
+                let place = CAPS.iter().position(|cap| *cap == self.cap).unwrap_or(0) as i32;
+                self.cap = CAPS[(place + by).rem_euclid(CAPS.len() as i32) as usize];
+            }
             Action::Scene(by) => {
                 let all = scenes::all();
                 let place = all.iter().position(|scene| scene.name == self.scene.name).unwrap_or(0) as i32;
@@ -246,6 +258,11 @@ impl Model {
                 Flight::new(Pose { roll: 0.0, pitch: from.pitch.clamp(-20.0, 20.0), fov: camera.fov, ..from })
             }),
         };
+    }
+
+    /// Seconds from one frame to the next at least.
+    pub fn pace(&self) -> f64 {
+        if self.cap == 0 { 0.0 } else { 1.0 / f64::from(self.cap) }
     }
 
     /// Goes to a time of the scene, which begins anew after its end.

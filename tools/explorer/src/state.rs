@@ -51,7 +51,7 @@ impl States {
         let (mouse_x, mouse_y) = app.mouse_at().unwrap_or((-1.0, -1.0));
         let line = format!(
             "picture={} size={}x{} scene={} time={:.3} playing={} rate={} camera={pose} own={} plane={plane} flight={} \
-             speed={:.3} panel={} help={} times={} overlay={} compare={compare} probe={probe} recorded={} keys={} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} ms={:.3} words={}",
+             speed={:.3} panel={} help={} times={} overlay={} compare={compare} probe={probe} recorded={} told={} keys={} slider={slider} mouse={mouse_x:.0},{mouse_y:.0} threads={} simd={} cap={} frames={} ms={:.3} words={}",
             self.count,
             size.0,
             size.1,
@@ -67,9 +67,12 @@ impl States {
             flag(app.times),
             shown.coloured.as_ref().map_or("none", |coloured| coloured.overlay.about().0).replace(' ', "-"),
             app.recording.as_ref().map_or("off".into(), |recording| recording.count.to_string()),
+            app.told().unwrap_or("nothing").replace([' ', '\n'], "_"),
             model.keys.keys().len(),
             shown.threads,
             request.simd,
+            model.cap,
+            app.frames,
             shown.ms,
             request.words(),
         );

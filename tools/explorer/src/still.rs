@@ -4,8 +4,8 @@ use crate::worker::Shown;
 use paprsek::frame::Frame;
 use std::path::{Path, PathBuf};
 
-/// Fits pixels of `from` columns and rows to a picture of `width` x `height` pixels. While a window is being resized its frame is still of another
-/// size, and the nearest pixels stand for it.
+/// Fits pixels of `from` columns and rows to a picture of `width` x `height` pixels. While a window is being resized its
+/// frame is still of another size, and the nearest pixels stand for it.
 pub fn fit(old: &[u32], from: (usize, usize), pixels: &mut [u32], (width, height): (usize, usize)) {
     if from == (width, height) {
         pixels.copy_from_slice(old);
@@ -31,5 +31,10 @@ pub fn save(out: &Path, shown: &Shown) -> Result<PathBuf, String> {
 /// Writes a frame as PNG.
 pub fn write(path: &Path, frame: &Frame) -> Result<(), String> {
     let (width, height) = (frame.width as u32, frame.height as u32);
-    image::save_buffer(path, &frame.to_rgb(), width, height, image::ColorType::Rgb8).map_err(|error| error.to_string())
+    let saved = image::save_buffer(path, &frame.to_rgb(), width, height, image::ColorType::Rgb8);
+    saved.map_err(|error| {
+        // Half a picture is none.
+        let _ = std::fs::remove_file(path);
+        format!("{}: {error}", path.display())
+    })
 }

@@ -1,6 +1,7 @@
 //! minifb's window: pixels out, keys and the mouse in. The only file that opens it.
 
 use crate::args::LEAST;
+use crate::clicks::Clicks;
 use crate::patience::{begin, during};
 use minifb::{InputCallback, Key, MouseButton, MouseMode, ScaleMode, WindowOptions};
 use std::cell::RefCell;
@@ -17,18 +18,23 @@ pub struct Events {
     pub mouse: Option<(f32, f32)>,
     /// Whether the left and the right button are down.
     pub buttons: [bool; 2],
+    /// Clicks of these that were over between two looks.
+    pub clicks: [u8; 2],
     /// Notches of the wheel, up positive.
     pub wheel: f32,
     /// Whether the window has the keyboard.
     pub active: bool,
     /// Whether the window was closed.
     pub closed: bool,
+    /// Whether the display has gone.
+    pub gone: bool,
 }
 
 /// An open window.
 pub struct Window {
     window: minifb::Window,
     heard: Heard,
+    clicks: Option<Clicks>,
 }
 
 impl Window {
@@ -42,7 +48,9 @@ impl Window {
         window.set_target_fps(0);
         let heard = Heard::default();
         window.set_input_callback(Box::new(heard.clone()));
-        Ok(Window { window, heard })
+        // X's windows have numbers of 29 bits.
+        let clicks = during(|| Clicks::over(window.get_window_handle() as usize as u32));
+        Ok(Window { window, heard, clicks })
     }
 
     /// Width and height of the picture that fits: the window's, or the least where that is smaller.
@@ -70,14 +78,18 @@ impl Window {
         let (window, (width, height)) = (self.window.get_size(), self.size());
         let scale = (width as f32 / window.0.max(1) as f32, height as f32 / window.1.max(1) as f32);
         let mouse = self.window.get_unscaled_mouse_pos(MouseMode::Pass);
+        let buttons = [MouseButton::Left, MouseButton::Right].map(|button| self.window.get_mouse_down(button));
+        let clicks = self.clicks.as_mut().map_or([0; 2], |clicks| during(|| clicks.missed(buttons)));
         Events {
             keys,
             text,
             mouse: mouse.map(|(x, y)| (x * scale.0, y * scale.1)),
-            buttons: [MouseButton::Left, MouseButton::Right].map(|button| self.window.get_mouse_down(button)),
+            buttons,
+            clicks,
             wheel: self.window.get_scroll_wheel().map_or(0.0, |wheel| wheel.1),
             active: self.window.is_active(),
             closed: !self.window.is_open(),
+            gone: self.clicks.as_ref().is_some_and(|clicks| clicks.gone),
         }
     }
 }

@@ -70,6 +70,23 @@ pub struct Outcome {
 }
 
 impl Case {
+    /// A case whose error has no unit.
+    pub const fn new(
+        runs: Runs,
+        name: &'static str,
+        source: &'static str,
+        oracle: &'static str,
+        target: f64,
+        run: fn(&Effort) -> Found,
+    ) -> Case {
+        Case { name, source, oracle, runs, unit: "", target, run }
+    }
+
+    /// The same with a unit of the error.
+    pub const fn unit(self, unit: &'static str) -> Case {
+        Case { unit, ..self }
+    }
+
     /// Tries the inputs.
     pub fn run(&self, effort: &Effort) -> Outcome {
         let start = Instant::now();

@@ -383,6 +383,22 @@ fn without(text: String, (old, new): &(&str, &str)) -> String {
     if text.matches(old).count() == 1 { text.replace(old, new) } else { text }
 }
 
+/// How many of the texts that are cut are not in `original`, or not once: 0 for the toolchains that the cuts were written
+/// for. With many of them gone the rest may no longer compile.
+pub fn strange(original: &Path) -> usize {
+    let missing = |(path, cuts): &Cuts| {
+        let text = fs::read_to_string(original.join(path)).unwrap_or_default();
+        cuts.iter()
+            .scan(text, |text, cut| {
+                let is_there = text.matches(cut.0).count() == 1;
+                *text = without(std::mem::take(text), cut);
+                Some(usize::from(!is_there))
+            })
+            .sum::<usize>()
+    };
+    CUTS.iter().map(missing).sum()
+}
+
 /// Where a toolchain at `sysroot` keeps them.
 pub fn sources(sysroot: &Path) -> PathBuf {
     sysroot.join("lib/rustlib/src/rust/library")
@@ -421,6 +437,11 @@ mod tests {
         assert_eq!(fs::read_to_string(copy.join("core/src/lib.rs")).unwrap(), "core");
         assert_eq!(fs::read_to_string(copy.join(path)).unwrap(), cuts.iter().map(|(_, new)| *new).collect::<String>());
         assert_eq!(fs::read_to_string(original.join(path)).unwrap(), text);
+        // All cuts of the other files are missing, and after this change one more.
+        let all: usize = CUTS.iter().map(|(_, cuts)| cuts.len()).sum();
+        assert_eq!(strange(&original), all - cuts.len());
+        file(path, &text.replacen(cuts[1].0, "another's words\n", 1));
+        assert_eq!(strange(&original), all - cuts.len() + 1);
         for made in [original, copy] {
             fs::remove_dir_all(made).unwrap();
         }

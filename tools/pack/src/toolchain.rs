@@ -15,20 +15,35 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// The first that will do: rustup's, a nightly before the others, then Debian's.
-    pub fn find() -> Result<Toolchain, String> {
+    /// All that may do, the likeliest first: those whose library has most of what is cut from it; among such rustup's, a
+    /// nightly before the others, then Debian's.
+    pub fn all() -> Result<Vec<Toolchain>, String> {
         let rustup = |words: &[&str]| said(Command::new("rustup").args(words)).unwrap_or_default();
         let list = rustup(&["toolchain", "list"]);
         let mut names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
         names.sort_by_key(|name| !name.starts_with("nightly"));
         let homes = names.iter().map(|name| rustup(&["run", name, "rustc", "--print", "sysroot"]).into());
-        homes.chain(["/usr".into()]).find_map(Toolchain::at).ok_or_else(|| {
-            format!(
+        let mut found: Vec<Toolchain> = homes.chain(["/usr".into()]).filter_map(Toolchain::at).collect();
+        found.sort_by_cached_key(|toolchain| library::strange(&library::sources(&toolchain.sysroot)));
+        if found.is_empty() {
+            return Err(format!(
                 "no Rust 1.{OLDEST} or later with the sources of its standard library; one of these installs it: \
                  `rustup toolchain install nightly --component rust-src`, or as root on Debian 12 \
                  `apt install rustc-web cargo-web rust-web-src`"
-            )
-        })
+            ));
+        }
+        Ok(found)
+    }
+
+    /// The likeliest.
+    pub fn find() -> Result<Toolchain, String> {
+        Ok(Toolchain::all()?.swap_remove(0))
+    }
+
+    /// What `make` makes with the likeliest toolchain, or with the next one where it fails: a library that is another
+    /// than the one that is cut need not compile. Says on stderr what failed.
+    pub fn try_each<T>(make: impl FnMut(Toolchain) -> Result<T, String>) -> Result<T, String> {
+        first(Toolchain::all()?, make)
     }
 
     /// The toolchain at `sysroot`, if it will do.
@@ -59,6 +74,22 @@ impl Toolchain {
     }
 }
 
+/// What `make` makes of the first toolchain with which it succeeds; the last one's error where there is none.
+fn first<T>(toolchains: Vec<Toolchain>, mut make: impl FnMut(Toolchain) -> Result<T, String>) -> Result<T, String> {
+    let mut left = toolchains.len();
+    let mut last = Err("no toolchain".into());
+    for toolchain in toolchains {
+        let name = toolchain.sysroot.display().to_string();
+        last = make(toolchain);
+        left -= 1;
+        match &last {
+            Err(why) if left > 0 => eprintln!("pack: {why} with the Rust in {name}; trying the next one"),
+            _ => break,
+        }
+    }
+    last
+}
+
 /// Would a variable of that name change what is built? Where crates are kept and fetched from does not.
 fn leaks(name: &str) -> bool {
     let ours = ["CARGO", "RUST", "CFLAGS", "DEP_", "OUT_DIR"].iter().any(|prefix| name.starts_with(prefix));
@@ -81,6 +112,19 @@ fn minor(version: &str) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_next_toolchain_is_tried_where_one_fails() {
+        let three = || ["/a", "/b", "/c"].map(|sysroot| Toolchain { sysroot: sysroot.into() }).into();
+        let mut tried = Vec::new();
+        let made = first(three(), |toolchain| {
+            tried.push(toolchain.sysroot.clone());
+            if toolchain.sysroot.ends_with("b") { Ok(7) } else { Err("cargo failed".into()) }
+        });
+        assert_eq!((made, tried), (Ok(7), vec![PathBuf::from("/a"), "/b".into()]));
+        let failed = first::<()>(three(), |toolchain| Err(toolchain.sysroot.display().to_string()));
+        assert_eq!(failed, Err("/c".into()));
+    }
 
     #[test]
     fn versions_are_read() {

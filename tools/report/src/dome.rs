@@ -3,7 +3,7 @@
 use crate::options::{Quick, Result};
 use crate::picture::rgb;
 use fearless_simd::Level;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Vec3, vec3};
 use image::{RgbImage, imageops};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
@@ -18,18 +18,10 @@ use std::path::PathBuf;
 
 const ALTITUDES: [f32; 12] = [60.0, 30.0, 10.0, 5.0, 2.0, 0.0, -2.0, -4.0, -6.0, -9.0, -12.0, -18.0];
 
-/// A sky without a moon, whose sun is this high above the horizon, degrees, in the direction of -z.
+/// The tests' sky, its sun this high above the horizon, degrees, with so much haze.
 pub fn sky(altitude: f32, haze: f32) -> Sky {
-    let a = altitude.to_radians();
-    Sky {
-        sun: vec3(0.0, a.sin(), -a.cos()),
-        moon: -Vec3::Y,
-        moon_to_sun: Vec3::X,
-        lit: 0.0,
-        moon_radius: 0.0045,
-        turn: Mat3::IDENTITY,
-        air: Air { haze, ozone: 1.1, again: 0.7 },
-    }
+    let sky = testkit::sky::sky(altitude);
+    Sky { air: Air { haze, ..sky.air }, ..sky }
 }
 
 fn render(dome: Dome, settings: &SkySettings, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {

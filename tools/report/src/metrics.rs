@@ -4,8 +4,8 @@
 use crate::picture::rgb;
 use image::RgbImage;
 use image_compare::{Algorithm, rgb_similarity_structure};
-use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageFloat, FlipImageRgb8, FlipPool, flip, magma_lut};
 use paprsek::frame::Frame;
+use testkit::flip::{self, flip};
 use testkit::metrics::{Difference, psnr};
 
 /// The error of a picture, or the mean over several pictures.
@@ -27,11 +27,13 @@ impl Error {
     /// The error of `picture` against `truth`, which have the same size.
     pub fn between(picture: &Frame, truth: &Frame) -> Error {
         let Difference { mean_square: square, bad, .. } = Difference::between(picture, truth);
+        let mut flips = flip(picture, truth);
         let (picture, truth) = (rgb(picture), rgb(truth));
         let ssim = rgb_similarity_structure(&Algorithm::MSSIMSimple, &truth, &picture).expect("equal sizes").score;
-        let mut pool = FlipPool::from_image(&flips(&picture, &truth));
-        let flip99 = f64::from(pool.get_percentile(0.99, false));
-        Error { square, ssim, flip: f64::from(pool.mean()), flip99, bad }
+        let mean = flip::mean(&flips);
+        let place = flips.len() * 99 / 100;
+        let (_, flip99, _) = flips.select_nth_unstable_by(place, f32::total_cmp);
+        Error { square, ssim, flip: mean, flip99: f64::from(*flip99), bad }
     }
 
     /// The mean of several pictures' errors. Squares are averaged before the root, so that PSNR is that of all pixels together.
@@ -57,14 +59,12 @@ impl Error {
     }
 }
 
-/// FLIP of every pixel at the default viewing distance.
-fn flips(picture: &RgbImage, truth: &RgbImage) -> FlipImageFloat {
-    let image = |from: &RgbImage| FlipImageRgb8::with_data(from.width(), from.height(), from.as_raw());
-    flip(image(truth), image(picture), DEFAULT_PIXELS_PER_DEGREE)
-}
-
 /// FLIP as a picture, black where nothing is seen to yellow at 1.
 pub fn flip_map(picture: &Frame, truth: &Frame) -> RgbImage {
-    let map = flips(&rgb(picture), &rgb(truth)).apply_color_lut(&magma_lut());
-    RgbImage::from_raw(map.width(), map.height(), map.to_vec()).expect("three bytes a pixel")
+    let colours = flip(picture, truth).into_iter().flat_map(|flip| {
+        let colour = colorous::MAGMA.eval_continuous(f64::from(flip.clamp(0.0, 1.0)));
+        [colour.r, colour.g, colour.b]
+    });
+    let (width, height) = (truth.width as u32, truth.height as u32);
+    RgbImage::from_raw(width, height, colours.collect()).expect("three bytes per pixel")
 }

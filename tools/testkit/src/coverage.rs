@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use glam::{Affine3A, Vec3, Vec4, vec3};
 use paprsek::frame::Tile;
 use paprsek::raster::bins::Bins;
-use paprsek::raster::fill::{SubPixel, Visible, fill};
+use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
 use paprsek::raster::id::{NOTHING, parts};
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
 use paprsek::raster::{Face, Mesh, Paint, Projection};
@@ -212,3 +212,88 @@ pub fn plane(t: &Corners, s: [i128; 2]) -> (f64, f64) {
 
 /// Roundings of the largest term: two slopes, two offsets, two products, two sums.
 pub const NEARNESS: f64 = 6.0;
+
+/// A hard triangle of a numbered case, and how it is drawn.
+pub struct Single {
+    /// The triangle.
+    pub corners: Corners,
+    /// Pixels of the picture.
+    pub size: [u32; 2],
+    /// Where in its pixel each sample is, steps.
+    pub sample: SubPixel,
+    /// Whether triangles are drawn that turn away.
+    pub back_faces: bool,
+    /// Whether the triangle is drawn: counter-clockwise looks here.
+    pub here: bool,
+}
+
+/// The triangle of a case: every size, samples in the middle, in corners and anywhere.
+pub fn single(random: &mut Random, case: usize) -> Single {
+    let size = SIZES[if case.is_multiple_of(3) { case / 3 % SIZES.len() } else { 0 }];
+    let corners = any_triangle(random, size);
+    let sample = match case % 4 {
+        0 | 1 => CENTER,
+        2 => [[0, 0], [SUB - 1, 0], [0, SUB - 1], [SUB - 1; 2]][case / 4 % 4],
+        _ => [0, 1].map(|_| (random.unit() * SUB as f64) as i32),
+    };
+    let back_faces = case.is_multiple_of(5);
+    let here = if back_faces { area(&corners) > 0 } else { area(&corners) < 0 };
+    Single { corners, size, sample, back_faces, here }
+}
+
+/// Pixels of the pictures of grids and fans.
+pub const SHEET: [u32; 2] = [100, 70];
+
+/// A grid of triangles that covers each pixel of a sheet once, and the place of the samples.
+pub fn grid(random: &mut Random, case: usize) -> (Vec<Corners>, SubPixel) {
+    // Cells of 16 to 40 pixels, all around the picture.
+    let cell = [16 * SUB, 20 * SUB + SUB / 2, 40 * SUB, 25 * SUB + 77, 16 * SUB + SUB / 2][case % 5];
+    let (columns, rows) = (SHEET[0] as i32 * SUB / cell + 4, SHEET[1] as i32 * SUB / cell + 4);
+    // Less than would turn a triangle over.
+    let jitter = [0, 1, SUB / 2, cell / 5][case % 4];
+    let mut points = Vec::new();
+    for j in 0..=rows {
+        for i in 0..=columns {
+            let mut off = || random.range(-jitter as f64, jitter as f64 + 1.0).floor() as i32;
+            points.push(Corner { x: (i - 1) * cell - SUB + off(), y: (j - 1) * cell - SUB + off(), near: 1.0 });
+        }
+    }
+    let mut mesh = Vec::new();
+    for j in 0..rows as usize {
+        for i in 0..columns as usize {
+            let at = |i: usize, j: usize| points[j * (columns as usize + 1) + i];
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+            mesh.extend(if random.unit() < 0.5 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] });
+        }
+    }
+    let sample = if case.is_multiple_of(2) { CENTER } else { [(random.unit() * SUB as f64) as i32, 0] };
+    (mesh, sample)
+}
+
+/// A star of 3 to 42 spokes around a corner, which may lie on a sample, and its rim; with `wide` it reaches around the
+/// sheet. None where rounding to whole steps turned a triangle over, or three spokes left more than half a turn between
+/// two.
+pub fn fan(random: &mut Random, case: usize, wide: bool) -> Option<(Vec<Corners>, Vec<Corner>)> {
+    let grid = [1, SUB / 2, SUB][case % 3];
+    let round = |x: f64| (x * SUB as f64 / grid as f64).round() as i32 * grid;
+    let (x, y) = (round(random.range(20.0, 80.0)), round(random.range(20.0, 50.0)));
+    let spokes = 3 + case as i32 % 40;
+    let mut rim: Vec<Corner> = Vec::new();
+    for k in 0..spokes {
+        let (sin, cos) = ((k as f64 + random.range(0.0, 0.8)) / spokes as f64 * std::f64::consts::TAU).sin_cos();
+        let r = if wide { random.log(300.0, 9000.0) } else { random.log(0.3, 45.0) };
+        rim.push(Corner { x: x + round(r * cos), y: y + round(r * sin), near: 1.0 });
+    }
+    let center = Corner { x, y, near: 1.0 };
+    let fan: Vec<Corners> = (0..rim.len()).map(|k| [center, rim[k], rim[(k + 1) % rim.len()]]).collect();
+    fan.iter().all(|t| area(t) >= 0).then_some((fan, rim))
+}
+
+/// A hard triangle of [`SIZES`]`[0]`, three in ten from the near plane to the horizon.
+pub fn deep_triangle(random: &mut Random) -> Corners {
+    let mut t = any_triangle(random, SIZES[0]);
+    if random.unit() < 0.3 {
+        t.iter_mut().for_each(|c| c.near = random.log(1e-5, 20.0) as f32);
+    }
+    t
+}

@@ -83,3 +83,18 @@ pub fn cases(count: usize, low: f64, high: f64, steepest: f64) -> [Vec<f32>; 2] 
     }
     [etas, cosines]
 }
+
+/// Unpolarised reflectance of a body of index `n` at an angle of incidence in radians, as Fresnel wrote it: sines and
+/// tangents of sums, no cosines of ours.
+pub fn by_angles(n: f64, angle: f64) -> f64 {
+    if angle == 0.0 {
+        return ((n - 1.0) / (n + 1.0)).powi(2);
+    }
+    if angle.sin() >= n {
+        return 1.0;
+    }
+    let behind = (angle.sin() / n).asin();
+    let (minus, plus) = (angle - behind, angle + behind);
+    let s = (minus.sin() / plus.sin()).powi(2);
+    0.5 * (s + (minus.tan() / plus.tan()).powi(2))
+}

@@ -5,10 +5,13 @@
 pub mod bodies;
 #[cfg(feature = "full")]
 pub mod coverage;
+#[cfg(feature = "full")]
+pub mod depth_map;
 pub mod drawn;
 pub mod elementary;
 #[cfg(feature = "full")]
 pub mod exact;
+pub mod flip;
 pub mod found;
 pub mod frames;
 pub mod fresnel;

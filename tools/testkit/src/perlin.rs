@@ -24,7 +24,7 @@ const P: [u8; 256] = [
 ];
 
 /// The 12 edges of a cube as Perlin's paper lists them, and the four that he repeats.
-const EDGES: [[i8; 3]; 16] = [
+pub const EDGES: [[i8; 3]; 16] = [
     [1, 1, 0],
     [-1, 1, 0],
     [1, -1, 0],

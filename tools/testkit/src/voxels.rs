@@ -87,6 +87,29 @@ pub fn ray(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, limit: f32, ste
     rays(Level::new(), cloud, look, eye, &[d; 16], limit, [steps, 0.0])[0]
 }
 
+/// The eight cubes of half the edge of a cloud of 64^3 voxels in the cube from -1 to 1, each a cloud of its own. Each has
+/// two voxels of its neighbours around it, which rays through its inner cube do not reach.
+pub fn eighths(whole: &Cloud) -> [Cloud; 8] {
+    std::array::from_fn(|k| {
+        let corner = [k & 1, k >> 1 & 1, k >> 2];
+        let voxels = filled(36, |place| {
+            let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
+            whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
+        });
+        let centre = Vec3::from(corner.map(|bit| bit as f32 - 0.5));
+        let (size, extinction) = (36.0 / 64.0, whole.extinction * 36.0 / 64.0);
+        Cloud { voxels: Arc::new(voxels), centre, size, extinction }
+    })
+}
+
+/// Transmittance along x at a height and a depth, -1 to 1: of the whole cloud, and of its eighths one after the other.
+pub fn whole_and_eighths(whole: &Cloud, parts: &[Cloud; 8], y: f32, z: f32) -> [f32; 2] {
+    let one = ray(whole, &FURNACE, vec3(-1.0, y, z), Vec3::X, 2.0, 1600.0).1;
+    let met = |part: &&Cloud| (part.centre.y > 0.0) == (y > 0.0) && (part.centre.z > 0.0) == (z > 0.0);
+    let through = |part: &Cloud| ray(part, &FURNACE, vec3(part.centre.x - 0.5, y, z), Vec3::X, 1.0, 800.0).1;
+    [one, parts.iter().filter(met).map(through).product()]
+}
+
 /// Where a ray is in the cube from -1 to 1: the slabs in f64. None for nowhere.
 pub fn span(q: DVec3, d: DVec3) -> Option<(f64, f64)> {
     let (mut entry, mut exit) = (0.0f64, f64::INFINITY);

@@ -38,11 +38,13 @@ impl Graph {
         self.0.clear();
     }
 
-    /// Shows the graph in the upper right corner.
-    pub fn show(&self, ctx: &Context, samples: u64) {
-        Area::new(Id::new("graph")).anchor(Align2::RIGHT_TOP, vec2(-8.0, 8.0)).interactable(false).show(ctx, |ui| {
+    /// Shows the graph in the upper right corner. Gives where its lower edge is, points.
+    pub fn show(&self, ctx: &Context, samples: u64) -> f32 {
+        let area = Area::new(Id::new("graph")).anchor(Align2::RIGHT_TOP, vec2(-8.0, 8.0)).interactable(false);
+        let shown = area.show(ctx, |ui| {
             ground().show(ui, |ui| self.draw(ui, samples));
         });
+        shown.response.rect.bottom()
     }
 
     fn draw(&self, ui: &mut Ui, samples: u64) {
@@ -52,7 +54,8 @@ impl Graph {
         let [median, slow] = [50, 99].map(|percent| sorted[(sorted.len() * percent / 100).min(sorted.len() - 1)]);
         let width = (FRAMES as f32).min(ui.ctx().available_rect().width() - 40.0);
         ui.set_width(width);
-        ui.label(format!("{last:.1} ms, median {median:.1}, slowest hundredth {slow:.1}"));
+        ui.label(format!("{last:.1} ms"));
+        ui.label(format!("median {median:.1}, slowest hundredth {slow:.1}"));
         // The slowest frame fits, and a line is at 60 frames per second.
         let top = sorted.last().copied().unwrap_or(1.0).max(1000.0 / 60.0);
         let (area, _) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::hover());

@@ -8,13 +8,15 @@ use egui::{Align2, Context, Grid, RichText, ScrollArea, Ui, Window, vec2};
 /// Width above which there are two columns, points.
 const TWO: f32 = 760.0;
 /// Width below which what a key does stands below the key, points.
-const ONE: f32 = 480.0;
+const ONE: f32 = 340.0;
 
 /// Shows the help in the middle of the picture.
 pub fn help(ctx: &Context, model: &Model) {
     let room = ctx.available_rect();
     let window = Window::new("help").title_bar(false).resizable(false).frame(ground());
     let (width, height) = ((room.width() - 32.0).min(860.0), room.height() - 48.0);
+    // Else a window has 420 points at first.
+    let window = window.default_height(height);
     window.anchor(Align2::CENTER_CENTER, room.center() - ctx.content_rect().center()).show(ctx, |ui| {
         ui.set_width(width);
         ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {

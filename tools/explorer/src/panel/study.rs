@@ -2,7 +2,7 @@
 
 use super::{LOUD, QUIET, ground};
 use crate::compare::Compare;
-use crate::overlay::{Coloured, colour};
+use crate::overlay::{Coloured, Range, colour};
 use crate::probing::Probing;
 use crate::worker::Shown;
 use egui::{Align2, Area, Color32, Context, Id, Rect, RichText, Sense, Slider, Ui, Window, pos2, vec2};
@@ -10,9 +10,9 @@ use egui::{Align2, Area, Color32, Context, Id, Rect, RichText, Sense, Slider, Ui
 /// Width of the scale, points.
 const SCALE: f32 = 220.0;
 
-/// Shows the scale of an overlay in the upper right corner, below the graph where there is one.
-pub fn legend(ctx: &Context, coloured: &Coloured, below: bool) {
-    let at = vec2(-8.0, if below { 230.0 } else { 8.0 });
+/// Shows the scale of an overlay at the right edge, below what ends at `above`, points.
+pub fn legend(ctx: &Context, coloured: &Coloured, above: f32) {
+    let at = vec2(-8.0, above + 8.0);
     Area::new(Id::new("legend")).anchor(Align2::RIGHT_TOP, at).interactable(false).show(ctx, |ui| {
         ground().show(ui, |ui| {
             ui.set_width(SCALE);
@@ -26,7 +26,7 @@ pub fn legend(ctx: &Context, coloured: &Coloured, below: bool) {
     });
 }
 
-fn scale(ui: &mut Ui, about: &str, [least, most, mean]: [f32; 3]) {
+fn scale(ui: &mut Ui, about: &str, Range { least, end, most, mean }: Range) {
     let (area, _) = ui.allocate_exact_size(vec2(SCALE, 12.0), Sense::hover());
     const PARTS: usize = 44;
     for part in 0..PARTS {
@@ -37,9 +37,11 @@ fn scale(ui: &mut Ui, about: &str, [least, most, mean]: [f32; 3]) {
     }
     ui.horizontal(|ui| {
         ui.label(number(least));
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(number(most)));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(number(end)));
     });
-    ui.label(RichText::new(format!("{about}; mean {}", number(mean))).color(QUIET));
+    ui.label(RichText::new(about).color(QUIET));
+    let most = if most > end { format!(", most {}", number(most)) } else { String::new() };
+    ui.label(RichText::new(format!("mean {}{most}", number(mean))).color(QUIET));
 }
 
 /// A number with three digits or so.
@@ -80,9 +82,7 @@ pub fn compared(ctx: &Context, compare: &mut Compare, shown: Option<&Shown>) {
                 ui.label(RichText::new(format!("PSNR {psnr}")).strong().color(LOUD));
                 let bad = 100.0 * difference.bad;
                 ui.label(format!("SSIM {:.5}", found.ssim));
-                if let Some(flip) = found.flip {
-                    ui.label(format!("FLIP {flip:.5}"));
-                }
+                ui.label(format!("FLIP {:.5}", found.flip));
                 ui.label(format!("{bad:.3} % bad pixels (by 8 codes)"));
                 ui.label(format!("largest difference {} codes", difference.largest));
             }

@@ -5,7 +5,7 @@ use super::row::row;
 use super::{GROUND, QUIET};
 use crate::calendar;
 use crate::file;
-use crate::model::Model;
+use crate::model::{CAPS, Model};
 use crate::overlay::Overlay;
 use crate::request::rounded;
 use egui::{CollapsingHeader, Context, Frame, Margin, Rect, RichText, ScrollArea, SidePanel, TextEdit, Ui};
@@ -115,6 +115,14 @@ fn general(ui: &mut Ui, model: &mut Model, overlay: &mut Option<Overlay>) {
                 if ui.selectable_label(name == model.simd, name).clicked() {
                     model.simd = name;
                 }
+            }
+        });
+        ui.end_row();
+        ui.label("frames/s");
+        let name = |cap: u32| if cap == 0 { "no cap".to_owned() } else { format!("at most {cap}") };
+        egui::ComboBox::from_id_salt("cap").selected_text(name(model.cap)).show_ui(ui, |ui| {
+            for cap in CAPS {
+                ui.selectable_value(&mut model.cap, cap, name(cap));
             }
         });
         ui.end_row();

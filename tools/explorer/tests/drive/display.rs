@@ -31,6 +31,11 @@ pub type State = BTreeMap<String, String>;
 impl Explorer {
     /// Starts both and waits for the first picture; `None` where the machine lacks what it takes.
     pub fn start(words: &[&str]) -> Option<Explorer> {
+        Explorer::start_by(&[], words)
+    }
+
+    /// The same, where a command line of its own starts the explorer, whose words are appended.
+    pub fn start_by(by: &[&str], words: &[&str]) -> Option<Explorer> {
         if !needs(&[Tool::Xvfb, Tool::Xdotool, Tool::Xlib]) {
             return None;
         }
@@ -43,8 +48,9 @@ impl Explorer {
         BufReader::new(xvfb.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let number = format!(":{}", number.trim());
         let out = TempDir::new().unwrap();
-        let mut explorer = Command::new(env!("CARGO_BIN_EXE_explorer"));
-        explorer.args(words).arg("--out").arg(out.path()).arg("--state").arg(out.path().join("states"));
+        let mut all = by.iter().copied().chain([env!("CARGO_BIN_EXE_explorer")]);
+        let mut explorer = Command::new(all.next().expect("a program"));
+        explorer.args(all).args(words).arg("--out").arg(out.path()).arg("--state").arg(out.path().join("states"));
         explorer.env("DISPLAY", &number).env_remove("WAYLAND_DISPLAY");
         let child = explorer.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let explorer = Explorer { xvfb, child, number, _turn: turn, out };

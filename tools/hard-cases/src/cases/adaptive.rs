@@ -13,64 +13,59 @@ use testkit::metrics::{Difference, bad_pixels, ssim};
 use testkit::picture::traced;
 use testkit::random::Random;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Best,
         "balls of 0.1 to 8 pixels swept by 1/8 pixel, tile's inside, edge and corner",
         "misses between corners of the grid",
         "every pixel traced: pictures without the ball",
-        "failures",
         0.0,
         missed,
-    ),
-    case(
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Best,
         "the same: pixels too many or too few",
         "misses between corners of the grid",
         "every pixel traced",
-        "pixels",
         1.0,
         miscounted,
-    ),
-    case(
+    )
+    .unit("pixels"),
+    Case::new(
+        Runs::Best,
         "a ball of 4 pixels swept by 1/8 pixel: light from frame to frame, anti-aliased",
         "flicker",
         "equal, but for regular samples half a pixel apart that turn together",
-        "of its area",
         0.05,
         flicker,
-    ),
-    case(
+    )
+    .unit("of its area"),
+    Case::new(
+        Runs::Best,
         "a rim's share of a pixel, balls of 1.5 to 8 pixels, anti-aliased",
         "edges",
         "32 x 32 exact samples a pixel; a rim takes quarters of a pixel",
-        "",
         0.26,
         shares,
     ),
-    case(
+    Case::new(
+        Runs::Best,
         "adaptive pictures at times drawn by chance: decibels short of 40",
         "the target of adaptive pictures",
         "every pixel traced",
-        "dB",
         0.0,
         |e| adaptive(e, |d, _| 40.0 - d.psnr()),
-    ),
-    case("the same: structure lost", "[Wang04]", "every pixel traced", "", 0.02, |e| adaptive(e, |_, ssim| 1.0 - ssim)),
-    case(
+    )
+    .unit("dB"),
+    Case::new(Runs::Best, "the same: structure lost", "[Wang04]", "every pixel traced", 0.02, |e| {
+        adaptive(e, |_, ssim| 1.0 - ssim)
+    }),
+    Case::new(
+        Runs::Best,
         "the same: pixels that are off by more than 8 codes",
         "no single metric is a gate",
         "every pixel traced",
-        "",
         0.005,
         |e| adaptive(e, |d, _| d.bad),
     ),

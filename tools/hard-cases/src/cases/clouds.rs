@@ -13,57 +13,70 @@ const FOREVER: f32 = f32::INFINITY;
 /// Transmittance is a sum of a hundred roundings of numbers up to 1.
 const ROUNDING: f64 = 6e-6;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Levels, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case("even clouds of extinction 0 to 1000, 1 to 800 steps", "Beer and Lambert", "closed form", ROUNDING, even),
-    Case {
-        unit: "relative",
-        ..case(
-            "the same at 64 steps, optical depths to 8.7",
-            "the target of transmittance",
-            "closed form",
-            1e-4,
-            relative,
-        )
-    },
-    Case {
-        unit: "relative",
-        ..case("opacity of depths from 2e-12 to 20", "T - 1 has no digits left at 1e-7", "f64 expm1", 2e-5, thin)
-    },
-    Case {
-        unit: "failures",
-        ..case("depths beyond the least float", "e^-126 and thinner", "0 to 1e-30, no NaN", 0.0, opaque)
-    },
-    case("a linear ramp between centres of voxels", "half-texel faults", "closed form", ROUNDING, ramp),
-    Case {
-        unit: "relative",
-        ..case("a Gaussian ball at 64 steps", "1.7e-2 by alpha = sigma ds", "6400 steps in f64", 1e-4, gaussian)
-    },
-    case("the same against its integral", "bytes of density are off by 1/510", "closed form", 3e-3, integral),
-    Case {
-        unit: "orders short",
-        ..case(
-            "half the step: the error falls by the second order",
-            "midpoint rule",
-            "3000 steps in f64, order 2",
-            0.2,
-            order,
-        )
-    },
-    Case {
-        unit: "bytes",
-        runs: Runs::Best,
-        ..case("baked sunlight through a slab", "[Wrenninge13]", "closed form", 0.51, slab)
-    },
+    Case::new(
+        Runs::Levels,
+        "even clouds of extinction 0 to 1000, 1 to 800 steps",
+        "Beer and Lambert",
+        "closed form",
+        ROUNDING,
+        even,
+    ),
+    Case::new(
+        Runs::Levels,
+        "the same at 64 steps, optical depths to 8.7",
+        "the target of transmittance",
+        "closed form",
+        1e-4,
+        relative,
+    )
+    .unit("relative"),
+    Case::new(
+        Runs::Levels,
+        "opacity of depths from 2e-12 to 20",
+        "T - 1 has no digits left at 1e-7",
+        "f64 expm1",
+        2e-5,
+        thin,
+    )
+    .unit("relative"),
+    Case::new(Runs::Levels, "depths beyond the least float", "e^-126 and thinner", "0 to 1e-30, no NaN", 0.0, opaque)
+        .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "a linear ramp between centres of voxels",
+        "half-texel faults",
+        "closed form",
+        ROUNDING,
+        ramp,
+    ),
+    Case::new(
+        Runs::Levels,
+        "a Gaussian ball at 64 steps",
+        "1.7e-2 by alpha = sigma ds",
+        "6400 steps in f64",
+        1e-4,
+        gaussian,
+    )
+    .unit("relative"),
+    Case::new(
+        Runs::Levels,
+        "the same against its integral",
+        "bytes of density are off by 1/510",
+        "closed form",
+        3e-3,
+        integral,
+    ),
+    Case::new(
+        Runs::Levels,
+        "half the step: the error falls by the second order",
+        "midpoint rule",
+        "3000 steps in f64, order 2",
+        0.2,
+        order,
+    )
+    .unit("orders short"),
+    Case::new(Runs::Best, "baked sunlight through a slab", "[Wrenninge13]", "closed form", 0.51, slab).unit("bytes"),
 ];
 
 /// One ray at every level; the answers have the same bits, or the error is infinite.

@@ -7,67 +7,50 @@ use testkit::elementary::{Function, worst};
 use testkit::random::Random;
 use testkit::{Found, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Scalar, unit: "", target, run }
-}
-
-/// Of the kernels at every level, which also have to agree bit by bit.
-const fn levelled(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { runs: Runs::Levels, ..case(name, source, oracle, target, run) }
-}
-
 pub const CASES: &[Case] = &[
-    case("sRGB of the 256 codes to light", "[sRGB]", "f64, the piecewise curve", 2e-7, decoded),
-    case(
+    Case::new(Runs::Scalar, "sRGB of the 256 codes to light", "[sRGB]", "f64, the piecewise curve", 2e-7, decoded),
+    Case::new(
+        Runs::Scalar,
         "sRGB there and back, light of 1e-8 to 1",
         "[sRGB]: two pieces meet at 0.0031308",
         "identity",
         2e-7,
         round_trip,
     ),
-    case("sRGB and gamma 2.2 of light of 1e-8 to 1", "not 2.2", "f64", 6e-8, curves),
-    Case {
-        unit: "codes",
-        ..levelled(
-            "codes of light, beyond what lies at a step",
-            "[sRGB], [Roberts18]",
-            "f64 with the dither",
-            0.0,
-            codes,
-        )
-    },
-    Case { unit: "failures", ..levelled("codes rise with light", "monotone", "order", 0.0, rising) },
-    Case {
-        unit: "failures",
-        ..levelled(
-            "NaN, infinities, negative light, light beyond 1, denormals",
-            "the maximum of NaN and a number",
-            "0 or 255",
-            0.0,
-            nonsense,
-        )
-    },
-    Case { unit: "codes", ..levelled("mean of the dither over 256 x 256 pixels", "no bias", "f64", 1e-3, dither) },
-    Case { runs: Runs::Levels, ..case("2^x for x of -126 to 127", "[Cephes]", "f64, relative", 2e-7, exp2) },
-    levelled("1 - 2^x for -x of 1e-35 to 126", "1 - (1 - a)^k loses all at 1e-7", "f64 expm1, relative", 2e-7, opacity),
-    Case {
-        unit: "of the bound",
-        ..levelled("binary logarithm of 2^-126 to 2^127, and of 0.99 to 1.01", "[Cephes]", "f64", 1.0, log2)
-    },
-    Case { unit: "of the bound", ..levelled("powers of -0.5 to 5", "[Cephes]", "f64", 1.0, powf) },
-    levelled("sine of -1000 to 1000 radians", "range reduction", "f64", 2e-7, sine),
+    Case::new(Runs::Scalar, "sRGB and gamma 2.2 of light of 1e-8 to 1", "not 2.2", "f64", 6e-8, curves),
+    Case::new(
+        Runs::Levels,
+        "codes of light, beyond what lies at a step",
+        "[sRGB], [Roberts18]",
+        "f64 with the dither",
+        0.0,
+        codes,
+    )
+    .unit("codes"),
+    Case::new(Runs::Levels, "codes rise with light", "monotone", "order", 0.0, rising).unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "NaN, infinities, negative light, light beyond 1, denormals",
+        "the maximum of NaN and a number",
+        "0 or 255",
+        0.0,
+        nonsense,
+    )
+    .unit("failures"),
+    Case::new(Runs::Levels, "mean of the dither over 256 x 256 pixels", "no bias", "f64", 1e-3, dither).unit("codes"),
+    Case::new(Runs::Levels, "2^x for x of -126 to 127", "[Cephes]", "f64, relative", 2e-7, exp2),
+    Case::new(
+        Runs::Levels,
+        "1 - 2^x for -x of 1e-35 to 126",
+        "1 - (1 - a)^k loses all at 1e-7",
+        "f64 expm1, relative",
+        2e-7,
+        opacity,
+    ),
+    Case::new(Runs::Levels, "binary logarithm of 2^-126 to 2^127, and of 0.99 to 1.01", "[Cephes]", "f64", 1.0, log2)
+        .unit("of the bound"),
+    Case::new(Runs::Levels, "powers of -0.5 to 5", "[Cephes]", "f64", 1.0, powf).unit("of the bound"),
+    Case::new(Runs::Levels, "sine of -1000 to 1000 radians", "range reduction", "f64", 2e-7, sine),
 ];
 
 fn srgb(c: f64) -> f64 {

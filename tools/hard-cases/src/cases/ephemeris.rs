@@ -13,103 +13,117 @@ use serde::Deserialize;
 use testkit::Found;
 use testkit::random::Random;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Scalar, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Scalar,
         "the sun, 1900 to 2100, poles, date line, zenith, year's ends, leap days",
         "NREL SPA",
         "[SPA], table",
-        "degrees",
         0.02,
         sun_table,
-    ),
-    case(
+    )
+    .unit("degrees"),
+    Case::new(
+        Runs::Scalar,
         "the sun at random times and places",
         "another program",
         "Astronomy Engine 2.1.19, table",
-        "degrees",
         0.02,
         sun_random,
-    ),
-    case(
+    )
+    .unit("degrees"),
+    Case::new(
+        Runs::Scalar,
         "equinoxes and solstices of every tenth year",
         "another program",
         "Astronomy Engine 2.1.19, table",
-        "degrees",
         0.02,
         seasons,
-    ),
-    case("refraction from -0.8 degrees to the zenith", "at the horizon", "[SPA], table", "degrees", 2e-3, refraction),
-    case(
+    )
+    .unit("degrees"),
+    Case::new(
+        Runs::Scalar,
+        "refraction from -0.8 degrees to the zenith",
+        "at the horizon",
+        "[SPA], table",
+        2e-3,
+        refraction,
+    )
+    .unit("degrees"),
+    Case::new(
+        Runs::Scalar,
         "refraction keeps the order of altitudes, by 0.001 degrees",
         "no jump",
         "order",
-        "failures",
         0.0,
         refraction_order,
-    ),
-    case("the moon's place, 1900 to 2100", "parallax", "[Ephem], table", "degrees", 0.5, |_| moon_table(|off| off[0])),
-    case("the moon's lit share", "phases", "[Ephem], table", "", 0.005, |_| moon_table(|off| off[1])),
-    case("the moon's distance", "size of the disc", "[Ephem], table", "km", 800.0, |_| moon_table(|off| off[2])),
-    case(
+    )
+    .unit("failures"),
+    Case::new(Runs::Scalar, "the moon's place, 1900 to 2100", "parallax", "[Ephem], table", 0.5, |_| {
+        moon_table(|off| off[0])
+    })
+    .unit("degrees"),
+    Case::new(Runs::Scalar, "the moon's lit share", "phases", "[Ephem], table", 0.005, |_| moon_table(|off| off[1])),
+    Case::new(Runs::Scalar, "the moon's distance", "size of the disc", "[Ephem], table", 800.0, |_| {
+        moon_table(|off| off[2])
+    })
+    .unit("km"),
+    Case::new(
+        Runs::Scalar,
         "the moon at random times and places",
         "another program",
         "Astronomy Engine 2.1.19, table",
-        "degrees",
         0.5,
         moon_random,
-    ),
-    case(
+    )
+    .unit("degrees"),
+    Case::new(
+        Runs::Scalar,
         "rise and set where the sun climbs 1.5 degrees an hour and more",
         "two risings in a day",
         "[SPA], table",
-        "seconds",
         60.0,
         |_| rises().0,
-    ),
-    case(
+    )
+    .unit("seconds"),
+    Case::new(
+        Runs::Scalar,
         "rise and set near a polar switch",
         "flat climbs",
         "[SPA], table; or 0.02 degrees of altitude",
-        "of the bound",
         1.0,
         |_| rises().1,
-    ),
-    case(
+    )
+    .unit("of the bound"),
+    Case::new(
+        Runs::Scalar,
         "number and order of risings and settings, polar day and night",
         "polar switch",
         "[SPA], table",
-        "failures",
         0.0,
         |_| rises().2,
-    ),
-    case(
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Scalar,
         "every day of -2800 to 6800",
         "leap years, 1900, 2000, 2100",
         "a count day by day from [Meeus98], chapter 7",
-        "failures",
         0.0,
         calendar,
-    ),
-    case("dates there and back, -8e5 to 8e5 years", "rounding of days", "identity", "seconds", 0.1, dates),
-    case(
+    )
+    .unit("failures"),
+    Case::new(Runs::Scalar, "dates there and back, -8e5 to 8e5 years", "rounding of days", "identity", 0.1, dates)
+        .unit("seconds"),
+    Case::new(
+        Runs::Scalar,
         "times and places of any bits",
         "0, -0, denormals, MAX, infinities, NaN",
         "unit directions, shares of 0 to 1",
-        "failures",
         0.0,
         any_bits,
-    ),
+    )
+    .unit("failures"),
 ];
 
 #[derive(Deserialize)]

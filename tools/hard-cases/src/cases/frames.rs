@@ -12,60 +12,51 @@ use testkit::metrics::Difference;
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Scalar, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "fog of 1e-5 to 1e3 a metre before what is 0.3 m to 30 km away",
-            "Beer and Lambert",
-            "f64",
-            "",
-            2e-6,
-            fog,
-        )
-    },
-    case("two eyes: places of a point by its depth", "parallel axes", "closed form in f64", "pixels", 0.02, eyes),
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "bytes of every scene on 1 and 3 threads, at each level, after another frame",
-            "threads, history",
-            "1 thread, the best level, nothing before",
-            "bytes",
-            0.0,
-            bytes,
-        )
-    },
-    case(
+    Case::new(
+        Runs::Levels,
+        "fog of 1e-5 to 1e3 a metre before what is 0.3 m to 30 km away",
+        "Beer and Lambert",
+        "f64",
+        2e-6,
+        fog,
+    ),
+    Case::new(
+        Runs::Scalar,
+        "two eyes: places of a point by its depth",
+        "parallel axes",
+        "closed form in f64",
+        0.02,
+        eyes,
+    )
+    .unit("pixels"),
+    Case::new(
+        Runs::Levels,
+        "bytes of every scene on 1 and 3 threads, at each level, after another frame",
+        "threads, history",
+        "1 thread, the best level, nothing before",
+        0.0,
+        bytes,
+    )
+    .unit("bytes"),
+    Case::new(
+        Runs::Scalar,
         "a capture at 24 and at 60 frames a second",
         "frame rate",
         "the same instants, bit for bit",
-        "bytes",
         0.0,
         rates,
-    ),
-    Case {
-        runs: Runs::Best,
-        ..case(
-            "imposters of clouds beside rays, decibels short of 35",
-            "[Clouds10]",
-            "the same camera without imposters",
-            "dB",
-            0.0,
-            imposters,
-        )
-    },
+    )
+    .unit("bytes"),
+    Case::new(
+        Runs::Best,
+        "imposters of clouds beside rays, decibels short of 35",
+        "[Clouds10]",
+        "the same camera without imposters",
+        0.0,
+        imposters,
+    )
+    .unit("dB"),
 ];
 
 fn fog(effort: &Effort) -> Found {

@@ -12,48 +12,59 @@ use testkit::{Found, levels};
 /// The target of noise against exact arithmetic, and of sums whose amplitudes add up to 1.
 const NOISE: f64 = 1e-6;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::All, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        runs: Runs::Scalar,
-        ..case("the published value at (3.14, 42, 7)", "[Perlin02]", "0.13691995878400012", NOISE, published)
-    },
-    case("coordinates of 1e-8 to 1e8 of both signs", "[Perlin02]", "f64, the lattice in 64 bits", NOISE, any_size),
-    case(
+    Case::new(
+        Runs::Scalar,
+        "the published value at (3.14, 42, 7)",
+        "[Perlin02]",
+        "0.13691995878400012",
+        NOISE,
+        published,
+    ),
+    Case::new(
+        Runs::All,
+        "coordinates of 1e-8 to 1e8 of both signs",
+        "[Perlin02]",
+        "f64, the lattice in 64 bits",
+        NOISE,
+        any_size,
+    ),
+    Case::new(
+        Runs::All,
         "within 2 units in the last place of the lattice, -520 to 520",
         "floor, not truncation",
         "f64",
         NOISE,
         near_lattice,
     ),
-    Case {
-        unit: "failures",
-        ..case(
-            "on the lattice, -2^24 to 2^24: no bit is set",
-            "zeros that octaves share",
-            "closed form: +0",
-            0.0,
-            lattice,
-        )
-    },
-    Case {
-        unit: "failures",
-        ..case("256 further along each axis: the same bits", "wrap from 255 to 256", "period", 0.0, period)
-    },
-    case("beyond 2^24, 2^31 and 2^63, denormals, MAX", "as i32 saturates; no fraction is left", "f64", NOISE, huge),
-    Case {
-        unit: "failures",
-        ..case("NaN and infinities in any coordinate give NaN", "as i32 of NaN is 0", "documented", 0.0, not_numbers)
-    },
+    Case::new(
+        Runs::All,
+        "on the lattice, -2^24 to 2^24: no bit is set",
+        "zeros that octaves share",
+        "closed form: +0",
+        0.0,
+        lattice,
+    )
+    .unit("failures"),
+    Case::new(Runs::All, "256 further along each axis: the same bits", "wrap from 255 to 256", "period", 0.0, period)
+        .unit("failures"),
+    Case::new(
+        Runs::All,
+        "beyond 2^24, 2^31 and 2^63, denormals, MAX",
+        "as i32 saturates; no fraction is left",
+        "f64",
+        NOISE,
+        huge,
+    ),
+    Case::new(
+        Runs::All,
+        "NaN and infinities in any coordinate give NaN",
+        "as i32 of NaN is 0",
+        "documented",
+        0.0,
+        not_numbers,
+    )
+    .unit("failures"),
 ];
 
 /// Points at every implementation against a truth.

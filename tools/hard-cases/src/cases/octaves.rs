@@ -6,76 +6,50 @@ use glam::Vec3;
 use paprsek::noise::reference::{fade, gradient};
 use paprsek::noise::{fbm, noise, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
-use testkit::perlin::exact_at;
+use testkit::perlin::{EDGES, exact_at};
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
 /// The target of noise against exact arithmetic, and of sums whose amplitudes add up to 1.
 const NOISE: f64 = 1e-6;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::All, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        unit: "roundings",
-        runs: Runs::Scalar,
-        ..case("each of the 16 gradients, offsets of -1 to 1", "[Perlin02]", "f64, the paper's list", 1.0, gradients)
-    },
-    Case {
-        unit: "roundings",
-        runs: Runs::Scalar,
-        ..case("the fade from 0 to 1", "6 t^5 - 15 t^4 + 10 t^3 cancels near 1", "f64", 4.0, fades)
-    },
-    case("sums of 1 to 8 octaves, plain and absolute", "[Perlin02]", "f64", NOISE, octaves),
-    Case {
-        runs: Runs::Scalar,
-        unit: "per cell",
-        ..case(
-            "slopes on both sides of a cell's face",
-            "[Perlin02]: the quintic's derivatives vanish at its ends",
-            "equal, but for the third derivative over 1/64 of a cell",
-            2e-2,
-            smooth,
-        )
-    },
-    Case {
-        runs: Runs::Scalar,
-        ..case("standard deviation over a period", "0.27, never +-1", "0.27 by measurement of the oracle", 5e-3, spread)
-    },
+    Case::new(
+        Runs::Scalar,
+        "each of the 16 gradients, offsets of -1 to 1",
+        "[Perlin02]",
+        "f64, the paper's list",
+        1.0,
+        gradients,
+    )
+    .unit("roundings"),
+    Case::new(Runs::Scalar, "the fade from 0 to 1", "6 t^5 - 15 t^4 + 10 t^3 cancels near 1", "f64", 4.0, fades)
+        .unit("roundings"),
+    Case::new(Runs::All, "sums of 1 to 8 octaves, plain and absolute", "[Perlin02]", "f64", NOISE, octaves),
+    Case::new(
+        Runs::Scalar,
+        "slopes on both sides of a cell's face",
+        "[Perlin02]: the quintic's derivatives vanish at its ends",
+        "equal, but for the third derivative over 1/64 of a cell",
+        2e-2,
+        smooth,
+    )
+    .unit("per cell"),
+    Case::new(
+        Runs::Scalar,
+        "standard deviation over a period",
+        "0.27, never +-1",
+        "0.27 by measurement of the oracle",
+        5e-3,
+        spread,
+    ),
 ];
 
 fn gradients(effort: &Effort) -> Found {
-    // The 12 edges of a cube as the paper lists them, and the four that it repeats.
-    const LIST: [[i8; 3]; 16] = [
-        [1, 1, 0],
-        [-1, 1, 0],
-        [1, -1, 0],
-        [-1, -1, 0],
-        [1, 0, 1],
-        [-1, 0, 1],
-        [1, 0, -1],
-        [-1, 0, -1],
-        [0, 1, 1],
-        [0, -1, 1],
-        [0, 1, -1],
-        [0, -1, -1],
-        [1, 1, 0],
-        [0, -1, 1],
-        [-1, 1, 0],
-        [0, -1, -1],
-    ];
     let (mut found, mut random) = (Found::default(), Random(64));
     for round in 0..effort.of(160_000) as usize {
         let offset = [0; 3].map(|_| random.range(-1.0, 1.0) as f32);
-        let terms = [0, 1, 2].map(|k| LIST[round % 16][k] as f64 * offset[k] as f64);
+        let terms = [0, 1, 2].map(|k| EDGES[round % 16][k] as f64 * offset[k] as f64);
         let (truth, size) = (terms.iter().sum::<f64>(), terms.iter().map(|t| t.abs()).sum::<f64>());
         // Any higher bits of the hash do not matter.
         let hash = round % 16 + 16 * (random.unit() * 1e6) as usize;

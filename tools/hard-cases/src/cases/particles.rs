@@ -18,81 +18,80 @@ const PLACES: f64 = 1e-4;
 /// Light of nothing: film takes the light behind from 1 and back.
 const NOTHING: f64 = 1e-7;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        unit: "codes",
-        runs: Runs::Levels,
-        ..case(
-            "all flakes of a snowfall at -1e9 to 1e9 s",
-            "time never enters as f32",
-            "f64, time in whole numbers",
-            1.0,
-            snow,
-        )
-    },
-    Case {
-        unit: "codes",
-        runs: Runs::Levels,
-        ..case(
-            "all sparks of five fires at -1e9 to 1e9 s",
-            "f32 phases are off by 3e-3 after a day",
-            "f64, time in whole numbers",
-            1.0,
-            fire,
-        )
-    },
-    case("discs of 1e-3 to 1e18 m anywhere before the eye", "[Reeves83]", "f64, every pixel's middle", PLACES, discs),
-    Case {
-        unit: "of the bound",
-        ..case(
-            "sprites near the near plane, and with middles far outside of the picture",
-            "near plane, places beyond f32",
-            "f64; 1e-4 of the radius in metres",
-            1.0,
-            near,
-        )
-    },
-    case(
+    Case::new(
+        Runs::Levels,
+        "all flakes of a snowfall at -1e9 to 1e9 s",
+        "time never enters as f32",
+        "f64, time in whole numbers",
+        1.0,
+        snow,
+    )
+    .unit("codes"),
+    Case::new(
+        Runs::Levels,
+        "all sparks of five fires at -1e9 to 1e9 s",
+        "f32 phases are off by 3e-3 after a day",
+        "f64, time in whole numbers",
+        1.0,
+        fire,
+    )
+    .unit("codes"),
+    Case::new(
+        Runs::Best,
+        "discs of 1e-3 to 1e18 m anywhere before the eye",
+        "[Reeves83]",
+        "f64, every pixel's middle",
+        PLACES,
+        discs,
+    ),
+    Case::new(
+        Runs::Best,
+        "sprites near the near plane, and with middles far outside of the picture",
+        "near plane, places beyond f32",
+        "f64; 1e-4 of the radius in metres",
+        1.0,
+        near,
+    )
+    .unit("of the bound"),
+    Case::new(
+        Runs::Best,
         "sprites behind the eye, on the near plane, of no size, not numbers",
         "w <= 0",
         "closed form: nothing",
         NOTHING,
         nowhere,
     ),
-    case("one life in generations of -1e6 to 1e6", "generation change", "f64", PLACES, lives),
-    Case {
-        unit: "of the bound",
-        ..case(
-            "birth and death, 1e-6 to 1e-2 s before and after",
-            "continuity",
-            "closed form: 30 x and 30 (1 - x)^2",
-            1.0,
-            ends,
-        )
-    },
-    Case { unit: "failures", ..case("lives of 0, 1e-300 and 1e-9 s at any time", "life -> 0", "finite", 0.0, short) },
-    case(
+    Case::new(Runs::Best, "one life in generations of -1e6 to 1e6", "generation change", "f64", PLACES, lives),
+    Case::new(
+        Runs::Best,
+        "birth and death, 1e-6 to 1e-2 s before and after",
+        "continuity",
+        "closed form: 30 x and 30 (1 - x)^2",
+        1.0,
+        ends,
+    )
+    .unit("of the bound"),
+    Case::new(Runs::Best, "lives of 0, 1e-300 and 1e-9 s at any time", "life -> 0", "finite", 0.0, short)
+        .unit("failures"),
+    Case::new(
+        Runs::Best,
         "phases within 1e-12 of 1 and of 0",
         "a share below 1 in f64 is 1 in f32",
         "closed form: dark",
         NOTHING,
         phases,
     ),
-    case("300 sprites of light in any order", "sums of light", "each other", 3e-6, orders),
-    Case {
-        unit: "of the bound",
-        ..case("a fire from one instant to another, 1e-5 to 1e-2 s", "frame rate", "10 of light a second", 1.0, steps)
-    },
+    Case::new(Runs::Best, "300 sprites of light in any order", "sums of light", "each other", 3e-6, orders),
+    Case::new(
+        Runs::Best,
+        "a fire from one instant to another, 1e-5 to 1e-2 s",
+        "frame rate",
+        "10 of light a second",
+        1.0,
+        steps,
+    )
+    .unit("of the bound"),
 ];
 
 fn text(effort: &Effort, name: &str) -> Found {

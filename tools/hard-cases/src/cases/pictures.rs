@@ -6,85 +6,49 @@ use paprsek::settings::Quality;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::{Background, Light, Material, Object, Shape, World};
 use paprsek::view::Camera;
+use testkit::fresnel::by_angles as fresnel;
 use testkit::lines::alone;
 use testkit::picture::{eye_ray, plain, traced};
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "glass balls in an even sky, 2 to 16 levels",
-            "white furnace, R + T = 1",
-            "closed form: 1 - (1 - R) R^(n - 2)",
-            "of the bound",
-            1.0,
-            furnace,
-        )
-    },
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "bodies of equal index, from outside and inside",
-            "conservation",
-            "closed form: the sky alone",
-            "",
-            1e-6,
-            invisible,
-        )
-    },
-    Case {
-        runs: Runs::All,
-        ..case(
-            "perfect mirrors of 1e-3 to 1e6 m in an even sky",
-            "conservation, self-hits",
-            "closed form: the sky alone",
-            "",
-            0.0,
-            mirrors,
-        )
-    },
-    Case {
-        runs: Runs::Levels,
-        ..case("matt floors under a sun, Lambert's cosine", "Lambert", "f64", "", 2e-6, lambert)
-    },
-    Case {
-        runs: Runs::All,
-        ..case(
-            "packets against single rays: 12 bodies of glass, mirror and paint in one another",
-            "[Whitted80]",
-            "the scalar recursion, and what it makes of rays turned by 8 roundings",
-            "of the bound",
-            1.0,
-            packets,
-        )
-    },
+    Case::new(
+        Runs::Levels,
+        "glass balls in an even sky, 2 to 16 levels",
+        "white furnace, R + T = 1",
+        "closed form: 1 - (1 - R) R^(n - 2)",
+        1.0,
+        furnace,
+    )
+    .unit("of the bound"),
+    Case::new(
+        Runs::Levels,
+        "bodies of equal index, from outside and inside",
+        "conservation",
+        "closed form: the sky alone",
+        1e-6,
+        invisible,
+    ),
+    Case::new(
+        Runs::All,
+        "perfect mirrors of 1e-3 to 1e6 m in an even sky",
+        "conservation, self-hits",
+        "closed form: the sky alone",
+        0.0,
+        mirrors,
+    ),
+    Case::new(Runs::Levels, "matt floors under a sun, Lambert's cosine", "Lambert", "f64", 2e-6, lambert),
+    Case::new(
+        Runs::All,
+        "packets against single rays: 12 bodies of glass, mirror and paint in one another",
+        "[Whitted80]",
+        "the scalar recursion, and what it makes of rays turned by 8 roundings",
+        1.0,
+        packets,
+    )
+    .unit("of the bound"),
 ];
-
-/// Unpolarised reflectance from the angles, as Fresnel wrote it: sines and tangents of sums.
-fn fresnel(n: f64, angle: f64) -> f64 {
-    if angle == 0.0 {
-        return ((n - 1.0) / (n + 1.0)).powi(2);
-    }
-    if angle.sin() >= n {
-        return 1.0;
-    }
-    let behind = (angle.sin() / n).asin();
-    let (minus, plus) = (angle - behind, angle + behind);
-    0.5 * ((minus.sin() / plus.sin()).powi(2) + (minus.tan() / plus.tan()).powi(2))
-}
 
 fn furnace(effort: &Effort) -> Found {
     let mut found = Found::default();

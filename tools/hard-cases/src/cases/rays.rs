@@ -15,11 +15,11 @@ const EXACT: &str = "integers of any length";
 
 /// A case of the projected form and its like: roundings against exact integers.
 const fn lines(name: &'static str, source: &'static str, target: f64, run: fn(&Effort) -> Found) -> Case {
-    Case { name, source, oracle: EXACT, runs: Runs::All, unit: "roundings", target, run }
+    Case::new(Runs::All, name, source, EXACT, target, run).unit("roundings")
 }
 
 const fn failures(name: &'static str, source: &'static str, oracle: &'static str, run: fn(&Effort) -> Found) -> Case {
-    Case { name, source, oracle, runs: Runs::All, unit: "failures", target: 0.0, run }
+    Case::new(Runs::All, name, source, oracle, 0.0, run).unit("failures")
 }
 
 pub const CASES: &[Case] = &[
@@ -72,24 +72,23 @@ pub const CASES: &[Case] = &[
         "intervals in order, no panic",
         any_bits,
     ),
-    Case {
-        name: "cameras with any target, up along the view, eye at the target",
-        source: "degenerate look-at",
-        oracle: "f64: axes unit, across, right-handed",
-        runs: Runs::Scalar,
-        unit: "",
-        target: 1e-6,
-        run: cameras,
-    },
-    Case {
-        name: "points to pixels and back to rays, 1e-2 to 1e6 m away",
-        source: "two ways that have to agree",
-        oracle: "f64",
-        runs: Runs::Scalar,
-        unit: "pixels",
-        target: 2e-3,
-        run: pixels,
-    },
+    Case::new(
+        Runs::Scalar,
+        "cameras with any target, up along the view, eye at the target",
+        "degenerate look-at",
+        "f64: axes unit, across, right-handed",
+        1e-6,
+        cameras,
+    ),
+    Case::new(
+        Runs::Scalar,
+        "points to pixels and back to rays, 1e-2 to 1e6 m away",
+        "two ways that have to agree",
+        "f64",
+        2e-3,
+        pixels,
+    )
+    .unit("pixels"),
 ];
 
 /// Along the faces of a box, whose slabs divide by zeros of both signs.

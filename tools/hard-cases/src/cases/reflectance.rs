@@ -8,47 +8,43 @@ use testkit::fresnel::{ROUNDING, cases, truth, wide, worst};
 use testkit::random::Random;
 use testkit::{Found, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::All, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    Case {
-        unit: "of the bound",
-        ..case(
-            "indices from equal to apart by 3, cosines from 1e-5, the critical angle +- 1e-7",
-            "1 - n^2 (1 - c^2) cancels",
-            "f64 without cancellation",
-            1.0,
-            ratios,
-        )
-    },
-    case("equal indices, cosines from 1e-5 to 1", "grazing light", "closed form: 0", 1e-12, equal),
-    case("straight on, indices of 0.1 to 10", "Hecht, Optics, 4.6", "((n - 1) / (n + 1))^2", ROUNDING, straight),
-    case(
+    Case::new(
+        Runs::All,
+        "indices from equal to apart by 3, cosines from 1e-5, the critical angle +- 1e-7",
+        "1 - n^2 (1 - c^2) cancels",
+        "f64 without cancellation",
+        1.0,
+        ratios,
+    )
+    .unit("of the bound"),
+    Case::new(Runs::All, "equal indices, cosines from 1e-5 to 1", "grazing light", "closed form: 0", 1e-12, equal),
+    Case::new(
+        Runs::All,
+        "straight on, indices of 0.1 to 10",
+        "Hecht, Optics, 4.6",
+        "((n - 1) / (n + 1))^2",
+        ROUNDING,
+        straight,
+    ),
+    Case::new(
+        Runs::All,
         "Brewster's angle, indices of 1.01 to 4",
         "Hecht, Optics, 4.6",
         "((n^2 - 1) / (n^2 + 1))^2 / 2",
         ROUNDING,
         brewster,
     ),
-    case("there and back through a surface", "Stokes' relations", "reflectances are equal", 2e-6, back),
-    Case {
-        unit: "failures",
-        ..case(
-            "any ratio, any cosine: a share from 0 to 1; NaN reflects totally",
-            "1e-8 to 1e8 with specials",
-            "range; levels have the reference's bits",
-            0.0,
-            shares,
-        )
-    },
+    Case::new(Runs::All, "there and back through a surface", "Stokes' relations", "reflectances are equal", 2e-6, back),
+    Case::new(
+        Runs::All,
+        "any ratio, any cosine: a share from 0 to 1; NaN reflects totally",
+        "1e-8 to 1e8 with specials",
+        "range; levels have the reference's bits",
+        0.0,
+        shares,
+    )
+    .unit("failures"),
 ];
 
 fn ratios(effort: &Effort) -> Found {

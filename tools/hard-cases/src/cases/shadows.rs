@@ -1,100 +1,86 @@
 //! Shadow maps against what stands between a point and the light.
 
 use crate::case::{Case, Effort, Runs};
-use fearless_simd::{Simd, dispatch, prelude::*};
 use glam::{Vec2, Vec3, vec3};
-use paprsek::raster::depth_map::{DepthMap, MapPoints};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
-use paprsek::simd::lanes::F;
 use paprsek::view::Camera;
+use testkit::depth_map;
 use testkit::drawn::{self, Count, body, dark, ground, ray};
 use testkit::random::Random;
 use testkit::sunny::{REACH, SHARE, Sunny, cameras};
 use testkit::{Found, levels};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Best,
         "a box's shadow at 1 to 90 degrees, maps of 512 and 2048 texels",
         "[Williams78], [Reeves87]",
         "rays in f64: share misclassified",
-        "",
         SHARE,
         outline,
     ),
-    case(
+    Case::new(
+        Runs::Best,
         "the same farther than 1.5 texels from the edge, from 128 texels on",
         "leaks and acne",
         "rays in f64: points",
-        "points",
         0.0,
         far,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "level ground that shadows itself at 1 to 90 degrees",
         "acne, [Isidoro06]",
         "rays in f64: points",
-        "points",
         0.0,
         acne,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "light that level ground loses at 0.5 to 30 degrees",
         "grazing light, [Isidoro06]",
         "closed form: none",
-        "",
         1e-4,
         grazing,
     ),
-    case(
+    Case::new(
+        Runs::Best,
         "traced shadows farther than 0.1 texels from the edge",
         "[Whitted80]",
         "rays in f64: points",
-        "points",
         0.0,
         traced,
-    ),
-    case(
+    )
+    .unit("points"),
+    Case::new(
+        Runs::Best,
         "twice the texels: misclassified points fall by the first order",
         "refinement",
         "rays in f64, order 1",
-        "orders short",
         0.35,
         order,
+    )
+    .unit("orders short"),
+    Case::new(
+        Runs::Levels,
+        "lookups in the map, on its border and beyond, interpolated and not",
+        "[Reeves87]",
+        "area of the lit texels in f64",
+        2e-4,
+        lookups,
     ),
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "lookups in the map, on its border and beyond, interpolated and not",
-            "[Reeves87]",
-            "area of the lit texels in f64",
-            "",
-            2e-4,
-            lookups,
-        )
-    },
-    Case {
-        runs: Runs::Levels,
-        ..case(
-            "lamps 0.5 to 5 m above level ground",
-            "fading light",
-            "cosine over 1 + a d + b d^2, in f64",
-            "relative",
-            1e-3,
-            lamps,
-        )
-    },
+    Case::new(
+        Runs::Levels,
+        "lamps 0.5 to 5 m above level ground",
+        "fading light",
+        "cosine over 1 + a d + b d^2, in f64",
+        1e-3,
+        lamps,
+    )
+    .unit("relative"),
 ];
 
 const ELEVATIONS: [f64; 7] = [30.0, 1.0, 90.0, 5.0, 60.0, 15.0, 75.0];
@@ -216,54 +202,18 @@ fn order(effort: &Effort) -> Found {
     found
 }
 
-/// Share of the light at a point: of the square of 3x3 texels around it, or of the 3x3 texels around its own; along the
-/// border and beyond, of the nearest such square within the map.
-fn lit(depths: &[f32], size: usize, [x, y]: [f64; 2], near: f32, smooth: bool) -> f64 {
-    let rim = if smooth { 1.5 } else { 1.0 };
-    let limit = |v: f64| v.clamp(rim, size as f64 - if smooth { rim } else { 2.0 });
-    let (x, y) = (limit(x), limit(y));
-    let weight = |i: usize, v: f64| {
-        if smooth {
-            ((i as f64 + 1.0).min(v + 1.5) - (i as f64).max(v - 1.5)).max(0.0)
-        } else {
-            ((i as f64 - v.floor()).abs() <= 1.0) as u32 as f64
-        }
-    };
-    let texels = |v: f64| (v as usize).saturating_sub(3)..(v as usize + 4).min(size);
-    let mut sum = 0.0;
-    for (i, j) in texels(y).flat_map(|j| texels(x).map(move |i| (i, j))) {
-        sum += weight(i, x) * weight(j, y) * (depths[j * size + i] <= near) as u32 as f64;
-    }
-    sum / 9.0
-}
-
-#[inline(always)]
-fn look<S: Simd>(simd: S, map: &DepthMap, view: f32, at: [f32; 2], near: f32, smooth: bool) -> f32 {
-    let splat = |v: f32| F::<S>::splat(simd, v);
-    let (x, y, inv_depth, slope) = (splat(at[0]), splat(at[1]), splat(near), splat(0.0));
-    let points = MapPoints { view: splat(view), x, y, inv_depth, slope, inside: splat(0.0).simd_eq(0.0) };
-    map.lit(simd, &points, smooth)[0]
-}
-
 fn lookups(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(110));
     for size in [64, 128] {
-        let depths = [0, 1].map(|_| (0..size * size).map(|_| random.unit() as f32).collect::<Vec<_>>());
-        let map = DepthMap::of(size, &depths);
+        let (map, depths) = depth_map::random_map(&mut random, size);
         for case in 0..effort.of(20_000) as usize {
-            let mut place = || match case % 4 {
-                0 => random.range(0.0, size as f64 + 1.0).floor() as f32,
-                1 => random.range(0.0, size as f64).floor() as f32 + 0.5,
-                2 => random.range(-3.0, size as f64 + 3.0) as f32,
-                _ => random.range(0.0, size as f64) as f32,
-            };
-            let (at, view) = ([place(), place()], case % 2);
+            let (at, view) = (depth_map::place(&mut random, case, size), case % 2);
             let near = if case % 5 == 0 { depths[view][case % (size * size)] } else { random.unit() as f32 };
             let smooth = case / 4 % 2 == 0;
-            let truth = lit(&depths[view], size, at.map(f64::from), near, smooth);
+            let truth = depth_map::truth(&depths[view], size, at.map(f64::from), near, smooth);
             found.inputs += 1;
             for (name, level) in levels() {
-                let share = dispatch!(level, simd => look(simd, &map, view as f32, at, near, smooth));
+                let share = depth_map::lit(level, &map, view, at, near, smooth);
                 found.more((share as f64 - truth).abs(), || {
                     format!("{name}, {size}, {smooth}, {at:?}: {share} for {truth}")
                 });

@@ -8,43 +8,43 @@ use paprsek::sky::dome::Dome;
 use testkit::Found;
 use testkit::sky::{once, sky, toward};
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Best, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Best,
         "light scattered once, sun at 60 to -6 degrees",
         "[Bruneton08], [Hillaire20]",
         "600 steps in f64 along 600",
-        "relative",
         0.03,
         scattered,
-    ),
-    case(
+    )
+    .unit("relative"),
+    Case::new(
+        Runs::Best,
         "twice the steps: the sky's error falls by the second order",
         "refinement",
         "400 steps, order 2; ozone is a shell with an edge",
-        "orders short",
         0.5,
         order,
-    ),
-    case(
+    )
+    .unit("orders short"),
+    Case::new(
+        Runs::Best,
         "colours while the sun sinks by 0.02 degrees, within a degree of each switch",
         "-0.833, -6, -12, -18 degrees",
         "codes from step to step",
-        "codes",
         4.0,
         sinking,
-    ),
-    case("colours across the horizon, by 0.01 degrees", "a seam", "codes from step to step", "codes", 1.0, horizon),
+    )
+    .unit("codes"),
+    Case::new(
+        Runs::Best,
+        "colours across the horizon, by 0.01 degrees",
+        "a seam",
+        "codes from step to step",
+        1.0,
+        horizon,
+    )
+    .unit("codes"),
 ];
 
 const EXACT: SkySettings = SkySettings { steps: 100, cell: 0.0, grid: 1 };

@@ -6,52 +6,59 @@ use paprsek::timeline::{cut, ease, sample};
 use testkit::Found;
 use testkit::random::Random;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    unit: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Scalar, unit, target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Scalar,
         "curves between keys, 1e-2 to 1e4 s apart",
         "[Steffen90]: nothing swings past a key",
         "between both keys",
-        "",
         1e-6,
         monotone,
     ),
-    case(
+    Case::new(
+        Runs::Scalar,
         "keys themselves, and times before, behind and NaN",
         "interpolation that misses its keys",
         "the key, bit for bit",
-        "failures",
         0.0,
         keys,
-    ),
-    case(
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Scalar,
         "an ease at 1e9 s, in eighths of a second",
         "time never enters as f32",
         "f64; Perlin's form of the quintic",
-        "",
         2e-6,
         eases,
     ),
-    case("cuts at, before and behind their instants", "a frame of the other shot", "order", "failures", 0.0, cuts),
-    case("random numbers over 2^21 things", "[ONeill14]", "a 64-bit writing of the same", "failures", 0.0, hashes),
-    case(
+    Case::new(
+        Runs::Scalar,
+        "cuts at, before and behind their instants",
+        "a frame of the other shot",
+        "order",
+        0.0,
+        cuts,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Scalar,
+        "random numbers over 2^21 things",
+        "[ONeill14]",
+        "a 64-bit writing of the same",
+        0.0,
+        hashes,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Scalar,
         "mean and variance of random numbers",
         "[JarzynskiOlano20]",
         "1/2 and 1/12, standard errors",
-        "standard errors",
         4.5,
         uniform,
-    ),
+    )
+    .unit("standard errors"),
 ];
 
 fn monotone(effort: &Effort) -> Found {

@@ -6,68 +6,90 @@ use glam::{DVec3, Vec3, vec3};
 use paprsek::raster::World;
 use paprsek::raster::fill::CENTER;
 use paprsek::raster::project::NEAR;
-use paprsek::raster::triangle::SUB;
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use testkit::coverage::{
-    Corner, Corners, NEARNESS, SIZES, any_triangle, area, counts, covers, draw, piece, plane, sample_of,
+    Corners, NEARNESS, SHEET, SIZES, Single, area, counts, covers, deep_triangle, draw, fan, grid, piece, plane,
+    sample_of, single,
 };
 use testkit::drawn::{self, body, dark, ground, ray, triangles};
 use testkit::random::Random;
 use testkit::{Found, ULP, levels};
 
-const fn case(name: &'static str, source: &'static str, oracle: &'static str, run: fn(&Effort) -> Found) -> Case {
-    Case { name, source, oracle, runs: Runs::Levels, unit: "failures", target: 0.0, run }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::new(
+        Runs::Levels,
         "triangles of every hard kind: slivers, corners on samples, huge ones at the guard band",
         "[Pineda88], top-left rule",
         "24.8 in i128, every pixel",
+        0.0,
         exact,
-    ),
-    case("grids of triangles: gaps and overdraw", "shared edges, top-left rule", "each pixel once", grids),
-    case(
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "grids of triangles: gaps and overdraw",
+        "shared edges, top-left rule",
+        "each pixel once",
+        0.0,
+        grids,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
         "fans around a corner on a sample: gaps and overdraw",
         "shared corners",
         "each pixel of the polygon once",
+        0.0,
         fans,
-    ),
-    Case {
-        unit: "roundings",
-        target: NEARNESS,
-        ..case("depth of slivers and of planes from the near plane to the horizon", "depth precision", "f64", depths)
-    },
-    case("depth outside of its corners' range", "extrapolation at edges", "order", between),
-    Case {
-        unit: "of the bound",
-        target: 1.0,
-        ..case(
-            "level ground through the eye's plane, 3 m to 20 km, from 6 cm up",
-            "[SutherlandHodgman74], w <= 0",
-            "rays in f64, corners snapped by 1/100 pixel",
-            clipped,
-        )
-    },
-    case("triangles behind the eye or before the near plane", "w <= 0", "nothing is covered", behind),
-    case("corners of any bits", "0, -0, denormals, MAX, infinities, NaN", "finite light, no panic", any_bits),
-    Case { unit: "failures", ..case("layers 1 m apart, 5 km away", "reversed depth", "the nearer is seen", layers) },
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "depth of slivers and of planes from the near plane to the horizon",
+        "depth precision",
+        "f64",
+        NEARNESS,
+        depths,
+    )
+    .unit("roundings"),
+    Case::new(Runs::Levels, "depth outside of its corners' range", "extrapolation at edges", "order", 0.0, between)
+        .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "level ground through the eye's plane, 3 m to 20 km, from 6 cm up",
+        "[SutherlandHodgman74], w <= 0",
+        "rays in f64, corners snapped by 1/100 pixel",
+        1.0,
+        clipped,
+    )
+    .unit("of the bound"),
+    Case::new(
+        Runs::Levels,
+        "triangles behind the eye or before the near plane",
+        "w <= 0",
+        "nothing is covered",
+        0.0,
+        behind,
+    )
+    .unit("failures"),
+    Case::new(
+        Runs::Levels,
+        "corners of any bits",
+        "0, -0, denormals, MAX, infinities, NaN",
+        "finite light, no panic",
+        0.0,
+        any_bits,
+    )
+    .unit("failures"),
+    Case::new(Runs::Levels, "layers 1 m apart, 5 km away", "reversed depth", "the nearer is seen", 0.0, layers)
+        .unit("failures"),
 ];
 
 fn exact(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(100));
     for case in 0..effort.of(2000) as usize {
-        let size = SIZES[if case % 3 == 0 { case / 3 % SIZES.len() } else { 0 }];
-        let t = any_triangle(&mut random, size);
-        let sample = match case % 4 {
-            0 | 1 => CENTER,
-            2 => [[0, 0], [SUB - 1, 0], [0, SUB - 1], [SUB - 1; 2]][case / 4 % 4],
-            _ => [0, 1].map(|_| (random.unit() * SUB as f64) as i32),
-        };
-        let back_faces = case % 5 == 0;
-        // Counter-clockwise looks here.
-        let here = if back_faces { area(&t) > 0 } else { area(&t) < 0 };
+        let Single { corners: t, size, sample, back_faces, here } = single(&mut random, case);
         let piece = [piece(&[t], size, back_faces)];
         let truth: Vec<bool> = (0..(size[0] * size[1]) as usize)
             .map(|pixel| here && covers(&t, sample_of(pixel, size[0], sample)))
@@ -86,30 +108,10 @@ fn exact(effort: &Effort) -> Found {
 
 fn grids(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(101));
-    let size = [100, 70];
     for case in 0..effort.of(40) as usize {
-        // Cells of 16 to 40 pixels, all around the picture; their jitter is less than would turn a triangle over.
-        let cell = [16 * SUB, 20 * SUB + SUB / 2, 40 * SUB, 25 * SUB + 77, 16 * SUB + SUB / 2][case % 5];
-        let (columns, rows) = (100 * SUB / cell + 4, 70 * SUB / cell + 4);
-        let jitter = [0, 1, SUB / 2, cell / 5][case % 4];
-        let mut points = Vec::new();
-        for j in 0..=rows {
-            for i in 0..=columns {
-                let mut off = || random.range(-jitter as f64, jitter as f64 + 1.0).floor() as i32;
-                points.push(Corner { x: (i - 1) * cell - SUB + off(), y: (j - 1) * cell - SUB + off(), near: 1.0 });
-            }
-        }
-        let mut mesh: Vec<Corners> = Vec::new();
-        for j in 0..rows as usize {
-            for i in 0..columns as usize {
-                let at = |i: usize, j: usize| points[j * (columns as usize + 1) + i];
-                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
-                mesh.extend(if random.unit() < 0.5 { [[a, c, b], [b, c, d]] } else { [[a, c, d], [a, d, b]] });
-            }
-        }
-        let sample = if case % 2 == 0 { CENTER } else { [(random.unit() * SUB as f64) as i32, 0] };
+        let (mesh, sample) = grid(&mut random, case);
         for (name, level) in levels() {
-            for (pixel, count) in counts(level, &mesh, size, sample).into_iter().enumerate() {
+            for (pixel, count) in counts(level, &mesh, SHEET, sample).into_iter().enumerate() {
                 found.judge(count == 1, || format!("{name}, case {case}, pixel {pixel}: {count} times"));
             }
         }
@@ -119,29 +121,13 @@ fn grids(effort: &Effort) -> Found {
 
 fn fans(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(102));
-    let size = [100, 70];
     for case in 0..effort.of(120) as usize {
-        let grid = [1, SUB / 2, SUB][case % 3];
-        let round = |x: f64| (x * SUB as f64 / grid as f64).round() as i32 * grid;
-        let (x, y) = (round(random.range(20.0, 80.0)), round(random.range(20.0, 50.0)));
-        let spokes = 3 + case as i32 % 40;
-        let mut rim: Vec<Corner> = Vec::new();
-        for k in 0..spokes {
-            let (sin, cos) = ((k as f64 + random.range(0.0, 0.8)) / spokes as f64 * std::f64::consts::TAU).sin_cos();
-            let r = if case % 6 < 5 { random.log(0.3, 45.0) } else { random.log(300.0, 9000.0) };
-            rim.push(Corner { x: x + round(r * cos), y: y + round(r * sin), near: 1.0 });
-        }
-        let center = Corner { x, y, near: 1.0 };
-        let fan: Vec<Corners> = (0..rim.len()).map(|k| [center, rim[k], rim[(k + 1) % rim.len()]]).collect();
-        // Rounding may turn a triangle over, or three spokes leave more than half a turn between two.
-        if fan.iter().any(|t| area(t) < 0) {
-            continue;
-        }
-        let due: Vec<u32> = (0..(size[0] * size[1]) as usize)
-            .map(|pixel| fan.iter().filter(|t| covers(t, sample_of(pixel, size[0], CENTER))).count() as u32)
+        let Some((fan, _)) = fan(&mut random, case, case % 6 == 5) else { continue };
+        let due: Vec<u32> = (0..(SHEET[0] * SHEET[1]) as usize)
+            .map(|pixel| fan.iter().filter(|t| covers(t, sample_of(pixel, SHEET[0], CENTER))).count() as u32)
             .collect();
         for (name, level) in levels() {
-            for (pixel, count) in counts(level, &fan, size, CENTER).into_iter().enumerate() {
+            for (pixel, count) in counts(level, &fan, SHEET, CENTER).into_iter().enumerate() {
                 let right = count == due[pixel] && count <= 1;
                 found.judge(right, || format!("{name}, case {case}, pixel {pixel}: {count} for {}", due[pixel]));
             }
@@ -154,11 +140,7 @@ fn fans(effort: &Effort) -> Found {
 fn covered(effort: &Effort, mut each: impl FnMut(&str, f64, &Corners, usize)) {
     let mut random = Random(103);
     for _ in 0..effort.of(3000) {
-        let mut t = any_triangle(&mut random, SIZES[0]);
-        if random.unit() < 0.3 {
-            // From the near plane to the horizon.
-            t.iter_mut().for_each(|c| c.near = random.log(1e-5, 20.0) as f32);
-        }
+        let t = deep_triangle(&mut random);
         let piece = [piece(&[t], SIZES[0], area(&t) > 0)];
         for (name, level) in levels() {
             let shown = draw(level, &piece, SIZES[0], CENTER);

@@ -8,62 +8,66 @@ use glam::{Vec3, vec3};
 use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
 use std::sync::Arc;
 use testkit::random::Random;
-use testkit::voxels::{DAY, FURNACE, aim, cloud, filled, ray, rays, truth};
+use testkit::voxels::{DAY, FURNACE, aim, cloud, eighths, filled, ray, rays, truth, whole_and_eighths};
 use testkit::{Found, levels};
 
 const FOREVER: f32 = f32::INFINITY;
 /// Places in voxels are good to 1e-5, where a hard edge has a slope of 10 in optical depth.
 const PLACES: f64 = 1e-4;
 
-const fn case(
-    name: &'static str,
-    source: &'static str,
-    oracle: &'static str,
-    target: f64,
-    run: fn(&Effort) -> Found,
-) -> Case {
-    Case { name, source, oracle, runs: Runs::Levels, unit: "", target, run }
-}
-
 pub const CASES: &[Case] = &[
-    case("a cumulus, light and transmittance", "[Kajiya84]", "the same steps in f64", PLACES, cumulus),
-    case(
+    Case::new(
+        Runs::Levels,
+        "a cumulus, light and transmittance",
+        "[Kajiya84]",
+        "the same steps in f64",
+        PLACES,
+        cumulus,
+    ),
+    Case::new(
+        Runs::Levels,
         "the same from 1e3 and 1e5 half edges away",
         "places were counted from the eye: 3e-3",
         "the same steps in f64",
         PLACES,
         far,
     ),
-    case("one cube against eight", "seams between bricks", "each other", PLACES, bricks),
-    case("a needle of one voxel from all sides", "leaps over what is empty", "the same steps in f64", PLACES, needles),
-    case(
+    Case::new(Runs::Levels, "one cube against eight", "seams between bricks", "each other", PLACES, bricks),
+    Case::new(
+        Runs::Levels,
+        "a needle of one voxel from all sides",
+        "leaps over what is empty",
+        "the same steps in f64",
+        PLACES,
+        needles,
+    ),
+    Case::new(
+        Runs::Levels,
         "the eye inside, on faces, edges and corners, behind, slivers, axis-parallel, denormal slopes",
         "0 times infinity, [Williams05]",
         "closed form",
         PLACES,
         awkward,
     ),
-    case(
+    Case::new(
+        Runs::Levels,
         "any eye, direction, extinction and limit: light and transmittance make 1",
         "conservation: white furnace",
         "alpha + T = 1",
         1e-5,
         furnace,
     ),
-    Case {
-        unit: "failures",
-        ..case(
-            "eyes, directions and extinctions of any bits",
-            "0, -0, denormals, MAX, infinities, NaN",
-            "no panic, T from 0 to 1 where all is finite",
-            0.0,
-            any_bits,
-        )
-    },
-    Case {
-        unit: "failures",
-        ..case("empty clouds of any size", "an empty grid", "no light, T of 1, bit for bit", 0.0, empty)
-    },
+    Case::new(
+        Runs::Levels,
+        "eyes, directions and extinctions of any bits",
+        "0, -0, denormals, MAX, infinities, NaN",
+        "no panic, T from 0 to 1 where all is finite",
+        0.0,
+        any_bits,
+    )
+    .unit("failures"),
+    Case::new(Runs::Levels, "empty clouds of any size", "an empty grid", "no light, T of 1, bit for bit", 0.0, empty)
+        .unit("failures"),
 ];
 
 fn grown(kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
@@ -96,28 +100,11 @@ fn far(effort: &Effort) -> Found {
 
 fn bricks(effort: &Effort) -> Found {
     let whole = cloud(grown(&CloudKind::CUMULUS, 2, 64), 8.0);
-    // Each part has two voxels of its neighbours around it, which its rays do not reach.
-    let part = |corner: [usize; 3]| {
-        filled(36, |place| {
-            let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
-            whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
-        })
-    };
-    let parts = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| {
-        let corner = [k & 1, k >> 1 & 1, k >> 2];
-        let centre = Vec3::from(corner.map(|bit| bit as f32 - 0.5));
-        Cloud { voxels: Arc::new(part(corner)), centre, size: 36.0 / 64.0, extinction: 8.0 * 36.0 / 64.0 }
-    });
+    let parts = eighths(&whole);
     let (mut found, mut random) = (Found::default(), Random(81));
     for _ in 0..effort.of(400) {
         let (y, z) = (random.range(-0.95, 0.95) as f32, random.range(-0.95, 0.95) as f32);
-        let (_, one) = ray(&whole, &FURNACE, vec3(-1.0, y, z), Vec3::X, 2.0, 1600.0);
-        let mut eight = 1.0;
-        for part in &parts {
-            if (part.centre.y > 0.0) == (y > 0.0) && (part.centre.z > 0.0) == (z > 0.0) {
-                eight *= ray(part, &FURNACE, vec3(part.centre.x - 0.5, y, z), Vec3::X, 1.0, 800.0).1;
-            }
-        }
+        let [one, eight] = whole_and_eighths(&whole, &parts, y, z);
         found.see((one - eight).abs() as f64, || format!("at {y}, {z}: {one} and {eight}"));
     }
     found
