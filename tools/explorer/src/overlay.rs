@@ -148,7 +148,10 @@ fn on_border(at: usize, width: usize, edge: f32) -> bool {
 pub fn coloured(overlay: Overlay, frame: &Frame, numbers: &[f32]) -> Coloured {
     let logarithmic = overlay.is_logarithmic();
     let range = Range::of(numbers, logarithmic);
-    let Range { least, end, .. } = range.unwrap_or(Range { least: 0.0, end: 0.0, most: 0.0, mean: 0.0 });
+    let Some(Range { least, end, .. }) = range else {
+        // Where no layer knows any number there is the picture to see.
+        return Coloured { overlay, pixels: frame.pixels.clone(), range };
+    };
     let share = |number: f32| {
         if logarithmic {
             (number / least).ln() / (end / least).ln().max(1e-6)

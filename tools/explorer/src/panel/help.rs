@@ -65,7 +65,8 @@ fn pairs(ui: &mut Ui, model: &Model) {
         for (number, parameter) in parameters.iter().enumerate() {
             ui.label(RichText::new(pair(number)).monospace());
             ui.label(parameter.name);
-            ui.label(RichText::new(format!("{} {}", model.value(parameter), parameter.unit)).color(QUIET));
+            let unit = if ["1", "count"].contains(&parameter.unit) { "" } else { parameter.unit };
+            ui.label(RichText::new(format!("{} {unit}", model.value(parameter))).color(QUIET));
             ui.end_row();
         }
     });

@@ -46,6 +46,8 @@ fn scale(ui: &mut Ui, about: &str, Range { least, end, most, mean }: Range) {
 
 /// A number with three digits or so.
 fn number(value: f32) -> String {
+    // A mean of equal whole numbers is one.
+    let value = if (value - value.round()).abs() < 1e-4 * value.abs() { value.round() } else { value };
     match value.abs() {
         0.0 => "0".into(),
         0.0..10.0 if value.fract() != 0.0 => format!("{value:.2}"),
