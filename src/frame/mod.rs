@@ -5,6 +5,8 @@
 //! Scene, FrameSpec -> Picture of Layers -> Tile by Tile, on Workers -> encode -> Frame
 //! ```
 
+#[cfg(feature = "full")]
+pub mod bands;
 pub mod cache;
 pub mod encode;
 #[cfg(feature = "full")]

@@ -173,7 +173,7 @@ impl Renderer {
 
 /// Encodes the pixels of a tile into a band of the frame.
 #[inline(always)]
-fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
+pub(super) fn encode_tile<S: Simd>(simd: S, transfer: Transfer, tile: &Tile, stride: usize, pixels: &mut [u32]) {
     for row in 0..tile.height {
         let at = row * Tile::SIZE..row * Tile::SIZE + tile.width;
         let (r, g, b) = (&tile.red[at.clone()], &tile.green[at.clone()], &tile.blue[at]);

@@ -24,7 +24,10 @@ fn target() -> PathBuf {
 fn cargo(words: &[&str]) -> Output {
     let target = target();
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args(words).arg("--quiet").arg("--target-dir").arg(&target);
+    // Words of the program that is run come last.
+    let program = words.iter().position(|word| *word == "--").unwrap_or(words.len());
+    cargo.current_dir(root()).args(&words[..program]).arg("--quiet").arg("--target-dir").arg(&target);
+    cargo.args(&words[program..]);
     cargo.env("CARGO_TARGET_DIR", &target).output().expect("cargo runs")
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Where paths from the checkout's root begin.
-const TOP: [&str; 6] = ["src/", "tests/", "tools/", "benches/", "docs/", "examples/"];
+const TOP: [&str; 7] = ["src/", "tests/", "tools/", "benches/", "docs/", "examples/", "web/"];
 
 /// The sources and documents below a directory.
 fn texts(directory: &Path, found: &mut Vec<String>) {

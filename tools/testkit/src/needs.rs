@@ -25,6 +25,10 @@ pub enum Tool {
     Qemu,
     /// The libraries that minifb loads at run time.
     Xlib,
+    /// A browser that runs without a screen.
+    Chromium,
+    /// Runs JavaScript and WebAssembly.
+    Node,
 }
 
 impl Tool {
@@ -38,6 +42,8 @@ impl Tool {
             Tool::Readelf => ("readelf", "binutils"),
             Tool::Qemu => ("qemu-x86_64", "qemu-user"),
             Tool::Xlib => ("libX11 and libXcursor", "libx11-6 libxcursor1"),
+            Tool::Chromium => ("chromium", "chromium"),
+            Tool::Node => ("node", "nodejs"),
         }
     }
 
@@ -50,7 +56,7 @@ impl Tool {
                 .output()
                 .is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("ImageMagick")),
             Tool::Xlib => ["libX11.so.6", "libXcursor.so.1"].iter().all(|name| is_in(name, &library_directories())),
-            Tool::Xvfb | Tool::Xdotool | Tool::Script | Tool::Readelf | Tool::Qemu => {
+            Tool::Xvfb | Tool::Xdotool | Tool::Script | Tool::Readelf | Tool::Qemu | Tool::Chromium | Tool::Node => {
                 let path = env::var_os("PATH").unwrap_or_default();
                 is_in(self.names().0, &env::split_paths(&path).collect::<Vec<_>>())
             }

@@ -1,0 +1,35 @@
+// The page's start: loads the module, starts the workers, and plays.
+
+import { Controls } from './controls.js';
+import { Instance, load, missing } from './module.js';
+import { Player } from './player.js';
+import { Pool } from './pool.js';
+
+// Where a scene stands for whoever wants no motion: the show begins in the dark.
+const REST = 9.2;
+
+function trouble(sentence) {
+  document.body.classList.remove('loading');
+  document.getElementById('status').textContent = '';
+  const element = document.getElementById('trouble');
+  element.textContent = sentence;
+  element.hidden = false;
+}
+
+async function start() {
+  const lacks = missing();
+  if (lacks) return trouble(lacks);
+  const module = await load(new URL('./paprsek.wasm', import.meta.url));
+  const arrived = performance.now();
+  const instance = await Instance.of(module);
+  const player = new Player(document.getElementById('picture'), instance);
+  const controls = new Controls(player);
+  player.addEventListener('frame', () => (paprsek.firstFrame = performance.now() - arrived), { once: true });
+  // For the console, and for tests.
+  globalThis.paprsek = { instance, player, controls };
+  if (matchMedia('(prefers-reduced-motion: reduce)').matches) player.go(REST);
+  else player.play();
+  player.pool = new Pool(module, navigator.hardwareConcurrency || 1, () => player.take(), trouble);
+}
+
+start().catch(error => trouble(`The page cannot start: ${error.message}`));
