@@ -5,7 +5,7 @@ use super::layer::Picture;
 use super::renderer::{Options, Renderer, encode_tile};
 use super::scene::{FrameSpec, Scene};
 use super::tile::Tile;
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::dispatch;
 use std::ops::Range;
 
 // What draws a band is written a second time here: shared with the renderer it would cost the 64 kB build 15 bytes packed.
