@@ -32,6 +32,9 @@ pub const STREAKS: bool = FULL;
 /// Whether the rasterizer can trace shadows through triangles instead of looking them up in maps. Saves 332 bytes.
 pub const TRACED_SHADOWS: bool = FULL;
 
+/// Whether lights can have a bias of their own against shadowing what they light. Those of the show have one.
+pub const BIAS: bool = FULL;
+
 /// Whether a lookup of a shadow map can count 3x3 texels alike, as the bench scenes specify, instead of weighting them.
 /// Saves 105 bytes.
 pub const COUNTED_TEXELS: bool = FULL;

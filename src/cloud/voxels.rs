@@ -166,13 +166,16 @@ impl Voxels {
         let f = u - base;
         let at = (base.x + (base.y + base.z * n) * n).to_int::<U<S>>();
         let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
-        [0, 8].map(
-            #[inline(always)]
-            |shift| {
-                let (a, b) = (square(near, shift, &f), square(far, shift, &f));
-                a + (b - a) * f.z
-            },
-        )
+        // A loop: what `map` calls is not always inlined, and then no lane operation in it is.
+        let mut found = [F::<S>::splat(simd, 0.0); 2];
+        let mut k = 0;
+        while k < 2 {
+            let shift = 8 * k as u32;
+            let (a, b) = (square(near, shift, &f), square(far, shift, &f));
+            found[k] = a + (b - a) * f.z;
+            k += 1;
+        }
+        found
     }
 
     /// The words of points, and of the next ones along x, a number of points further on.

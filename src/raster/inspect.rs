@@ -22,6 +22,8 @@ pub struct Shown {
     pub triangle: (usize, usize),
     /// Place on the surface, metres.
     pub point: Vec3,
+    /// The same on the smooth surface that the normals describe, where shadow maps are looked up.
+    pub lifted: Vec3,
     /// Unit normal.
     pub normal: Vec3,
     /// Distance along the view axis, metres.
@@ -58,10 +60,11 @@ pub fn visible(raster: &Raster, view: &View, x: f32, y: f32) -> Option<Shown> {
             nearest = Some((inv_depth, id, triangle));
         }
     }
-    let (inv_depth, id, Triangle { anchor, at, by, .. }) = nearest?;
+    let (inv_depth, id, Triangle { anchor, at, by, bulge, .. }) = nearest?;
     let value = *at + by[0] * (x - anchor[0]) + by[1] * (y - anchor[1]);
     let (depth, normal) = (1.0 / inv_depth, value.truncate().normalize_or_zero());
-    Some(Shown { triangle: parts(id), point: view.camera().eye + view.ray(x, y) * depth, normal, depth })
+    let point = view.camera().eye + view.ray(x, y) * depth;
+    Some(Shown { triangle: parts(id), point, lifted: point + normal * *bulge, normal, depth })
 }
 
 /// The number of the view in which a light's shadow on a point is looked up, from 0; none where the light casts none
@@ -80,7 +83,7 @@ fn view_in<S: Simd>(simd: S, light: &Light, shown: &Shown) -> Option<usize> {
         }
     };
     let cosine = F::<S>::splat(simd, shown.normal.dot(towards));
-    let (point, normal) = (V3::splat(simd, shown.point), V3::splat(simd, shown.normal));
+    let (point, normal) = (V3::splat(simd, shown.lifted), V3::splat(simd, shown.normal));
     let wanted = cosine.simd_gt(0.0);
     let points = locate(simd, shadow, light.source, &Facet { point, normal, cosine }, wanted);
     (points.inside.to_bitmask() & 1 == 1).then(|| points.view.as_slice()[0] as usize)
@@ -89,7 +92,8 @@ fn view_in<S: Simd>(simd: S, light: &Light, shown: &Shown) -> Option<usize> {
 /// The light that a light gives to a point, clouds aside.
 fn given(light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3 {
     dispatch!(Level::baseline(), simd => {
-        let light = light_at(simd, light, lookup, (V3::splat(simd, shown.point), None), V3::splat(simd, shown.normal));
+        let places = (V3::splat(simd, shown.point), V3::splat(simd, shown.lifted));
+        let light = light_at(simd, light, lookup, places, V3::splat(simd, shown.normal));
         Vec3::new(light.x.as_slice()[0], light.y.as_slice()[0], light.z.as_slice()[0])
     })
 }
@@ -116,7 +120,7 @@ pub fn explain(world: &World, lookups: &[ShadowLookup], shown: &Shown) -> Vec<St
         let share = left.max_element() / most * 100.0;
         let map = match shadow_view(light, shown) {
             Some(_) if light.shadow_views().is_some_and(|shadow| shadow.traced) => {
-                format!("{share:.0} % of it past shadows, traced from the flat face")
+                format!("{share:.0} % of it past shadows, traced")
             }
             Some(view) => format!("{share:.0} % of it past shadows, looked up in map {view}"),
             None => "without shadows here".into(),

@@ -9,7 +9,7 @@ use super::depth_map::MapPoints;
 use super::exact_shadow::hides;
 use super::light::{Light, Source};
 use super::project::Projection;
-use super::shadow_views::ShadowViews;
+use super::shadow_views::{Bias, ShadowViews};
 use crate::cuts;
 use crate::simd::block::{BLOCK, Block3};
 use crate::simd::lanes::{Bits, F, Lane, M, V3};
@@ -30,9 +30,10 @@ const TRACED_BIAS: f32 = 1.0 / 32.0;
 pub struct Places<'a> {
     /// Points, metres.
     pub points: &'a Block3,
-    /// The same on the smooth surface that the normals describe, where shadows are traced: a point is hidden if both its
-    /// places are. See [`super::exact_shadow::lifted`].
-    pub lifted: Option<&'a Block3>,
+    /// The same on the smooth surface that the normals describe, where shadows are looked up: Lambert's cosine falls off
+    /// with these normals, so faces of a coarse mesh must not lie in their own shadow `[Hanika21]`. A traced point is
+    /// hidden if both its places are.
+    pub lifted: &'a Block3,
 }
 
 /// Adds to `out` what a light gives to points with unit normals, without albedo.
@@ -50,8 +51,7 @@ pub fn shine<S: Simd>(
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (V3::load(simd, places.points, i), V3::load(simd, normals, i));
-        let lifted = places.lifted.map(|points| V3::load(simd, points, i));
-        let mut gives = light_at(simd, light, lookup, (p, lifted), n);
+        let mut gives = light_at(simd, light, lookup, (p, V3::load(simd, places.lifted, i)), n);
         if let (Source::Sun(_), Some(clouds)) = (light.source, &context.world.cloud_shadow)
             && !cfg!(without = "cloud-shadows")
         {
@@ -68,7 +68,7 @@ pub(super) fn light_at<S: Simd>(
     simd: S,
     light: &Light,
     lookup: &ShadowLookup,
-    (point, lifted): (V3<S>, Option<V3<S>>),
+    (point, lifted): (V3<S>, V3<S>),
     normal: V3<S>,
 ) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
@@ -86,11 +86,17 @@ pub(super) fn light_at<S: Simd>(
     if let Some(views) = light.shadow_views()
         && wanted.any_true()
     {
-        let open = |point| {
-            let points = locate(simd, views, light.source, &Facet { point, normal, cosine }, wanted);
-            unshadowed(simd, views, lookup, &points)
-        };
-        share *= lifted.map_or_else(|| open(point), |lifted| open(point).max(open(lifted)));
+        // A loop and no closure: one that is called twice is not inlined, and then no lane operation in it is.
+        let lifted = if cuts::COUNTED_TEXELS && !views.smooth { point } else { lifted };
+        let (places, mut open) = ([point, lifted], zero);
+        let mut k = usize::from(!cuts::TRACED_SHADOWS || !views.traced);
+        while k < 2 {
+            let points = locate(simd, views, light.source, &Facet { point: places[k], normal, cosine }, wanted);
+            let lit = unshadowed(simd, views, lookup, &points);
+            open = if cuts::TRACED_SHADOWS { open.max(lit) } else { lit };
+            k += 1;
+        }
+        share *= open;
     }
     V3::splat(simd, light.color) * Lane(share)
 }
@@ -142,7 +148,8 @@ pub(super) fn locate<S: Simd>(
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let Facet { point, normal, cosine } = *facet;
     let size = shadow.views[0].size[0] as f32;
-    let bias = shadow.bias.times(if cuts::TRACED_SHADOWS && shadow.traced { TRACED_BIAS } else { 1.0 });
+    let bias = if cuts::BIAS { shadow.bias } else { Bias::SHOW };
+    let bias = bias.times(if cuts::TRACED_SHADOWS && shadow.traced { TRACED_BIAS } else { 1.0 });
     let sine = (one - cosine * cosine).max(zero).sqrt();
     let upright = cosine.max(F::<S>::splat(simd, 1e-3));
     let tangent = (sine / upright).min(F::<S>::splat(simd, STEEP));
@@ -165,7 +172,10 @@ pub(super) fn locate<S: Simd>(
         let here = wanted & !inside & (if margin > 0.0 { zero } else { face - number }).simd_eq(zero);
         if here.any_true() {
             let Projection { rows, texel, .. } = &shadow.views[k];
-            let p = point + normal * Lane(sine * (depth * (bias.normal * texel)));
+            let p = match cuts::BIAS {
+                true => point + normal * Lane(sine * (depth * (bias.normal * texel))),
+                false => point,
+            };
             let w = apply(rows[3], p);
             let inverse = one / w;
             let (px, py) = (apply(rows[0], p) * inverse, apply(rows[1], p) * inverse);

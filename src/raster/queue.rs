@@ -19,6 +19,8 @@ pub struct FragmentQueue {
     // The rest is filled while a block is shaded. Here, and not on the stack, it need not be cleared.
     /// Position, metres.
     pub(super) point: Block3,
+    /// The same on the smooth surface that the normals describe: where shadows are looked up.
+    pub(super) lifted: Block3,
     /// Unit normal.
     pub(super) normal: Block3,
     /// Diffuse reflectance, linear.
@@ -42,6 +44,7 @@ impl FragmentQueue {
         place: [[0; BLOCK]; 2],
         id: [[0; BLOCK]; 2],
         point: [[0.0; BLOCK]; 3],
+        lifted: [[0.0; BLOCK]; 3],
         normal: [[0.0; BLOCK]; 3],
         albedo: [[0.0; BLOCK]; 3],
         light: [[0.0; BLOCK]; 3],

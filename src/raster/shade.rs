@@ -65,8 +65,10 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
     }
     let (low, high) = bounds(simd, &queue.point);
     let traced = |light: &Light| light.shadow_views().is_some_and(|views| views.traced);
-    let lifted = (cuts::TRACED_SHADOWS && world.lights.iter().any(traced)).then(|| lifted(context, queue));
-    let places = Places { points: &queue.point, lifted: lifted.as_ref() };
+    if cuts::TRACED_SHADOWS && world.lights.iter().any(traced) {
+        queue.lifted = lifted(context, queue);
+    }
+    let places = Places { points: &queue.point, lifted: &queue.lifted };
     for (light, lookup) in world.lights.iter().zip(lookups) {
         if light.meets(simd, low, high) {
             shine(simd, context, light, lookup, &places, &queue.normal, &mut queue.light);
@@ -102,7 +104,8 @@ fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mu
         // 27: put together, steps of 1/256 pixel.
         let x = steps(simd, (places & 63) << 8 | (places >> 12) & 255) + corner[0] as u32 as f32;
         let y = steps(simd, (places << 2) & (63 << 8) | (places >> 20) & 255) + corner[1] as u32 as f32;
-        let Surface { normal: n, albedo, inv_depth, gloss } = surfaces(simd, &raster.meshes, &queue.id[0], i, x, y);
+        let Surface { normal: n, albedo, inv_depth, gloss, bulge } =
+            surfaces(simd, &raster.meshes, &queue.id[0], i, x, y);
         let far = one / inv_depth.max(F::<S>::splat(simd, FARTHEST));
         let p = V3::splat(simd, eye) + view.rays(simd, x, y) * Lane(far);
         let n = n * Lane(one / n.dot(n).max(F::<S>::splat(simd, 1e-30)).sqrt());
@@ -113,6 +116,7 @@ fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mu
         let ambient = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
         store(far * stretch * view.pixel(), &mut queue.footprint, i);
         p.store(&mut queue.point, i);
+        (p + n * Lane(bulge)).store(&mut queue.lifted, i);
         n.store(&mut queue.normal, i);
         albedo.store(&mut queue.albedo, i);
         ambient.store(&mut queue.light, i);
@@ -129,6 +133,8 @@ struct Surface<S: Simd> {
     albedo: V3<S>,
     inv_depth: F<S>,
     gloss: F<S>,
+    /// As in [`Triangle::bulge`].
+    bulge: F<S>,
 }
 
 /// Evaluates the planes of the triangles of vector `i` at points of the raster: once per triangle, for all lanes that show
@@ -138,14 +144,14 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
     let one = F::<S>::splat(simd, 1.0);
     let all: U<S> = load(simd, ids, i);
     let zero = V3::splat(simd, Vec3::ZERO);
-    let mut out = Surface { normal: zero, albedo: zero, inv_depth: one, gloss: one };
+    let mut out = Surface { normal: zero, albedo: zero, inv_depth: one, gloss: one, bulge: one };
     let mut todo = all.simd_eq(all).to_bitmask();
     while todo != 0 {
         let id = ids[(i * F::<S>::LEN + todo.trailing_zeros() as usize) & (BLOCK - 1)];
         let here = all.simd_eq(U::<S>::splat(simd, id));
         todo &= !here.to_bitmask();
         let (mesh, number) = parts(id);
-        let Triangle { anchor, at, by: [along, down], range, paint, .. } = &meshes[mesh].triangles[number];
+        let Triangle { anchor, at, by: [along, down], range, paint, bulge, .. } = &meshes[mesh].triangles[number];
         let (dx, dy) = (x - anchor[0], y - anchor[1]);
         let normal = V3 {
             x: dx * along.x + dy * down.x + at.x,
@@ -157,6 +163,7 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
         let z = (dx * along.w + dy * down.w + at.w).max(range[0]).min(range[1]);
         out.inv_depth = here.select(z, out.inv_depth);
         out.gloss = here.select(F::<S>::splat(simd, paint.gloss), out.gloss);
+        out.bulge = here.select(F::<S>::splat(simd, *bulge), out.bulge);
     }
     out
 }
@@ -184,7 +191,7 @@ fn settle<S: Simd>(
     queue: &mut FragmentQueue,
 ) {
     let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let places = Places { points: &queue.point, lifted: None };
+    let places = Places { points: &queue.point, lifted: &queue.lifted };
     shine(simd, context, &snow.fall, lookup, &places, &queue.normal, &mut open);
     texture::shade(simd, &GRAIN, &queue.point, BLOCK, Some(&queue.footprint), &mut grain);
     snow.whiten(simd, &open, &grain, queue);

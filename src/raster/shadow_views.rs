@@ -16,6 +16,9 @@ pub struct Bias {
 }
 
 impl Bias {
+    /// What the lights of the show have, on texels of every size: at the knee of the curve in docs/report/shadows.md.
+    pub const SHOW: Bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
+
     /// A share of the bias.
     pub fn times(self, share: f32) -> Bias {
         Bias { constant: self.constant * share, slope: self.slope * share, normal: self.normal * share }
@@ -38,7 +41,8 @@ pub struct ShadowViews {
     /// Index of the first body that casts shadows. Those before it, such as the land, do not.
     pub first_caster: usize,
     /// Whether a lookup weights the border of its 3x3 texels by how much of them it meets, so that shadows change
-    /// evenly. Otherwise all nine count alike, which the 64 kB build cannot do.
+    /// evenly, and is made on the smooth surface that the normals describe. Otherwise all nine count alike, on the flat
+    /// face, which the 64 kB build cannot do.
     pub smooth: bool,
 }
 

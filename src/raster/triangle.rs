@@ -35,6 +35,9 @@ pub struct Triangle {
     pub by: [Vec4; 2],
     /// `inv_depth` of the farthest and of the nearest corner. The plane is clamped to it, since on slivers it leaves it.
     pub range: [f32; 2],
+    /// How far the smooth surface that the normals describe lies above its face in the mean, metres: 0 or more, and 0
+    /// where nothing is shaded or the face is flat.
+    pub bulge: f32,
     /// What the triangle is painted with.
     pub paint: Paint,
     /// The number of its face in the mesh; 0 in the 64 kB build, where nothing asks for it.
@@ -64,6 +67,8 @@ const CLIP: usize = 4;
 struct Corner {
     /// Homogeneous pixels.
     h: Vec4,
+    /// Place in the world, metres; not known where a triangle is clipped.
+    place: Vec3A,
     /// Normal in the world, of any length.
     normal: Vec3A,
     /// Signed distances, in homogeneous pixels and positive inside, from the four sides of the raster, then from the
@@ -74,6 +79,13 @@ struct Corner {
     /// Place on the raster, in steps of 1 / [`SUB`] pixel.
     x: i32,
     y: i32,
+}
+
+/// What all triangles of a face have in common: see [`Triangle`].
+struct Skin<'a> {
+    paint: &'a Paint,
+    bulge: f32,
+    face: u32,
 }
 
 /// How the faces of bodies become the triangles of a raster.
@@ -106,19 +118,28 @@ impl TriangleSetup {
             if self.shaded && i < mesh.normals.len() {
                 normal = turned(place, mesh.normals[i]);
             }
-            corners.push(self.corner(matrix * p.extend(1.0), normal));
+            let mut corner = self.corner(matrix * p.extend(1.0), normal);
+            corner.place = place.transform_point3a(Vec3A::from(*p));
+            corners.push(corner);
         }
         let mut out = SetupMesh::default();
         let mut polygon = Vec::new();
         for (number, face) in mesh.faces.iter().enumerate() {
             let index = face.corners.map(usize::from);
-            let [a, b, c] = index.map(|i| corners[i].outside);
-            if a & b & c != 0 {
+            let [a, b, c] = index.map(|i| &corners[i]);
+            if a.outside & b.outside & c.outside != 0 {
                 continue;
+            }
+            let outside = a.outside | b.outside | c.outside;
+            // Where a point of the smooth surface is the mean, by barycentric weights, of its places on the planes of the
+            // corners' normals `[Hanika21]`, its height in the mean is this sum over the edges.
+            let mut bulges = 0.0;
+            for [a, b] in [[a, b], [b, c], [c, a]] {
+                bulges += (b.place - a.place).dot(b.normal - a.normal).max(0.0);
             }
             polygon.clear();
             polygon.extend_from_slice(&index);
-            if (a | b | c) >> CLIP != 0 {
+            if outside >> CLIP != 0 {
                 self.clip(&mut polygon, &mut corners);
             }
             for i in 2..polygon.len() {
@@ -130,15 +151,11 @@ impl TriangleSetup {
                 if twice > 0 {
                     let mut normals = fan.map(|corner| corner.normal);
                     if self.shaded && mesh.normals.is_empty() {
-                        let [a, b, c] = index.map(|i| mesh.points[i]);
-                        normals = [turned(place, (b - a).cross(c - a)); 3];
+                        let [a, b, c] = index.map(|i| corners[i].place);
+                        normals = [(b - a).cross(c - a).normalize_or_zero(); 3];
                     }
-                    self.push(&mut out, fan, normals, twice, &mesh.paints[face.paint as usize]);
-                    if cuts::TRACED_SHADOWS
-                        && let Some(triangle) = out.triangles.last_mut()
-                    {
-                        triangle.face = number as u32;
-                    }
+                    let paint = &mesh.paints[face.paint as usize];
+                    self.push(&mut out, fan, normals, twice, Skin { paint, bulge: bulges / 12.0, face: number as u32 });
                 }
             }
         }
@@ -160,7 +177,7 @@ impl TriangleSetup {
         let inverse = 1.0 / h.w;
         let sub = |x: f32| (x * inverse * SUB as f32).round() as i32;
         let (x, y) = (sub(h.x), sub(h.y));
-        Corner { h, normal, distances, outside, x, y }
+        Corner { h, place: Vec3A::ZERO, normal, distances, outside, x, y }
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
@@ -197,7 +214,7 @@ impl TriangleSetup {
     }
 
     /// Adds a triangle, of which `twice` is twice the area (see [`twice_area`]), unless it lies beside the raster.
-    fn push(&self, out: &mut SetupMesh, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, paint: &Paint) {
+    fn push(&self, out: &mut SetupMesh, corners: [&Corner; 3], normals: [Vec3A; 3], twice: i64, skin: Skin) {
         let first = corners[0];
         let mut edges = [(0, 0, 0); 3];
         let [width, height] = self.projection.size.map(|n| n as i32 - 1);
@@ -239,8 +256,9 @@ impl TriangleSetup {
             at: a,
             by: [((b * by + c * ay) * inverse).as_vec4(), ((b * bx + c * ax) * inverse).as_vec4()],
             range,
-            paint: *paint,
-            face: 0,
+            bulge: skin.bulge,
+            paint: *skin.paint,
+            face: if cuts::TRACED_SHADOWS { skin.face } else { 0 },
         });
     }
 }

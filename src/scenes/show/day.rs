@@ -105,7 +105,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let (place, turn) = spec.flown(place, turn);
     let view = spec.view(camera);
     let mut world = valley::world(&dome, textures, turn, place, spec.time);
-    world.lights[0].shadow = valley::cascades(spec, view.camera(), now.direction, &[40.0, 160.0, 900.0, 6000.0]);
+    world.lights[0].shadow = valley::cascades(spec, view.camera(), now.direction, &[24.0, 80.0, 500.0, 6000.0]);
     valley::lamp(&mut world, ease(-0.02, 0.1, -dome.sky.sun.y as f64));
     valley::show(spec, dome, world, view, None)
 }

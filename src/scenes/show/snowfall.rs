@@ -141,9 +141,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     let ground = 0.15 + 0.65 * amount;
     // Flakes come from where the wind blows. What stands above shelters the ground softly, so a coarse map will do.
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
-    let bias = Bias { constant: 0.05, slope: 1.5, normal: 0.5 };
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
+    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, Bias::SHOW));
     if !cfg!(without = "snow-cover") {
         world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6 });
     }

@@ -173,7 +173,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
     let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
-    valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [128, from], traced)
+    valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [256, from], traced)
 }
 
 /// Flames and sparks of a bowl.
@@ -251,7 +251,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let moon = &mut world.lights[0];
     // Silver, as moonlight seems beside fires.
     moon.color *= vec3(0.9, 1.1, 1.5);
-    moon.shadow = valley::cascades(spec, view.camera(), dome.lighting().direction, &[45.0, 240.0]);
+    moon.shadow = valley::cascades(spec, view.camera(), dome.lighting().direction, &[10.0, 45.0, 240.0]);
     for number in 0..spec.get(&LIGHTS) as u32 {
         world.lights.push(light(spec, number, from as u32));
     }

@@ -247,8 +247,7 @@ pub fn lamp(world: &mut World, dark: f32) {
 /// bodies before number `from` cast no shadow of it.
 #[inline(never)]
 pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, from]: [u32; 2], traced: bool) -> Light {
-    let bias = Bias { constant: 0.02, slope: 2.0, normal: 0.0 };
-    let shadow = ShadowViews::new(fit::cube(position, texels), bias);
+    let shadow = ShadowViews::new(fit::cube(position, texels), Bias::SHOW);
     let shadow = ShadowViews { traced, first_caster: from as usize, ..shadow };
     Light::lamp(position, color, falloff, reach).with_shadow(shadow)
 }
@@ -260,8 +259,6 @@ pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) 
     let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
     let shadow_map = spec.quality.raster.built().shadow_map;
     let size = if shadow_map == 0 { 1024 } else { shadow_map };
-    // The curve of docs/report/shadows.md has its knee here.
-    let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
-    let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), bias);
+    let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), Bias::SHOW);
     Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, ..shadow })
 }
