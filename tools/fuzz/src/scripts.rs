@@ -168,8 +168,8 @@ impl Term {
             Term::Sum(terms) => terms[0].value(variables) + terms[1].value(variables),
             Term::Product(terms) => terms[0].value(variables) * terms[1].value(variables),
             Term::Function(function, term) => match (*function, term.value(variables)) {
-                (SIN, value) => value.sin(),
-                (COS, value) => value.cos(),
+                (SIN, value) => f64::from(value).sin() as f32,
+                (COS, value) => f64::from(value).cos() as f32,
                 (_, value) => value.abs(),
             },
         }
