@@ -27,9 +27,9 @@ fn workers_that_die_are_replaced() {
     chrome.until("paprsek.player.pool.replaced > paprsek.player.pool.workers");
     goes_on(&mut chrome);
     assert_eq!(chrome.evaluate("document.getElementById('trouble').hidden"), true);
-    // The console has the one end that was an error, and nothing else.
+    // The console has the end that was an error, and that of whatever its worker still had to do.
     let others: Vec<_> = chrome.errors.iter().filter(|error| !error.contains("RuntimeError: unreachable")).collect();
-    assert!(chrome.errors.len() == 1 && others.is_empty(), "{:?}", chrome.errors);
+    assert!(!chrome.errors.is_empty() && others.is_empty(), "{others:?}");
 }
 
 #[test]
