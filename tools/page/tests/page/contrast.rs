@@ -8,10 +8,13 @@ use image::RgbImage;
 const TEXT: f64 = 4.5;
 const CONTROL: f64 = 3.0;
 
-/// What is seen of text and of controls: a name, whether it is text, its colour, and left, top, right, bottom in CSS pixels.
+/// What is seen of text and of controls, but for what an open panel covers: a name, whether it is text, its colour, and left, top, right, bottom in CSS pixels.
 const SEEN: &str = "(() => {
-    const found = [], rows = (name, text, color, rects) => {
+    const panel = document.querySelector('dialog[open], .panel:not([hidden], dialog)'), over = panel?.getBoundingClientRect();
+    const found = [], rows = (element, name, text, color, rects) => {
         for (const { left, top, right, bottom } of rects) {
+            const covers = over && left < over.right && right > over.left && top < over.bottom && bottom > over.top;
+            if (covers && !panel.contains(element)) continue;
             const row = [Math.max(left, 0), Math.max(top, 0), Math.min(right, innerWidth), Math.min(bottom, innerHeight)];
             if (row[2] - row[0] >= 1 && row[3] - row[1] >= 1) found.push([name, text, color.match(/[\\d.]+/g).map(Number), ...row]);
         }
@@ -22,24 +25,24 @@ const SEEN: &str = "(() => {
         if (!node.data.trim() || !element.checkVisibility() || element.closest('label > span, option, script')) continue;
         const range = document.createRange();
         range.selectNodeContents(node);
-        rows(`${element.closest('[id]').id}: ${node.data.trim()}`, true, getComputedStyle(element).color, range.getClientRects());
+        rows(element, `${element.closest('[id]')?.id ?? element.tagName}: ${node.data.trim()}`, true, getComputedStyle(element).color, range.getClientRects());
     }
     for (const element of document.querySelectorAll('svg, input, select')) {
         if (!element.checkVisibility()) continue;
         const style = getComputedStyle(element);
         const color = element.matches('input') ? style.accentColor : style.color;
-        rows(element.closest('[id]').id, element.matches('select'), color, [element.getBoundingClientRect()]);
+        rows(element, element.closest('[id]').id, element.matches('select'), color, [element.getBoundingClientRect()]);
     }
     return found;
 })()";
 
 /// Takes away what is to be seen, and leaves what it lies on.
 const HIDE: &str = "
-    const style = Object.assign(document.createElement('style'), { textContent: `
+    globalThis.hiding = Object.assign(document.createElement('style'), { textContent: `
         * { color: transparent !important; transition: none !important; }
         svg, input { opacity: 0 !important; }` });
-    document.head.append(style);
-    globalThis.unhide = () => style.remove(); 0";
+    document.head.append(hiding);
+    0";
 
 /// Relative luminance of a colour of sRGB, by WCAG 2.
 fn luminance(color: [f64; 3]) -> f64 {
@@ -55,15 +58,11 @@ fn contrast(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a.max(b) + 0.05) / (a.min(b) + 0.05)
 }
 
-/// The least contrast of a colour with what lies behind it.
+/// The least contrast of a colour with what lies behind it, in the pixels that are all within.
 fn least(behind: &RgbImage, color: [f64; 3], [left, top, right, bottom]: [f64; 4]) -> f64 {
-    let (columns, rows) = (
-        left as u32..(right.ceil() as u32).min(behind.width()),
-        top as u32..(bottom.ceil() as u32).min(behind.height()),
-    );
-    let ratios = rows
-        .flat_map(|y| columns.clone().map(move |x| (x, y)))
-        .map(|(x, y)| contrast(color, behind.get_pixel(x, y).0.map(f64::from)));
+    let (columns, rows) = (left.ceil() as u32..right as u32, top.ceil() as u32..bottom as u32);
+    let places = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+    let ratios = places.map(|(x, y)| contrast(color, behind.get_pixel(x, y).0.map(f64::from)));
     ratios.fold(f64::INFINITY, f64::min)
 }
 
@@ -75,7 +74,7 @@ fn faint(chrome: &mut Chrome, picture: &str) -> Vec<String> {
     let seen = chrome.evaluate(SEEN);
     chrome.evaluate(HIDE);
     let behind = image::load_from_memory(&chrome.screenshot()).unwrap().into_rgb8();
-    chrome.evaluate("unhide()");
+    chrome.evaluate("hiding.remove()");
     let seen = seen.as_array().unwrap();
     assert!(seen.len() > 12, "{seen:?}");
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
