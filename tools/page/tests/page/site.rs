@@ -3,6 +3,7 @@
 
 use crate::chrome::Chrome;
 use page::{build, root, serve::Server};
+use std::env;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -24,10 +25,13 @@ pub fn site() -> Option<&'static PathBuf> {
     }))
 }
 
-/// The native program, which is built once for all tests.
+/// The native program: the one that the environment's `PAPRSEK` names, or ours, which is built once for all tests.
 pub fn program() -> &'static PathBuf {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
+        if let Some(program) = env::var_os("PAPRSEK") {
+            return program.into();
+        }
         let mut cargo = Command::new(env!("CARGO"));
         let built = cargo.args(["build", "--release", "--bin", "paprsek"]).current_dir(root()).status().unwrap();
         assert!(built.success());
