@@ -40,7 +40,7 @@ pub fn run(bytes: &[u8]) {
         if is_shaded {
             seen = seen.shaded_by(&clouds);
         }
-        let mut layers: Vec<Box<dyn Layer>> = Vec::new();
+        let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(Blank)];
         if let Some((center, radius)) = ball {
             let ball = Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3::ONE));
             // The background is the layers' that follow.
@@ -103,6 +103,16 @@ fn baked(voxels: &Voxels, towards: Vec3, extinction: f32, is_wild: bool) -> Voxe
     let [best, least] = [Level::new(), level::all().last().expect("a level").1].map(bake);
     assert!(is_wild || best.light() == least.light(), "other sunlight at the least level");
     best
+}
+
+/// The first layer, which writes every pixel: black.
+struct Blank;
+
+impl Layer for Blank {
+    fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
+        tile.clear();
+        Stats { samples: 0 }
+    }
 }
 
 /// Holds the light of tiles against what is covered in them.
