@@ -1,12 +1,15 @@
 //! What the page shows, and what its keys and lists do.
 
 use crate::chrome::Chrome;
-use crate::site::{address, open, show, start};
+use crate::site::{address, open, program, show, start};
+use base64::prelude::{BASE64_STANDARD, Engine};
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
+use serde_json::json;
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -175,6 +178,42 @@ fn native(line: &str) -> Frame {
     let options = Options { quality, stereo: None, values: &values };
     Renderer::new(0).unwrap().render_with(&scene, after("--at")[0].parse().unwrap(), &options, &mut frame);
     frame
+}
+
+/// C copies the line, and the program renders it to the bytes of the page's still.
+#[test]
+fn the_copied_command_line_renders_the_page_s_still() {
+    let Some((mut chrome, _turn)) = open(640, 400) else { return };
+    // What is not named is refused from then on, and writing after a key has a name of its own.
+    let permissions = json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"], "origin": address().unwrap().trim_end_matches('/') });
+    chrome.browser("Browser.grantPermissions", permissions);
+    chrome.evaluate("paprsek.player.choose('torches'); paprsek.player.setQuality('fast'); paprsek.player.go(7.25)");
+    pause(&mut chrome);
+    chrome.press("c", "c");
+    chrome.until("document.getElementById('status').textContent.startsWith('Copied: ')");
+    let line = chrome.evaluate("navigator.clipboard.readText()").as_str().unwrap().to_owned();
+    assert!(
+        line.starts_with("paprsek torches --at 7.25") && line.ends_with(" --size 640x360 --quality fast"),
+        "{line}"
+    );
+    let page = chrome.evaluate(
+        "paprsek.player.still().then(({ image }) => {
+            let bytes = '';
+            image.data.forEach((byte, place) => { if (place % 4 < 3) bytes += String.fromCharCode(byte); });
+            return btoa(bytes);
+        })",
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let mut program = Command::new(program());
+    program.args(line.split(' ').skip(1)).arg("--capture").arg(directory.path());
+    let ran = program.output().unwrap();
+    assert!(ran.status.success(), "{line}: {}", String::from_utf8_lossy(&ran.stderr));
+    let files: Vec<_> = fs::read_dir(directory.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    let native = fs::read(&files[0]).unwrap();
+    let pixels = native.strip_prefix(b"P6\n640 360\n255\n").expect("a PPM file of 640x360");
+    assert!(page == BASE64_STANDARD.encode(pixels), "{line}: the still differs");
+    assert_eq!(chrome.errors, [""; 0]);
 }
 
 /// S while it plays saves what the copied command line renders, pixel by pixel.
