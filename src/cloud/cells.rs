@@ -318,7 +318,7 @@ fn cast_block<S: Simd>(
     count: usize,
     sum: &mut [[f32; BLOCK]; 5],
 ) {
-    let eye = clouds.view.camera().eye;
+    let (eye, settings) = (clouds.view.camera().eye, clouds.settings.built());
     let one = F::<S>::splat(simd, 1.0);
     let mut i = 0;
     while i * F::<S>::LEN < count {
@@ -330,7 +330,11 @@ fn cast_block<S: Simd>(
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
             // The less nearer clouds let through, the earlier it ends in this one.
-            let opaque = F::<S>::splat(simd, clouds.settings.built().opaque) / transmittance;
+            let mut opaque = F::<S>::splat(simd, settings.opaque) / transmittance;
+            // But not where it has met nothing, lest its company say when.
+            if settings.opaque > settings.hidden {
+                opaque = opaque.min(one);
+            }
             let passage: Passage<S> = seen.meet(simd, eye, d, limit, opaque);
             let ended = passage.end.min(seen.end());
             let sunlit = CloudLight { sun: clouds.light.sun * seen.sunlit, ..clouds.light };
@@ -341,7 +345,7 @@ fn cast_block<S: Simd>(
             transmittance *= passes;
             end = passes.simd_lt(one).select(end.max(ended), end);
             // A ray that is through ends by itself, by a limit of 0: its light must not depend on its vector's others.
-            let ends = transmittance.simd_lt(clouds.settings.built().hidden);
+            let ends = transmittance.simd_lt(settings.hidden);
             if ends.all_true() {
                 break;
             }

@@ -142,12 +142,13 @@ impl SeenCloud {
             let met = march(simd, &self.cloud, eye, d, limit, self.steps, opaque);
             sums = [met.transmittance * self.direct, met.upper * self.direct, met.lit * self.direct];
         }
-        let mut share = 1.0 - self.direct;
         for (imposter, weight) in &self.imposters {
             let [x, y] = imposter.cross(simd, q, d);
             let most = imposter.most();
             let inside = x.min(y).simd_ge(zero) & x.max(y).simd_le(most) & limit.simd_gt(self.distance);
+            // Where a ray passes by an imposter, nothing is hidden; and its sum is the same in any company.
             if !inside.any_true() {
+                sums[0] += *weight;
                 continue;
             }
             let values = imposter.look_up(simd, [x, y]);
@@ -158,10 +159,8 @@ impl SeenCloud {
                 sums[k] += inside.select(values[k] * scale, missed);
                 k += 1;
             }
-            share -= weight;
         }
-        // Where a ray passes by an imposter, nothing is hidden.
-        let transmittance = sums[0] + share;
+        let transmittance = sums[0];
         let end = F::<S>::splat(simd, f32::INFINITY);
         let met = Passage { hidden: -transmittance + 1.0, upper: sums[1], lit: sums[2], transmittance, end };
         let reach = self.cloud.voxels.reach() * self.cloud.size;

@@ -2,6 +2,8 @@
 
 mod budget;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod inlined;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod intro;
 mod layering;
 mod paths;

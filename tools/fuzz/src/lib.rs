@@ -5,6 +5,7 @@
 //! The README beside says which targets there are.
 
 mod authority;
+mod cloud;
 mod command_line;
 mod display;
 mod input;
@@ -52,7 +53,7 @@ use paprsek::{angle, texture};
 pub type Target = fn(&[u8]);
 
 /// The targets by name.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("command_line", command_line::run),
     ("numbers", numbers::run),
     ("server", server::run),
@@ -62,6 +63,7 @@ pub const TARGETS: [(&str, Target); 9] = [
     ("raster", raster::run),
     ("trace", trace::run),
     ("particles", particles::run),
+    ("cloud", cloud::run),
 ];
 
 /// Does with an input what the target of that name does. Panics where there is no such target.

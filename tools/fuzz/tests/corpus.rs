@@ -99,6 +99,11 @@ fn snow_and_fire_of_any_numbers_are_drawn() {
 }
 
 #[test]
+fn clouds_of_any_voxels_are_drawn() {
+    replay("cloud", 400);
+}
+
+#[test]
 fn every_target_has_a_test() {
     let here = fs::read_to_string(root().join("tools/fuzz/tests/corpus.rs")).unwrap();
     for (target, _) in fuzz::TARGETS {

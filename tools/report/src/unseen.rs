@@ -39,7 +39,8 @@ struct Effort {
     instants: u64,
 }
 
-const FULL: Effort = Effort { size: (640, 360), instants: 3 };
+/// The size that the show has unless another is asked for.
+const FULL: Effort = Effort { size: (1280, 720), instants: 3 };
 const QUICK: Effort = Effort { size: (160, 90), instants: 1 };
 
 /// An instant of a scene.

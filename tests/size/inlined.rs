@@ -1,0 +1,26 @@
+//! Lane operations are inlined into the kernels that use them.
+//!
+//! An operation of a level that is chosen while the program runs can only be inlined into code compiled for that level. A
+//! closure that the compiler leaves out of line is not, and then each operation within it is a call: the bytes of frames
+//! stay, at a third of the speed. It happened once, in what lights and clouds look up.
+
+use crate::{cargo, target};
+use std::fs;
+
+/// Part of the name of every operation that is a function of its own.
+const OPERATION: &[u8] = b"__fearless_simd_kernel";
+/// Part of the name of every kernel.
+const KERNEL: &[u8] = b"__FearlessDispatch";
+
+#[test]
+#[ignore = "long: run by .ci/run"]
+fn no_lane_operation_of_the_plain_build_is_a_call() {
+    // The release build with its names, beside it.
+    let profile = ["--config", "profile.symbols.inherits=\"release\"", "--config", "profile.symbols.strip=false"];
+    let built = cargo(&[&["build", "--bin", "paprsek", "--profile", "symbols"], &profile[..]].concat());
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let program = fs::read(target().join("symbols/paprsek")).unwrap();
+    let count = |name: &[u8]| program.windows(name.len()).filter(|bytes| *bytes == name).count();
+    assert!(count(KERNEL) > 0, "the program has no names");
+    assert_eq!(count(OPERATION), 0, "operations are called; `nm -C target/symbols/paprsek` names them");
+}
