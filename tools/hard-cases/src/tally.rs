@@ -30,13 +30,24 @@ pub struct Tally {
     pub failures: u64,
     /// Frames that were tried again because of their time.
     pub suspects: u64,
+    /// Those of them that are spikes at their own size.
+    pub spikes: u64,
     /// The most samples of a frame by those of its neighbours.
     pub worst: f64,
 }
 
 impl Tally {
     pub fn new(first: u64) -> Tally {
-        Tally { start: Instant::now(), next: first, frames: 0, pixels: 0, failures: 0, suspects: 0, worst: 0.0 }
+        Tally {
+            start: Instant::now(),
+            next: first,
+            frames: 0,
+            pixels: 0,
+            failures: 0,
+            suspects: 0,
+            spikes: 0,
+            worst: 0.0,
+        }
     }
 
     /// A request is done.
@@ -57,10 +68,10 @@ impl Tally {
 
     /// Adds a row to the walks that were kept.
     pub fn keep(&self, seed: u64, first: u64) -> Result<(), String> {
-        let Tally { next, frames, pixels, failures, suspects, worst, .. } = self;
+        let Tally { next, frames, pixels, failures, suspects, spikes, worst, .. } = self;
         let last = next - 1;
         let row = format!(
-            "| {seed} | {first} to {last} | {frames} | {pixels} | {worst:.2} | {suspects} | {failures} |\n"
+            "| {seed} | {first} to {last} | {frames} | {pixels} | {worst:.2} | {suspects} | {spikes} | {failures} |\n"
         );
         let file = OpenOptions::new().append(true).create(true).open(WALKS);
         file.and_then(|mut file| file.write_all(row.as_bytes())).map_err(|error| format!("{WALKS}: {error}"))
@@ -69,11 +80,11 @@ impl Tally {
 
 impl Display for Tally {
     fn fmt(&self, f: &mut Formatter) -> std::fmt::Result {
-        let Tally { start, next, frames, pixels, failures, suspects, worst } = self;
+        let Tally { start, next, frames, pixels, failures, suspects, spikes, worst } = self;
         write!(
             f,
             "{frames} frames, {pixels} pixels, {failures} failures; at most {worst:.2} times the samples of the neighbours; \
-             {suspects} suspected by time; {:.0} s; goes on at --first {next}",
+             {suspects} suspected by time, {spikes} of them spikes at their own size; {:.0} s; goes on at --first {next}",
             start.elapsed().as_secs_f64()
         )
     }
