@@ -19,17 +19,20 @@ function trouble(sentence) {
 async function start() {
   const lacks = missing();
   if (lacks) return trouble(lacks);
-  const module = await load(new URL('./paprsek.wasm', import.meta.url));
+  let player;
+  const loading = load(new URL('./paprsek.wasm', import.meta.url));
+  const pool = new Pool(loading, navigator.hardwareConcurrency || 1, () => player?.take(), trouble);
+  const module = await loading;
   const arrived = performance.now();
   const instance = await Instance.of(module);
-  const player = new Player(document.getElementById('picture'), instance);
+  player = new Player(document.getElementById('picture'), instance);
   const controls = new Controls(player);
   player.addEventListener('frame', () => (paprsek.firstFrame = performance.now() - arrived), { once: true });
   // For the console, and for tests.
   globalThis.paprsek = { instance, player, controls };
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) player.go(REST);
   else player.play();
-  player.pool = new Pool(module, navigator.hardwareConcurrency || 1, () => player.take(), trouble);
+  player.pool = pool;
 }
 
 start().catch(error => trouble(`The page cannot start: ${error.message}`));

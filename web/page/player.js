@@ -11,6 +11,8 @@ const BAND = 64;
 // Frames per second that the governor holds, and the most that are rendered, as the program does.
 const HELD = 30;
 const MOST = 60;
+// The first frame's size in eighths of each side, the governor's smallest: a picture is there soon on any machine.
+const FIRST = 3;
 // Frames that are rendered or wait to be shown, per worker.
 const AHEAD = 3;
 // How long a frame that is not wanted any more may hold up the next one, milliseconds.
@@ -258,7 +260,8 @@ export class Player extends EventTarget {
 
   #playingSize() {
     const [width, height] = this.wholeSize;
-    const eighths = this.size === 'auto' ? this.#eighths : 8;
+    const now = this.#shown === undefined ? FIRST : this.#eighths;
+    const eighths = this.size === 'auto' ? now : 8;
     return [Math.max((width * eighths) >> 3, 1), Math.max((height * eighths) >> 3, 1)];
   }
 

@@ -28,7 +28,7 @@ export class Pool {
   #stillborn = 0;
 
   /**
-   * `take` gives the next job or nothing, whenever a worker is free; `failed` hears a sentence when no worker can be
+   * The module is a promise: workers start while it arrives. `take` gives the next job or nothing, whenever a worker is free; `failed` hears a sentence when no worker can be
    * started.
    */
   constructor(module, count, take, failed) {
@@ -64,7 +64,8 @@ export class Pool {
 
   #start(seat = {}) {
     const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
-    Object.assign(seat, { worker, ready: false, job: undefined, since: performance.now() });
+    // Until it has the module nobody waits for it.
+    Object.assign(seat, { worker, ready: false, job: undefined, since: Infinity });
     worker.onmessage = ({ data }) => {
       if (seat.worker === worker) this.#hear(seat, data);
     };
@@ -72,7 +73,13 @@ export class Pool {
       event.preventDefault();
       if (seat.worker === worker) this.#bury(seat, event.message ?? 'a worker died');
     };
-    worker.postMessage({ module: this.#module });
+    const begin = module => {
+      if (seat.worker !== worker) return;
+      seat.since = performance.now();
+      worker.postMessage({ module });
+    };
+    // Whoever loads it says what is wrong if it does not come.
+    this.#module.then(begin, () => {});
     return seat;
   }
 

@@ -183,9 +183,50 @@ impl Chrome {
         }
     }
 
+    /// An event of the mouse with its left button, at a place in CSS pixels: `mousePressed`, `mouseMoved`, `mouseReleased`.
+    pub fn mouse(&mut self, kind: &str, (x, y): (f64, f64)) {
+        let event = json!({ "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1 });
+        self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// An event of one finger, at a place in CSS pixels: `touchStart`, `touchMove`, or `touchEnd`, which has no place.
+    pub fn touch(&mut self, kind: &str, place: Option<(f64, f64)>) {
+        let points: Vec<_> = place.iter().map(|(x, y)| json!({ "x": x, "y": y })).collect();
+        self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+    }
+
     /// Has every page that is opened from now on run a script before its own.
     pub fn before(&mut self, script: &str) {
         self.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
+    }
+
+    /// Processor time that all of the browser's processes have taken so far, seconds: what other programs leave it does not
+    /// count.
+    pub fn work(&self) -> f64 {
+        let mut processes = Vec::new();
+        for entry in std::fs::read_dir("/proc").unwrap().flatten() {
+            // Whatever ends meanwhile is left out.
+            let Ok(text) = std::fs::read_to_string(entry.path().join("stat")) else { continue };
+            // The name, in brackets, may have any character.
+            let (Some(number), Some((_, rest))) =
+                (entry.file_name().to_str().and_then(|name| name.parse().ok()), text.rsplit_once(") "))
+            else {
+                continue;
+            };
+            let fields: Vec<&str> = rest.split(' ').collect();
+            let field = |place: usize| fields[place].parse::<u64>().unwrap();
+            processes.push((number, field(1), field(11) + field(12)));
+        }
+        let mut known: Vec<u64> = vec![self.child.id().into()];
+        let mut at = 0;
+        while at < known.len() {
+            let parent = known[at];
+            known.extend(processes.iter().filter(|process| process.1 == parent).map(|process| process.0));
+            at += 1;
+        }
+        // Linux tells programs of hundredths of a second on every machine.
+        processes.iter().filter(|process| known.contains(&process.0)).map(|process| process.2).sum::<u64>() as f64
+            / 100.0
     }
 
     /// A picture of the page, as a PNG file.

@@ -4,6 +4,10 @@
 mod browser;
 mod bytes;
 mod chrome;
+mod contrast;
+mod hashes;
 mod node;
+mod pointer;
 mod site;
+mod slow;
 mod survival;

@@ -1,0 +1,61 @@
+//! The native frames as the table of kept frames has them, and node's.
+#![allow(dead_code, reason = "the tests and the example each use some of it")]
+
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// How a frame is hashed, a function of JavaScript.
+pub const HASH: &str = include_str!("hash.js");
+/// The native frames: scene, seconds, quality, size, eyes, hash.
+const KEPT: &str = include_str!("../../../../tests/frames/frames.txt");
+/// From row to row of the tests; `cargo run -p page --example hashes` takes each. A scene has 23 rows in turns of four
+/// qualities, so that every scene still has each of them.
+pub const STEP: usize = 3;
+const SCRIPT: &str = include_str!("hashes.mjs");
+
+/// Every `step`th of the kept frames with one eye: what is asked for, and its hash.
+pub fn kept(step: usize) -> Vec<(Value, &'static str)> {
+    let lines = KEPT.lines().filter(|line| line.split(' ').nth(4) == Some("one"));
+    let rows: Vec<_> = lines.step_by(step).map(row).collect();
+    let name = |row: &Value, word: &str| row[word].as_str().unwrap().to_owned();
+    let seen: BTreeSet<_> = rows.iter().map(|(row, _)| (name(row, "name"), name(row, "quality"))).collect();
+    assert!(rows.len() > 100 && seen.len() == 18 * 4, "{} frames, {} scenes and qualities", rows.len(), seen.len());
+    rows
+}
+
+fn row(line: &'static str) -> (Value, &'static str) {
+    let words: Vec<_> = line.split(' ').collect();
+    let [name, time, quality, size, _, hash] = words[..] else { panic!("{line}") };
+    let (width, height) = size.split_once('x').unwrap();
+    let number = |word: &str| word.parse::<f64>().unwrap();
+    let (width, height) = (number(width), number(height));
+    (json!({ "name": name, "time": number(time), "quality": quality, "width": width, "height": height }), hash)
+}
+
+/// The rows whose frames differ in node: whole frames of one instance, which renders scene after scene.
+pub fn differing<'a>(site: &Path, kept: &'a [(Value, &'static str)]) -> Vec<(&'a Value, String)> {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = directory.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let rows: Vec<&Value> = kept.iter().map(|(row, _)| row).collect();
+    let mut node = Command::new("node");
+    node.arg(write("hashes.mjs", SCRIPT));
+    // Node takes this ending for a module.
+    node.arg(write("module.mjs", &fs::read_to_string(site.join("module.js")).unwrap()));
+    node.arg(site.join("paprsek.wasm"));
+    node.arg(write("rows.json", &serde_json::to_string(&rows).unwrap()));
+    node.arg(write("hash.js", HASH));
+    let output = node.output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).unwrap();
+    let hashes: Vec<_> = printed.lines().collect();
+    assert_eq!(hashes.len(), kept.len());
+    let pairs = kept.iter().zip(hashes).filter(|((_, hash), found)| hash != found);
+    pairs.map(|((row, _), found)| (row, found.to_owned())).collect()
+}
