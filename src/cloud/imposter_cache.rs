@@ -19,6 +19,10 @@ use glam::Vec3;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
+/// The least angle, radians, that imposters may be off by: less is asked for by a telescope, whose clouds are looked at from
+/// so near that they would need more imposters than pixels.
+const FINEST: f32 = 1e-6;
+
 /// An eye that is closer than this, in halves of the edge of the cube, sees the cloud itself. Within the share `FADE`
 /// of that distance beyond it the cloud fades into its imposters.
 const CLOSE: f32 = 2.5;
@@ -89,7 +93,8 @@ fn needs(clouds: &mut SeenClouds) -> Vec<Need> {
         let beside = sides.iter().any(|side| side.dot(q) > reach);
         let way = q.length();
         let texels = 2.0 * reach / (way * pixel);
-        if beside || way <= CLOSE || texels < TEXELS[0] {
+        let coarse = settings.imposter * pixel >= FINEST;
+        if beside || way <= CLOSE || texels < TEXELS[0] || !coarse {
             continue;
         }
         seen.direct = 1.0 - ((way / CLOSE - 1.0) / FADE).min(1.0);

@@ -7,6 +7,8 @@ mod case;
 mod cases;
 mod page;
 mod probe;
+mod request;
+mod tally;
 pub mod walk;
 
 pub use case::{Case, Effort, Outcome, Runs};

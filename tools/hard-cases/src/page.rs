@@ -1,6 +1,7 @@
 //! The page of hard cases.
 
 use crate::case::{Outcome, Runs};
+use crate::tally::WALKS;
 use std::fmt::Write;
 
 const HEAD: &str = "\
@@ -16,10 +17,26 @@ twentieth of the inputs, in `.ci/run` and as a test.
 - An error of 0 is one below the last digit of the oracle, or bits that are equal.
 - Keys in brackets are those of [references.md](references.md).
 
-`cargo run --release -p hard-cases -- walk --frames 100000` renders random frames of every scene, at any time, size,
-quality, parameters, eye and level, and fails where light is no finite number before it is encoded, where anything
-panics, or where a frame takes 2.5 times the samples of both its neighbours; with `--times`, of their milliseconds too.
+";
 
+const WALK: &str = "
+## A walk of random frames
+
+`cargo run --release -p hard-cases -- walk --frames 100000 --keep` renders frames of every scene, at any time, size, quality,
+parameters, eye and level, on one thread, and fails
+
+- where light is no finite number before it is encoded, or anything panics;
+- where a frame takes 2.5 times the samples (eye rays and shaded fragments) of both its neighbours, a sixtieth of a second
+  before and behind;
+- where it takes 2.5 times their processor time, at the least of seven rounds at its own size, and again of three rounds at
+  1280x720. Most of the frames have some hundred pixels, so that what is done once for a frame weighs a thousand times as
+  much as it does in the show: a sun that moves has one of the six shapes of clouds lit anew in some frames.
+
+Frames are counted once, and only if they have pixels. The seed and the number of a request decide all of it, so a walk can be
+walked in slices: `--first` says where to go on. Each row was one run, with its code as of then.
+
+| seed | requests | frames | pixels | most samples by the neighbours' | suspected by time | spikes at their own size | failures |
+|--:|---|--:|--:|--:|--:|--:|--:|
 ";
 
 /// The page, of chapters with their outcomes.
@@ -58,6 +75,8 @@ pub fn page(chapters: &[(&str, Vec<Outcome>)], levels: &[&str]) -> String {
             .unwrap();
         }
     }
+    page += WALK;
+    page += &std::fs::read_to_string(WALKS).unwrap_or_default();
     page
 }
 

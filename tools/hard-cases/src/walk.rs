@@ -2,154 +2,55 @@
 //! finite number before it is encoded, nothing may panic, and no frame may be far more work than its neighbours. Times that
 //! are not finite may have light that is none.
 //!
-//! Work is eye rays and shaded fragments, which are counted and the same in every run. With `--times` it is milliseconds
-//! too: of three frames a sixtieth of a second apart, drawn one after the other by a renderer that has drawn one before
-//! them, the middle one is suspected where it takes 2.5 times either neighbour, and found guilty where the least of seven
-//! more rounds says so again.
+//! A request is drawn at four times, a sixtieth of a second apart, by a renderer of one thread: first a frame that fills
+//! what is kept from frame to frame, then a frame and its two neighbours. Work is eye rays and shaded fragments, which are
+//! counted and the same in every run, and processor time, which other programs disturb. So a frame that takes 2.5 times the
+//! time of either neighbour is only suspected. It is cleared where the least of seven more rounds does not say so again, and
+//! where the least of three rounds at the size of the show does not: what is done once for a frame of a few pixels, such as
+//! lighting one of the six shapes of clouds anew, is a small part of a frame that is shown.
 
 use crate::probe::{Probe, Seen};
-use paprsek::frame::{Frame, FrameSpec, Parameter, Renderer};
-use paprsek::scenes;
-use paprsek::settings::{CloudSettings, ParticleSettings, Quality, RasterSettings, SkySettings, TraceSettings};
-use paprsek::view::Eye;
-use paprsek::{Scene, frame::Values};
+use crate::request::{Request, request};
+use crate::tally::{FEW, SHORT, Tally, spike};
+use cpu_time::ProcessTime;
+use paprsek::frame::{Frame, FrameSpec, Renderer, Values};
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
 use testkit::levels;
-use testkit::random::Random;
 
 /// What is walked.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Frames to render.
+    /// Frames to render, none of which has been rendered before in this walk or in one of the same seed that ended where
+    /// this one begins.
     #[arg(long, default_value_t = 300)]
     pub frames: u64,
     /// Another seed is another walk.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Whether times are compared too, on a machine that does nothing else.
+    /// The request to begin with: where a walk before ended, as it says.
+    #[arg(long, default_value_t = 0)]
+    pub first: u64,
+    /// Adds a line to the walks that docs/hard-cases.md shows.
     #[arg(long)]
-    pub times: bool,
+    pub keep: bool,
 }
 
-/// How much more work than either neighbour a frame may be.
-const SPIKE: f64 = 2.5;
-/// Samples, and milliseconds, below which a frame is no spike.
-const FEW: f64 = 200.0;
-const SHORT: f64 = 0.5;
 /// Seconds between neighbours.
 const STEP: f64 = 1.0 / 60.0;
+/// The frames of a request, in steps from its time; the third is held against the second and the fourth.
+const STEPS: [f64; 4] = [-2.0, -1.0, 0.0, 1.0];
+/// Rounds that may clear a suspect, at its own size and at that of the show.
+const ROUNDS: [usize; 2] = [7, 3];
+const SHOWN: (usize, usize) = (1280, 720);
 
 /// The request that is being rendered, for the message of a panic.
 static CURRENT: Mutex<String> = Mutex::new(String::new());
 
-/// What may be asked of a renderer.
-struct Request {
-    scene: Scene,
-    time: f64,
-    size: (usize, usize),
-    quality: Quality,
-    values: Vec<(&'static str, f64)>,
-    eye: Eye,
-    level: usize,
-}
-
-impl Request {
-    fn text(&self) -> String {
-        let Request { scene, time, size, quality, values, eye, level } = self;
-        format!("{} at {time:e} s, {size:?}, {quality:?}, {values:?}, {eye:?}, {}", scene.name, levels()[*level].0)
-    }
-}
-
-fn pick<T: Copy>(random: &mut Random, all: &[T]) -> T {
-    all[(random.unit() * all.len() as f64) as usize]
-}
-
-/// A number from 0 to 1 by orders of magnitude, and sometimes one of its ends.
-fn share(random: &mut Random) -> f32 {
-    if random.unit() < 0.3 { pick(random, &[0.0, 1.0]) } else { random.log(1e-4, 1.0) as f32 }
-}
-
-/// Settings with every field anywhere within what it may be.
-fn any_quality(random: &mut Random) -> Quality {
-    let cells = [1usize, 2, 4, 8, 16];
-    Quality {
-        trace: TraceSettings {
-            cell: pick(random, &cells),
-            threshold: share(random),
-            min_weight: share(random),
-            min_detail: share(random),
-            antialias: random.unit() < 0.5,
-            contrast: share(random),
-            grid: 1,
-            light_samples: [pick(random, &[1, 4, 16, 64]), pick(random, &[1, 4, 16])],
-        },
-        raster: RasterSettings {
-            coverage: pick(random, &cells),
-            shadow_map: pick(random, &[0, 64, 192, 256, 1024]),
-            grid: 1,
-        },
-        cloud: CloudSettings {
-            steps: random.log(1.0, 800.0) as u32,
-            detail: if random.unit() < 0.2 { f32::INFINITY } else { random.log(0.01, 4.0) as f32 },
-            opaque: share(random).min(0.9),
-            hidden: share(random).min(0.9),
-            cell: pick(random, &cells),
-            threshold: share(random),
-            grid: 1,
-            imposter: pick(random, &[0.0, 0.0, 0.5, 1.0, 4.0]),
-        },
-        particles: ParticleSettings {
-            detail: if random.unit() < 0.3 { f32::INFINITY } else { random.log(1e-4, 1.0) as f32 },
-        },
-        sky: SkySettings {
-            steps: random.log(1.0, 100.0) as u32,
-            cell: if random.unit() < 0.3 { 0.0 } else { random.log(1e-3, 1.0) as f32 },
-            grid: 1,
-        },
-    }
-}
-
-fn value(random: &mut Random, parameter: &Parameter) -> f64 {
-    let (low, high) = parameter.range;
-    match (random.unit() * 6.0) as u32 {
-        0 => low,
-        1 => high,
-        _ => random.range(low, high),
-    }
-}
-
-fn request(random: &mut Random) -> Request {
-    let scene = pick(random, scenes::all());
-    let special = [0.0, -0.0, -1.0, -1e9, 1e9, 86_400.0, 1e-300, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-    let time = if random.unit() < 0.1 { pick(random, &special) } else { random.range(0.0, scene.duration) };
-    let size = match (random.unit() * 20.0) as u32 {
-        0 => pick(random, &[(0, 9), (9, 0), (0, 0), (1, 200), (1, 65)]),
-        1 => (random.log(1.0, 200.0) as usize, 1),
-        2 => (random.range(60.0, 70.0) as usize, random.range(60.0, 70.0) as usize),
-        3 => (random.log(60.0, 320.0) as usize, random.log(40.0, 180.0) as usize),
-        _ => (random.log(1.0, 48.0) as usize, random.log(1.0, 32.0) as usize),
-    };
-    let quality = match (random.unit() * 8.0) as u32 {
-        0 => Quality::FAST,
-        1 | 2 => Quality::DEFAULT,
-        3 => Quality::EXACT,
-        4 if size.0 * size.1 < 100 => Quality::REFERENCE,
-        _ => any_quality(random),
-    };
-    let set = random.unit() < 0.6;
-    let values = scene.parameters.iter().filter(|_| set).map(|p| (p.name, value(random, p))).collect();
-    let eye = if random.unit() < 0.2 {
-        Eye { offset: random.range(-0.1, 0.1) as f32, convergence: random.log(0.1, 100.0) as f32 }
-    } else {
-        Eye::MIDDLE
-    };
-    let level = (random.unit() * levels().len() as f64) as usize;
-    Request { scene, time, size, quality, values, eye, level }
-}
-
-/// What drawing a frame took: samples, milliseconds, and pixels that are no light.
+/// What drawing a frame took: samples, milliseconds of the processor, and pixels that are no light.
+#[derive(Clone, Copy)]
 struct Drawn {
     samples: f64,
     milliseconds: f64,
@@ -161,7 +62,7 @@ fn draw(renderer: &mut Renderer, request: &Request, time: f64) -> Drawn {
     let values: Values = &request.values;
     let seen = Arc::new(Seen::default());
     let mut frame = Frame::new(width, height);
-    let start = Instant::now();
+    let start = ProcessTime::now();
     let mut picture = {
         let spec = renderer.spec(time, &request.quality, request.size);
         (request.scene.picture)(&FrameSpec { eye: request.eye, values, ..spec })
@@ -174,9 +75,42 @@ fn draw(renderer: &mut Renderer, request: &Request, time: f64) -> Drawn {
     Drawn { samples: stats.samples as f64, milliseconds, bad: seen.bad.load(Ordering::Relaxed) + missed }
 }
 
-/// Whether the middle one of three is a spike.
-fn spike(three: [f64; 3], least: f64) -> bool {
-    three[1] > least && three[1] > SPIKE * three[0] && three[1] > SPIKE * three[2]
+/// The instants of a request, each once.
+fn times(request: &Request) -> [f64; 4] {
+    STEPS.map(|steps| request.time + steps * STEP)
+}
+
+/// Frames that have been seen, by hashes of what was asked for.
+#[derive(Default)]
+struct Known(HashSet<u64>);
+
+impl Known {
+    /// How many of a request's frames are new. Frames of no pixels, and of times that are none, are not.
+    fn add(&mut self, request: &Request) -> u64 {
+        if request.size.0 * request.size.1 == 0 || !request.time.is_finite() {
+            return 0;
+        }
+        let mut hasher = DefaultHasher::new();
+        Request { time: 0.0, ..request.clone() }.text().hash(&mut hasher);
+        let new = times(request).map(|time| {
+            let mut hasher = hasher.clone();
+            time.to_bits().hash(&mut hasher);
+            u64::from(self.0.insert(hasher.finish()))
+        });
+        new.iter().sum()
+    }
+}
+
+/// What a suspect's third frame and its neighbours take at the least of some rounds, milliseconds.
+fn least(renderer: &mut Renderer, request: &Request, rounds: usize) -> [f64; 3] {
+    let mut least = [f64::INFINITY; 4];
+    for _ in 0..rounds {
+        for (least, time) in least.iter_mut().zip(times(request)) {
+            *least = least.min(draw(renderer, request, time).milliseconds);
+        }
+    }
+    let [_, three @ ..] = least;
+    three
 }
 
 /// Walks, and says whether all went well.
@@ -188,69 +122,80 @@ pub fn walk(options: &Options) -> bool {
         }
         before(info);
     }));
-    let mut random = Random(options.seed);
-    let mut renderers: Vec<Renderer> = Vec::new();
-    for (_, level) in levels() {
-        match Renderer::new(1) {
-            Ok(renderer) => renderers.push(renderer.at_level(level)),
-            Err(error) => {
-                eprintln!("{error}");
-                return false;
-            }
+    let tally = try_walk(options).and_then(|tally| {
+        println!("{tally}");
+        if options.keep { tally.keep(options.seed, options.first).map(|()| tally) } else { Ok(tally) }
+    });
+    // The hook as it was before anyone's.
+    drop(std::panic::take_hook());
+    match tally {
+        Ok(tally) => tally.failures == 0,
+        Err(error) => {
+            eprintln!("{error}");
+            false
         }
     }
-    let (mut frames, mut pixels, mut failures, mut suspects) = (0u64, 0u64, 0u64, 0u64);
-    let mut worst = 0.0f64;
-    let start = Instant::now();
-    while frames < options.frames {
-        let request = request(&mut random);
+}
+
+fn try_walk(options: &Options) -> Result<Tally, String> {
+    let mut renderers: Vec<Renderer> = Vec::new();
+    for (_, level) in levels() {
+        renderers.push(Renderer::new(1)?.at_level(level));
+    }
+    let mut known = Known::default();
+    for number in 0..options.first {
+        known.add(&request(options.seed, number));
+    }
+    let mut tally = Tally::new(options.first);
+    while tally.frames < options.frames {
+        let request = request(options.seed, tally.next);
         if let Ok(mut current) = CURRENT.lock() {
             *current = request.text();
         }
         let renderer = &mut renderers[request.level];
-        let times = [-STEP, 0.0, STEP].map(|step| request.time + step);
-        if options.times {
-            draw(renderer, &request, times[0] - STEP);
-        }
-        let three = times.map(|time| draw(renderer, &request, time));
-        frames += 3;
-        if frames.is_multiple_of(3000) {
-            println!("{frames} frames, {failures} failures, {:.0} s", start.elapsed().as_secs_f64());
-        }
-        pixels += 3 * (request.size.0 * request.size.1) as u64;
-        let bad: u64 = three.iter().map(|drawn| drawn.bad).sum();
+        let [first, three @ ..] = times(&request).map(|time| draw(renderer, &request, time));
+        let bad = first.bad + three.iter().map(|drawn| drawn.bad).sum::<u64>();
         // At no time there is a picture of some bytes, which no light is behind.
         if bad > 0 && request.time.is_finite() {
-            failures += 1;
-            println!("{bad} pixels are no light: {}", request.text());
+            tally.fail(&format!("{bad} pixels are no light: {}", request.text()));
         }
-        let samples = [0, 1, 2].map(|k| three[k].samples);
-        worst = worst.max(if samples[1] > FEW { samples[1] / samples[0].max(samples[2]).max(1.0) } else { 0.0 });
+        let samples = three.map(|drawn| drawn.samples);
+        if samples[1] > FEW {
+            tally.worst = tally.worst.max(samples[1] / samples[0].max(samples[2]).max(1.0));
+        }
         if spike(samples, FEW) {
-            failures += 1;
-            println!("samples {samples:?}: {}", request.text());
+            tally.fail(&format!("samples {samples:?}: {}", request.text()));
         }
-        if options.times && spike([0, 1, 2].map(|k| three[k].milliseconds), SHORT) {
-            suspects += 1;
-            let mut least = [f64::INFINITY; 3];
-            for _ in 0..7 {
-                for (least, time) in least.iter_mut().zip(times) {
-                    *least = least.min(draw(renderer, &request, time).milliseconds);
+        if spike(three.map(|drawn| drawn.milliseconds), SHORT) {
+            tally.suspects += 1;
+            if spike(least(renderer, &request, ROUNDS[0]), SHORT) {
+                tally.spikes += 1;
+                let shown = Request { size: SHOWN, ..request.clone() };
+                let least = least(renderer, &shown, ROUNDS[1]);
+                if spike(least, SHORT) {
+                    tally.fail(&format!("milliseconds {least:.2?}: {}", shown.text()));
                 }
             }
-            if spike(least, SHORT) {
-                failures += 1;
-                println!("milliseconds {least:.2?}: {}", request.text());
-            }
         }
+        tally.add(known.add(&request), 4 * (request.size.0 * request.size.1) as u64);
     }
-    println!(
-        "{frames} frames, {pixels} pixels, seed {}, {:.0} s: {failures} failures; at most {worst:.2} times the samples of the \
-         neighbours; {suspects} suspected by time",
-        options.seed,
-        start.elapsed().as_secs_f64()
-    );
-    // The hook as it was before anyone's.
-    drop(std::panic::take_hook());
-    failures == 0
+    Ok(tally)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slices_of_a_walk_are_the_walk() {
+        let (mut whole, mut second) = (Known::default(), Known::default());
+        let all: u64 = (0..600).map(|number| whole.add(&request(7, number))).sum();
+        let one: u64 = (0..300).map(|number| second.add(&request(7, number))).sum();
+        let two: u64 = (300..600).map(|number| second.add(&request(7, number))).sum();
+        assert_eq!(one + two, all);
+        // Some have no pixels or no time.
+        assert!((2000..2400).contains(&all), "{all} frames");
+        assert_eq!((0..600).map(|number| second.add(&request(7, number))).sum::<u64>(), 0);
+        assert!((0..600).map(|number| second.add(&request(8, number))).sum::<u64>() > 2000);
+    }
 }

@@ -25,5 +25,5 @@ fn the_page_has_every_case() {
 
 #[test]
 fn a_short_walk_stays_finite() {
-    assert!(walk::walk(&walk::Options { frames: 40, seed: 1, times: false }));
+    assert!(walk::walk(&walk::Options { frames: 40, seed: 1, first: 0, keep: false }));
 }

@@ -219,7 +219,6 @@ type Family = (&'static str, Vec<(String, Bias, bool)>);
 
 /// Kinds of bias. Constants are in metres, the others in texels.
 fn families() -> Vec<Family> {
-    let bias = |constant, slope, normal| Bias { constant, slope, normal };
     let row = |of: fn(f32) -> Bias, back: bool, values: &[f32]| {
         values.iter().map(|&value| (value.to_string(), of(value), back)).collect::<Vec<_>>()
     };
@@ -240,7 +239,7 @@ fn families() -> Vec<Family> {
             "back faces, slope",
             row(|s| Bias { constant: 0.0, slope: s, normal: 0.0 }, true, &[-1.0, -0.5, 0.0, 0.5, 1.0]),
         ),
-        ("default", vec![("0.02, 1, 1".into(), bias(0.02, 1.0, 1.0), false)]),
+        ("default", vec![("0.02, 2, 0".into(), Bias::SHOW, false)]),
     ]
 }
 

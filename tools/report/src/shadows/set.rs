@@ -65,8 +65,8 @@ pub fn both(size: (usize, usize)) -> [Set; 2] {
         camera,
         size,
         range: (10.0, 6000.0),
-        ends: &[40.0, 160.0, 900.0, 6000.0],
-        bias: Bias { constant: 0.02, slope: 1.0, normal: 1.0 },
+        ends: &[24.0, 80.0, 500.0, 6000.0],
+        bias: Bias::SHOW,
         smooth: true,
     };
     [bench, day]
