@@ -75,6 +75,8 @@ pub mod scenes;
 pub mod settings;
 pub mod simd;
 pub mod sky;
+#[cfg(feature = "full")]
+pub mod sound;
 pub mod texture;
 pub mod timeline;
 pub mod trace;
