@@ -56,6 +56,7 @@
 //! | [`settings`] | speed against error: [`Quality`] and its five parts |
 //! | [`view`], [`angle`], [`texture`], [`noise`], [`timeline`] | cameras, turns, solid textures, Perlin's noise, keyframes |
 //! | [`simd`] | lanes, blocks, elementary functions, hashes |
+//! | [`sound`] | music and noise in closed form |
 //! | [`scenes`] | the show, and scenes to measure with |
 //!
 //! Each renderer's layer can be used alone, as in `examples/`; layers of several make a picture together. Imports run down
@@ -75,7 +76,6 @@ pub mod scenes;
 pub mod settings;
 pub mod simd;
 pub mod sky;
-#[cfg(feature = "full")]
 pub mod sound;
 pub mod texture;
 pub mod timeline;

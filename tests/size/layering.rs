@@ -14,7 +14,7 @@ const FLOORS: [&[&str]; 6] = [
     &["simd", "angle", "timeline", "settings", "cuts"],
     &["view", "noise", "texture"],
     &["frame"],
-    &["trace", "raster", "cloud", "particles", "sky", "effects"],
+    &["trace", "raster", "cloud", "particles", "sky", "effects", "sound"],
     &["scenes"],
     &["bin"],
 ];

@@ -1,0 +1,106 @@
+//! A note, and its samples in a block.
+
+use super::voice::Voice;
+use super::{Block, RATE};
+use crate::simd::block::{BLOCK, load, store};
+use crate::simd::hash::{STEP, wide};
+use crate::simd::lanes::{F, STEPS, U, float};
+use crate::simd::math::{sin, smooth};
+use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
+use std::f32::consts::PI;
+
+/// The blocks of a second.
+const BLOCKS: f32 = RATE as f32 / BLOCK as f32;
+/// The unit of what moves a phase, as a part of a turn: phases themselves are in units of 2^-32 turns.
+const FINE: f32 = 16_777_216.0;
+const FINE_BITS: u32 = 8;
+/// A unit of phase, radians.
+const RADIANS: f32 = PI / 2_147_483_648.0;
+
+/// A note: what is played, when, and where it is heard.
+#[derive(Clone, Copy, Debug)]
+pub struct Note {
+    /// The block that it starts with.
+    pub start: u64,
+    /// How long it is held, seconds.
+    pub held: f32,
+    /// Its frequency, hertz.
+    pub pitch: f32,
+    /// Its amplitude for the left and the right ear.
+    pub gain: [f32; 2],
+    /// How it sounds.
+    pub voice: &'static Voice,
+}
+
+impl Note {
+    /// A note that starts after `start` seconds, to the nearest block: at most 0.73 ms beside it.
+    pub fn new(start: f32, held: f32, pitch: f32, gain: [f32; 2], voice: &'static Voice) -> Note {
+        Note { start: (start * BLOCKS + 0.5) as u64, held, pitch, gain, voice }
+    }
+
+    /// The first block after it.
+    pub fn end(&self) -> u64 {
+        self.start + ((self.held + self.voice.release) * BLOCKS) as u64 + 1
+    }
+}
+
+/// Phase per sample of a frequency in hertz.
+fn step(pitch: f32) -> u32 {
+    // Modulo 2^32, as phases are.
+    (f64::from(pitch) * (4_294_967_296.0 / f64::from(RATE))) as u64 as u32
+}
+
+/// Adds block `number` of a note to both ears, and to what goes to the room.
+#[simd]
+pub(super) fn add<S: Simd>(simd: S, note: &Note, number: u64, ears: &mut [Block; 2], sent: &mut Block) {
+    let Note { voice, held, pitch, gain, .. } = *note;
+    let from = (number - note.start) as u32;
+    // What is at the block's ends, from the number of its first sample on.
+    let ends = [from, from + 1].map(|block| voice.at(block as f32 / BLOCKS, held));
+    let numbers = U::<S>::from_slice(simd, &STEPS[..F::<S>::LEN]);
+    for i in 0..BLOCK / F::<S>::LEN {
+        let within = numbers + (i * F::<S>::LEN) as u32;
+        let n = within + from * BLOCK as u32;
+        let x = float(simd, within) * (1.0 / BLOCK as f32);
+        let [level, index, ahead] = [0, 1, 2].map(|k| x * (ends[1][k] - ends[0][k]) + ends[0][k]);
+        let mut tone = F::<S>::splat(simd, 0.0);
+        let rough = if voice.noise > 0.0 { roughness(simd, note, from, within) * level } else { level };
+        for ear in 0..2 {
+            if ear == 0 || voice.detune != 0.0 {
+                let pitch = pitch * (1.0 + if ear == 0 { voice.detune } else { -voice.detune });
+                let modulator = n * U::<S>::splat(simd, step(pitch * voice.ratio));
+                let swing = (sin(simd, float(simd, modulator) * RADIANS) * index + ahead) * FINE;
+                let swing = swing.to_int::<S::i32s>().bitcast::<U<S>>() << FINE_BITS;
+                let phase = n * U::<S>::splat(simd, step(pitch)) + swing;
+                tone = sin(simd, float(simd, phase) * RADIANS) * rough;
+            }
+            let sound = tone * gain[ear];
+            store(load::<_, F<S>>(simd, &ears[ear], i) + sound, &mut ears[ear], i);
+            store(load::<_, F<S>>(simd, sent, i) + sound * voice.room, sent, i);
+        }
+    }
+}
+
+/// What noise multiplies samples `within` block `from` of a note by.
+#[inline(always)]
+fn roughness<S: Simd>(simd: S, note: &Note, from: u32, within: U<S>) -> F<S> {
+    let voice = note.voice;
+    // Noises of notes that start at different times differ.
+    let seed = note.start as u32 & 127;
+    let noise = wander(simd, seed, from, within, voice.colour) * 2.0 - 1.0;
+    let gusts = (wander(simd, seed + 128, from, within, voice.gusts) - 1.0) * voice.gustiness + 1.0;
+    noise * gusts.max(F::<S>::splat(simd, 0.0)) * voice.noise + (1.0 - voice.noise)
+}
+
+/// Random numbers from 0 to 1, `rate` per second, with a smooth way from one to the next.
+#[inline(always)]
+fn wander<S: Simd>(simd: S, seed: u32, from: u32, within: U<S>, rate: f32) -> F<S> {
+    // Numbers per sample, and those before the block, in units of 2^-24.
+    let step = step(rate) >> 8;
+    let before = u64::from(from) * BLOCK as u64 * u64::from(step);
+    let place = within * U::<S>::splat(simd, step) + (before as u32 & 0xff_ffff);
+    let number = (place >> 24) + (before >> 24) as u32;
+    let [a, b] = [0, 1].map(|k| float(simd, wide(simd, seed, number + k, 0)) * STEP);
+    a + (b - a) * smooth(simd, float(simd, place & 0xff_ffff) * STEP)
+}
