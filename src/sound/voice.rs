@@ -1,5 +1,7 @@
 //! What a note sounds like.
 
+use std::f32::consts::LN_2;
+
 /// An instrument, after Chowning `[Chowning73]`: a sine whose phase is moved by another, times noise. The rows of a score begin with [`Voice::SINE`].
 #[derive(Clone, Copy, Debug)]
 pub struct Voice {
@@ -72,9 +74,8 @@ pub(super) fn exp2(x: f32) -> f32 {
     // Towards 0, so that the fraction is of the sign of `x`.
     let whole = x as i32;
     let f = x - whole as f32;
-    let fraction = 1.0
-        + f * (0.693_147_2
-            + f * (0.240_226_5 + f * (0.055_504_1 + f * (0.009_618_1 + f * (0.001_333_6 + f * 1.5e-4)))));
+    let fraction =
+        1.0 + f * (LN_2 + f * (0.240_226_5 + f * (0.055_504_1 + f * (0.009_618_1 + f * (0.001_333_6 + f * 1.5e-4)))));
     fraction * f32::from_bits(((whole + 127) << 23) as u32)
 }
 
