@@ -5,11 +5,11 @@
 //! amplitudes and modulation are computed at a block's ends and run along lines between them, phases are whole numbers
 //! and exact. So no sample depends on where one starts to listen.
 //!
-//! Echo and room are sums of what sounded before ([`room`]), not recursions: what a sample takes of them is evaluated
+//! Echo and room are sums of what sounded before (`room.rs`), not recursions: what a sample takes of them is evaluated
 //! anew after a jump, and kept while one listens on.
 
 mod note;
-pub mod room;
+mod room;
 mod voice;
 
 pub use crate::simd::block::BLOCK;

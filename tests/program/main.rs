@@ -9,6 +9,8 @@ mod display;
 mod fake;
 #[cfg(feature = "full")]
 mod parameters;
+#[cfg(all(target_os = "linux", feature = "full"))]
+mod sound;
 #[cfg(all(target_os = "linux", feature = "terminal"))]
 mod terminal;
 #[cfg(target_os = "linux")]

@@ -18,11 +18,11 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const AT_ONCE: Duration = Duration::from_secs(1);
 
 /// A virtual display; it ends with the test.
-struct Display(Child, String);
+pub struct Display(Child, pub String);
 
 impl Display {
     /// `None` where the machine lacks what it takes.
-    fn open() -> Option<Display> {
+    pub fn open() -> Option<Display> {
         Display::of("640x480x24")
     }
 
@@ -75,7 +75,7 @@ impl Display {
         output.unwrap().stdout
     }
 
-    fn xdotool(&self, words: &[&str]) -> String {
+    pub fn xdotool(&self, words: &[&str]) -> String {
         let output = Command::new("xdotool").args(words).env("DISPLAY", &self.1).output().unwrap();
         assert!(output.status.success(), "xdotool {words:?}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap().trim().to_owned()

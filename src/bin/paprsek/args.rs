@@ -16,6 +16,8 @@ use paprsek::frame::knobs::Knob;
 use paprsek::frame::pool::cores;
 use paprsek::frame::{Options, Scene, Values};
 use paprsek::scenes;
+#[cfg(feature = "full")]
+use paprsek::scenes::show::intro::INTRO;
 use paprsek::settings::Quality;
 #[cfg(feature = "full")]
 use paprsek::simd::level;
@@ -66,6 +68,8 @@ pub const HELP: &str = help!(
   --set NAME=VALUE            set a parameter of SCENE, its camera or a setting; may be given several times
   --simd LEVEL                avx512, avx2, sse4.2, sse2, as this machine has them; default: the best
   --pixel X,Y                 tell how this pixel of the frame --at SECONDS comes to be; 0,0 is the top left one
+  --sound FILE                write the intro's sound as a WAV file, beside a capture or alone
+  --no-sound                  play in silence
 "
 );
 /// The help of the 64 kB build, which plays and captures only.
@@ -73,10 +77,10 @@ pub const HELP: &str = help!(
 pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "", "");
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
-/// The number of options where none is left out, but for `--pixel`.
+/// The number of options where none is left out, but for `--pixel` and what follows it.
 const ALL_OPTIONS: usize = 20;
 /// The number of options in [`HELP`].
-const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 1 } else { 10 };
+const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 3 } else { 10 };
 
 // The places of options with a value in [`HELP`].
 const AT: usize = 0;
@@ -94,6 +98,10 @@ const SET: usize = 18;
 const SIMD: usize = 19;
 #[cfg(feature = "full")]
 const PIXEL: usize = 20;
+#[cfg(feature = "full")]
+const SOUND: usize = 21;
+#[cfg(feature = "full")]
+const NO_SOUND: usize = 22;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -143,6 +151,9 @@ pub enum Mode {
     },
     /// Writes PPM files into this directory, or a stream of them to stdout where it is `-`.
     Capture(&'static [u8]),
+    /// Writes the sound of the intro into this file.
+    #[cfg(feature = "full")]
+    Sound(&'static [u8]),
     /// Prints a text.
     Print(&'static str),
     /// Lists the scenes.
@@ -178,6 +189,12 @@ pub struct Args {
     pub fps: f64,
     /// Whether the window fills the screen.
     pub fullscreen: bool,
+    /// The file for the sound of a capture.
+    #[cfg(feature = "full")]
+    pub sound: Option<&'static [u8]>,
+    /// Whether to play in silence.
+    #[cfg(feature = "full")]
+    silent: bool,
     /// Quality, eyes and parameters.
     pub options: Options<'static>,
     /// The SIMD level of the kernels.
@@ -285,6 +302,8 @@ impl Args {
             _ if values[PIXEL].is_some() => Mode::Pixel(pixel_of(values[PIXEL], size).ok_or_else(|| refused(PIXEL))?),
             Some(target) => Mode::Capture(target),
             #[cfg(feature = "full")]
+            None if values[SOUND].is_some() => Mode::Sound(values[SOUND].unwrap_or_default()),
+            #[cfg(feature = "full")]
             None if bench => Mode::Bench { json },
             None => Mode::Play,
         };
@@ -308,6 +327,10 @@ impl Args {
             still,
             fps,
             fullscreen,
+            #[cfg(feature = "full")]
+            sound: values[SOUND],
+            #[cfg(feature = "full")]
+            silent: values[NO_SOUND].is_some(),
             options: Options { quality, stereo, values: changes },
             #[cfg(feature = "full")]
             level: simd_level(values[SIMD]).ok_or_else(|| refused(SIMD))?,
@@ -329,6 +352,10 @@ impl Args {
         if two && size.0 < 2 {
             return Err(b"--stereo needs a width of at least 2".to_vec());
         }
+        #[cfg(feature = "full")]
+        if args.sound.is_some() && (at || bench || !args.is_show()) {
+            return Err(b"--sound is of the intro as it plays: it excludes SCENE, --at and --bench".to_vec());
+        }
         if bench && capture {
             return Err(b"--bench excludes --capture".to_vec());
         }
@@ -342,6 +369,18 @@ impl Args {
             Some(clash) => Err(line(CLASHES, clash).to_vec()),
             None => Ok(args),
         }
+    }
+
+    /// Whether the scene is the show, which alone has sound.
+    #[cfg(feature = "full")]
+    fn is_show(&self) -> bool {
+        self.scene().name == INTRO.name
+    }
+
+    /// Whether sound is to be heard.
+    #[cfg(all(unix, feature = "full"))]
+    pub fn sounds(&self) -> bool {
+        self.is_show() && !self.still && !self.silent
     }
 
     /// Where the range to show of a scene ends, seconds.

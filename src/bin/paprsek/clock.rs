@@ -8,6 +8,12 @@ use std::time::Instant;
 
 /// How far an arrow key moves, seconds.
 pub const SEEK: f64 = 5.0;
+/// How far what is heard may be from the clock for it to follow, seconds.
+#[cfg(all(unix, feature = "full"))]
+const FAR: f64 = 0.2;
+/// The share of that by which it comes nearer each time: answers of the server jitter by some milliseconds.
+#[cfg(all(unix, feature = "full"))]
+const NEARER: f64 = 0.1;
 /// Shortest duration of a loop, seconds.
 const SHORTEST: f64 = 1e-3;
 
@@ -66,6 +72,18 @@ impl Clock {
     pub fn toggle(&mut self) {
         self.base = self.now().unwrap_or(self.base);
         self.since = if self.since.is_none() { Some(Instant::now()) } else { None };
+    }
+
+    /// Follows what is heard: comes a little nearer to `heard`, the time of the show that sounds now, in seconds. Where
+    /// that is far away the sound is still to jump, and nothing happens.
+    #[cfg(all(unix, feature = "full"))]
+    pub fn follow(&mut self, heard: f64) {
+        if let (Some(_), Some(now)) = (self.since, self.now()) {
+            let apart = heard - now;
+            if apart.abs() < FAR {
+                self.base += apart * NEARER;
+            }
+        }
     }
 
     /// Whether time stands still.

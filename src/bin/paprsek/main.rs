@@ -17,6 +17,8 @@ mod pixel;
 mod play;
 #[cfg(feature = "minifb")]
 mod raw;
+#[cfg(feature = "full")]
+mod sound;
 #[cfg(all(unix, feature = "terminal"))]
 mod terminal;
 mod text;
@@ -51,8 +53,15 @@ fn run(args: &'static Args) -> Result<(), Vec<u8>> {
         Mode::Play => play(args),
         #[cfg(feature = "full")]
         Mode::Bench { json } => bench::run(args, *json),
-        Mode::Capture(target) if !cfg!(without = "capture") => capture::run(args, target),
+        Mode::Capture(target) if !cfg!(without = "capture") => {
+            // Sound first: it takes a second, and a name that will not do is told before the frames are there.
+            #[cfg(feature = "full")]
+            args.sound.map_or(Ok(()), |file| sound::save(args, file))?;
+            capture::run(args, target)
+        }
         Mode::Capture(_) => Ok(()),
+        #[cfg(feature = "full")]
+        Mode::Sound(file) => sound::save(args, file),
         Mode::Print(text) => print(text.as_bytes()),
         Mode::List if cuts::SCENES => list(),
         Mode::List => Ok(()),

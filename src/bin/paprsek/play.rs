@@ -9,6 +9,8 @@ use crate::capture;
 use crate::clock::{Clock, SEEK};
 use crate::governor::{EIGHTHS, Governor, WHOLE};
 use crate::io::complain;
+#[cfg(all(unix, feature = "full"))]
+use crate::sound;
 #[cfg(all(unix, feature = "minifb"))]
 use crate::window;
 use crate::window::{Window, keysym};
@@ -66,6 +68,18 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
         shared.ended = Some(ended);
     };
     pool::start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
+    #[cfg(all(unix, feature = "full"))]
+    if args.sounds() {
+        let clock = move |heard: Option<f64>| {
+            let clock = &mut lock(shared).clock;
+            if let Some(heard) = heard {
+                clock.follow(heard);
+            }
+            (clock.now(), clock.rests())
+        };
+        // Without a thread for it the show is silent.
+        pool::start(Box::leak(Box::new(move || sound::play(&clock))));
+    }
     if args.fullscreen && !cfg!(without = "fullscreen") {
         window.toggle_fullscreen();
     }

@@ -45,6 +45,7 @@ pub fn run(bytes: &[u8]) {
             assert!(frames.end <= 1_000_000 && (!args.still || frames == (0..1)), "{frames:?}");
         }
         Mode::Print(text) => assert!(text.ends_with('\n')),
+        Mode::Sound(file) => assert!(!file.is_empty() && !args.still),
         Mode::Pixel((x, y)) => assert!(x < width && y < height),
         Mode::Play | Mode::List | Mode::Bench { .. } | Mode::Parameters { .. } => {}
     }

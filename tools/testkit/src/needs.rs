@@ -29,6 +29,10 @@ pub enum Tool {
     Chromium,
     /// Runs JavaScript and WebAssembly.
     Node,
+    /// A sound server.
+    PulseAudio,
+    /// Records what it plays.
+    Parec,
 }
 
 impl Tool {
@@ -44,6 +48,8 @@ impl Tool {
             Tool::Xlib => ("libX11 and libXcursor", "libx11-6 libxcursor1"),
             Tool::Chromium => ("chromium", "chromium"),
             Tool::Node => ("node", "nodejs"),
+            Tool::PulseAudio => ("pulseaudio", "pulseaudio"),
+            Tool::Parec => ("parec", "pulseaudio-utils"),
         }
     }
 
@@ -56,7 +62,15 @@ impl Tool {
                 .output()
                 .is_ok_and(|output| String::from_utf8_lossy(&output.stdout).contains("ImageMagick")),
             Tool::Xlib => ["libX11.so.6", "libXcursor.so.1"].iter().all(|name| is_in(name, &library_directories())),
-            Tool::Xvfb | Tool::Xdotool | Tool::Script | Tool::Readelf | Tool::Qemu | Tool::Chromium | Tool::Node => {
+            Tool::Xvfb
+            | Tool::Xdotool
+            | Tool::Script
+            | Tool::Readelf
+            | Tool::Qemu
+            | Tool::Chromium
+            | Tool::Node
+            | Tool::PulseAudio
+            | Tool::Parec => {
                 let path = env::var_os("PATH").unwrap_or_default();
                 is_in(self.names().0, &env::split_paths(&path).collect::<Vec<_>>())
             }
