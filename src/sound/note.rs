@@ -1,7 +1,7 @@
 //! A note, and its samples in a block.
 
+use super::samples::{Block, RATE};
 use super::voice::Voice;
-use super::{Block, RATE};
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::hash::{STEP, wide};
 use crate::simd::lanes::{F, STEPS, U, float};

@@ -5,8 +5,9 @@
 //! hashed: sparse random reflections sound as smooth as dense ones `[Valimaki17]`. Both sums together have as many
 //! reflections as the product of their numbers, for the work of their sum.
 
+use super::samples::{Block, RATE};
 use super::voice::exp2;
-use super::{BLOCK, Block, RATE};
+use crate::simd::block::BLOCK;
 use crate::simd::hash::rnd;
 
 /// How long the close reflections take, seconds.
