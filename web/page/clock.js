@@ -37,6 +37,11 @@ export class Clock {
     this.#since = undefined;
   }
 
+  /** Moves by a little, as what it follows is ahead or behind. */
+  nudge(seconds) {
+    if (!this.rests) this.#base += seconds;
+  }
+
   go(time) {
     this.#base = wrap(time, this.duration);
     if (!this.rests) this.#since = performance.now();

@@ -16,11 +16,13 @@ const $ = id => document.getElementById(id);
 /** Connects everything on the page with a player. */
 export class Controls {
   #player;
+  #sound;
   #quiet;
   #word;
 
-  constructor(player) {
+  constructor(player, sound) {
     this.#player = player;
+    this.#sound = sound;
     this.#fillLists();
     this.#scene();
     this.#listen();
@@ -84,6 +86,11 @@ export class Controls {
     $('turn').setAttribute('aria-expanded', open);
   }
 
+  #mute() {
+    this.#sound.toggle();
+    this.#update();
+  }
+
   #fillLists() {
     const { scenes, qualities } = this.#player.description;
     $('scene').replaceChildren(...scenes.map(({ scene, about }) => Object.assign(new Option(scene), { title: about })));
@@ -122,6 +129,11 @@ export class Controls {
     const does = player.playing ? 'Pause' : 'Play';
     $('play').setAttribute('aria-label', does);
     $('play').title = `${does} (Space)`;
+    const silent = this.#sound.silent;
+    document.body.classList.toggle('silent', silent);
+    const sounds = silent ? 'Sound' : 'Silence';
+    $('sound').setAttribute('aria-label', sounds);
+    $('sound').title = `${sounds} (M)`;
     this.#time(player.time);
     this.#awake();
   }
@@ -155,6 +167,7 @@ export class Controls {
   #listen() {
     const player = this.#player;
     $('play').addEventListener('click', () => player.toggle());
+    $('sound').addEventListener('click', () => this.#mute());
     $('seek').addEventListener('input', () => player.go($('seek').valueAsNumber));
     $('scene').addEventListener('change', () => player.choose($('scene').value));
     $('quality').addEventListener('change', () => player.setQuality($('quality').value));
@@ -202,6 +215,7 @@ export class Controls {
         ' ': () => player.toggle(),
         ArrowLeft: () => player.seek(-SEEK),
         ArrowRight: () => player.seek(SEEK),
+        m: () => this.#mute(),
         f: () => this.fullScreen(),
         s: () => this.still(),
         c: () => this.copy(),

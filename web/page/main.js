@@ -4,6 +4,7 @@ import { Controls } from './controls.js';
 import { Instance, load, missing } from './module.js';
 import { Player } from './player.js';
 import { Pool } from './pool.js';
+import { Sound } from './sound.js';
 
 // Where a scene stands for whoever wants no motion: the show begins in the dark.
 const REST = 9.2;
@@ -26,10 +27,11 @@ async function start() {
   const arrived = performance.now();
   const instance = await Instance.of(module);
   player = new Player(document.getElementById('picture'), instance);
-  const controls = new Controls(player);
+  const sound = new Sound(instance, player);
+  const controls = new Controls(player, sound);
   player.addEventListener('frame', () => (paprsek.firstFrame = performance.now() - arrived), { once: true });
   // For the console, and for tests.
-  globalThis.paprsek = { instance, player, controls };
+  globalThis.paprsek = { instance, player, controls, sound };
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) player.go(REST);
   else player.play();
   player.pool = pool;

@@ -52,6 +52,13 @@ export class Instance {
     return this.#exports.memory.buffer.slice(start, start + 4 * pixels);
   }
 
+  /** Samples of the show's sound from number `first` on, left and right in turn, as whole numbers of 16 bits. */
+  sound(first, count) {
+    this.#exports.sound(first, count);
+    const start = this.#exports.output();
+    return new Int16Array(this.#exports.memory.buffer.slice(start, start + 4 * count));
+  }
+
   /** The size of the next frames in eighths, after one that took this share of its time. */
   govern(share) {
     return this.#exports.govern(share);

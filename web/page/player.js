@@ -113,6 +113,21 @@ export class Player extends EventTarget {
     return this.#plays;
   }
 
+  /** Whether time runs: it waits for the first frame after a jump. */
+  get runs() {
+    return !this.#clock.rests;
+  }
+
+  /** Whether the scene is the show, which alone has sound. */
+  get isShow() {
+    return this.scene.scene === this.description.show;
+  }
+
+  /** Moves time by a little, to where the sound is. */
+  follow(seconds) {
+    this.#clock.nudge(seconds);
+  }
+
   play() {
     this.#plays = true;
     this.#restart();

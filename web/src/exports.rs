@@ -8,6 +8,8 @@
 use crate::describe::description;
 use crate::governor::{EIGHTHS, Governor};
 use crate::rows::{Request, Rows};
+use paprsek::scenes::show::score::score;
+use paprsek::sound::{Pair, Score};
 use std::cell::RefCell;
 
 /// What one instance has.
@@ -16,6 +18,10 @@ struct Instance {
     governor: Governor,
     /// Values of parameters that the next rows are rendered with.
     values: Vec<f64>,
+    /// The show's score, from the first sample on that is asked for.
+    score: Option<Score>,
+    /// The last samples.
+    samples: Vec<Pair>,
     /// The bytes of the last text.
     text: Vec<u8>,
     /// Where the result of the last call lies in memory.
@@ -27,6 +33,8 @@ thread_local! {
         rows: Rows::new().ok(),
         governor: Governor::new(),
         values: Vec::new(),
+        score: None,
+        samples: Vec::new(),
         text: Vec::new(),
         output: 0,
     });
@@ -78,6 +86,18 @@ pub extern "C" fn render(
         let pixels = rows.render(&request, first, last);
         instance.output = pixels.as_ptr() as usize;
         pixels.len()
+    })
+}
+
+/// Computes so many samples of the show's sound from number `first` on: for each 16 bits for the left and 16 for the right
+/// ear. Gives how many there are.
+#[unsafe(no_mangle)]
+pub extern "C" fn sound(first: f64, count: usize) -> usize {
+    INSTANCE.with_borrow_mut(|instance| {
+        instance.samples.resize(count, [0; 2]);
+        instance.score.get_or_insert_with(score).samples(first as u64, &mut instance.samples);
+        instance.output = instance.samples.as_ptr() as usize;
+        count
     })
 }
 

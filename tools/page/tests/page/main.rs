@@ -10,4 +10,5 @@ mod node;
 mod pointer;
 mod site;
 mod slow;
+mod sound;
 mod survival;
