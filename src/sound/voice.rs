@@ -1,5 +1,7 @@
 //! What a note sounds like.
 
+use std::f32::consts::LN_2;
+
 /// An instrument, after Chowning `[Chowning73]`: a sine whose phase is moved by another, times noise. The rows of a score begin with [`Voice::SINE`].
 #[derive(Clone, Copy, Debug)]
 pub struct Voice {
@@ -73,7 +75,7 @@ pub(super) fn exp2(x: f32) -> f32 {
     let whole = x as i32;
     let f = x - whole as f32;
     let fraction = 1.0
-        + f * (0.693_147_1
+        + f * (LN_2
             + f * (0.240_224_4 + f * (0.055_490_76 + f * (0.009_579_18 + f * (0.001_274_748 + f * 0.000_109_023_2)))));
     fraction * f32::from_bits(((whole + 127) << 23) as u32)
 }
