@@ -100,7 +100,7 @@ const SIMD: usize = 19;
 const PIXEL: usize = 20;
 #[cfg(feature = "full")]
 const SOUND: usize = 21;
-#[cfg(feature = "full")]
+#[cfg(all(unix, feature = "full"))]
 const NO_SOUND: usize = 22;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
@@ -193,7 +193,7 @@ pub struct Args {
     #[cfg(feature = "full")]
     pub sound: Option<&'static [u8]>,
     /// Whether to play in silence.
-    #[cfg(feature = "full")]
+    #[cfg(all(unix, feature = "full"))]
     silent: bool,
     /// Quality, eyes and parameters.
     pub options: Options<'static>,
@@ -329,7 +329,7 @@ impl Args {
             fullscreen,
             #[cfg(feature = "full")]
             sound: values[SOUND],
-            #[cfg(feature = "full")]
+            #[cfg(all(unix, feature = "full"))]
             silent: values[NO_SOUND].is_some(),
             options: Options { quality, stereo, values: changes },
             #[cfg(feature = "full")]

@@ -20,7 +20,8 @@ fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     // As the program that is packed does.
     assert!(is_x86_feature_detected!("avx2"), "packing needs a processor with AVX2");
     let at = primer.len() as u32;
-    model.start(sets, primer, [at + code[0], at + code[1], code[2]]);
+    // Instructions may be said to be beyond the end of what 32 bits count.
+    model.start(sets, primer, [at.saturating_add(code[0]), at.saturating_add(code[1]), code[2]]);
     model
 }
 

@@ -1,6 +1,7 @@
 //! A Rust toolchain that has the sources of its standard library, which is built anew for size.
 
 use crate::library;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -15,15 +16,15 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// All that may do, the likeliest first: those whose library has most of what is cut from it; among such rustup's, a
-    /// nightly before the others, then Debian's.
+    /// All that may do, the likeliest first: those whose library has most of what is cut from it; among such Debian's, with
+    /// which the sizes in the documents were measured, then rustup's, a nightly before the others.
     pub fn all() -> Result<Vec<Toolchain>, String> {
         let rustup = |words: &[&str]| said(Command::new("rustup").args(words)).unwrap_or_default();
         let list = rustup(&["toolchain", "list"]);
         let mut names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
         names.sort_by_key(|name| !name.starts_with("nightly"));
         let homes = names.iter().map(|name| rustup(&["run", name, "rustc", "--print", "sysroot"]).into());
-        let mut found: Vec<Toolchain> = homes.chain(["/usr".into()]).filter_map(Toolchain::at).collect();
+        let mut found: Vec<Toolchain> = iter::once("/usr".into()).chain(homes).filter_map(Toolchain::at).collect();
         found.sort_by_cached_key(|toolchain| library::strange(&library::sources(&toolchain.sysroot)));
         if found.is_empty() {
             return Err(format!(
