@@ -4,7 +4,7 @@
 
 use super::place::Place;
 use super::sun;
-use super::time::{centuries, turned};
+use super::time::{centuries, short, turned};
 use glam::DVec3;
 
 /// The moon as it is seen from a place.
@@ -27,7 +27,7 @@ pub struct Moon {
 const RADIUS: f64 = 1737.4;
 const EARTH: f64 = 6371.0;
 /// The sun's mean distance, km.
-const SUN: f64 = 149_597_870.7;
+const SUN: f64 = short(149_597_870.7);
 
 /// Arguments of the series, degrees at J2000 and degrees per century: the moon's elongation, the sun's anomaly, the
 /// moon's anomaly, and its distance from the node. Rounded to about 0.1.
@@ -66,15 +66,15 @@ impl Moon {
     pub fn new(days: f64, place: &Place) -> Moon {
         let t = centuries(days);
         // Longitude and latitude, degrees, and distance, km.
-        let mut sums = [218.316_4 + 481_267.881_3 * t, 0.0];
-        let mut range = 385_000.6;
+        let mut sums = [short(218.316_4) + 481_267.881_3 * t, 0.0];
+        let mut range = short(385_000.6);
         for (n, term) in TERMS.iter().enumerate() {
             let mut angle = 0.0;
             for (k, (start, rate)) in ARGUMENTS.into_iter().enumerate() {
                 angle += term[k] as f64 * (start + rate * t);
             }
             let (s, c) = turned(angle);
-            sums[(n >= LATITUDE) as usize] += term[4] as f64 * 0.05 * s;
+            sums[(n >= LATITUDE) as usize] += term[4] as f64 * short(0.05) * s;
             range += term[5] as f64 * 165.0 * c;
         }
         let center = sun::equatorial(sums[0], sums[1], days);

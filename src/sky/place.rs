@@ -3,7 +3,7 @@
 //! World axes are x east, y up, z south. Equatorial axes are x to the mean equinox of date, z to the celestial north
 //! pole. Both are right-handed.
 
-use super::time::{sane, turned};
+use super::time::{sane, short, turned};
 use glam::{DMat3, DVec3, dvec3};
 
 /// A place on a round earth.
@@ -58,7 +58,7 @@ pub fn angles(d: DVec3) -> (f64, f64) {
 /// It is the formula of `[Saemundsson86]`, rewritten as a fraction of the altitude's sine, within 0.1", down to -1
 /// degree, to where it is sound. From there refraction fades to nothing at -6 degrees.
 pub fn refracted(d: DVec3) -> DVec3 {
-    let low = d.y.max(-0.017_45);
-    let lift = 2.964_67e-4 / (low + 0.003_134_79 / (low + 0.089_147));
-    (d + DVec3::Y * (lift * (1.2 + d.y * 11.46).clamp(0.0, 1.0))).normalize()
+    let low = d.y.max(short(-0.017_45));
+    let lift = short(2.964_67e-4) / (low + short(0.003_134_79) / (low + short(0.089_147)));
+    (d + DVec3::Y * (lift * (short(1.2) + d.y * short(11.46)).clamp(0.0, 1.0))).normalize()
 }

@@ -3,7 +3,7 @@
 //! `[Meeus98]`, chapter 25, low accuracy: 0.0082 degrees off `[SPA]` at worst in 1900 to 2100.
 
 use super::place::{Place, angles};
-use super::time::{centuries, sane, turned};
+use super::time::{centuries, sane, short, turned};
 use glam::{DVec3, dvec3};
 
 /// Altitude of the sun's centre when its upper edge is seen on the horizon, radians: -0.833 degrees, 34' of refraction
@@ -16,7 +16,7 @@ pub const RADIUS: f64 = 0.266_6f64.to_radians();
 /// The unit vector on equatorial axes of an ecliptic longitude and latitude of date, degrees.
 #[inline(never)] // Called in a few places, never in a hot loop.
 pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
-    let (sin, cos) = turned(23.4393 - 0.013 * centuries(days));
+    let (sin, cos) = turned(short(23.4393) - short(0.013) * centuries(days));
     let ((s, c), (z, level)) = (turned(longitude), turned(latitude));
     let y = s * level;
     dvec3(c * level, y * cos - z * sin, y * sin + z * cos)
@@ -28,10 +28,10 @@ pub(super) fn equatorial(longitude: f64, latitude: f64, days: f64) -> DVec3 {
 /// degrees towards 1900 and 2100.
 pub fn equator(days: f64) -> DVec3 {
     let t = centuries(days);
-    let (s, c) = turned(357.529_11 + 35_999.050_29 * t);
-    let center = (1.914_602 - 0.004_817 * t) * s + 0.039_986 * s * c;
+    let (s, c) = turned(short(357.529_11) + 35_999.050_29 * t);
+    let center = (short(1.914_602) - short(0.004_817) * t) * s + short(0.039_986) * s * c;
     // The first number includes aberration.
-    equatorial(280.460_77 + t * 36_000.769_83 + center, 0.0, days)
+    equatorial(short(280.460_77) + t * 36_000.769_83 + center, 0.0, days)
 }
 
 /// The sun's true unit direction on world axes, without refraction (see [`super::place::refracted`]), at a time in days
