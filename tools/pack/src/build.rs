@@ -18,6 +18,8 @@ const FLAGS: &[&str] = &[
     "-Cforce-unwind-tables=no",
     "-Zlocation-detail=none",
     "-Zfmt-debug=none",
+    "-Zinline-mir-hint-threshold=40",
+    "-Zmutable-noalias=no",
     // One SIMD level, AVX2: what processors have had since 2013 (Intel), 2015 (AMD).
     "-Ctarget-cpu=x86-64-v3",
     "--cfg=disable_dispatch_avx512",
@@ -50,6 +52,11 @@ const LLVM: &[&str] = &[
     "-pre-RA-sched=list-hybrid",
     "-enable-misched=false",
     // Addresses in loops stay what the source has; what is loaded, chosen or rare stays where it was. As fast, 616 bytes.
+    "-mul-constant-optimization=0",
+    "-x86-use-vzeroupper=0",
+    "-max-store-memcpy=1",
+    "-max-speculation-depth=1",
+    "-max-store-memset=4",
     "-disable-x86-lea-opt",
     "-disable-lsr",
     "-x86-cmov-converter=false",

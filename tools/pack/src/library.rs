@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 16] = [
+const CUTS: [Cuts; 18] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -343,6 +343,41 @@ enum AllocInit {",
             // No message names a thread.
             ("    unsafe { main_thread::set(thread::current_id()) };\n", ""),
         ],
+    ),
+    (
+        "std/src/sys/sync/mutex/futex.rs",
+        // No lock is held for so short a time that one would spin.
+        &[(
+            "        let mut state = self.spin();\n",
+            "        while self.futex.swap(CONTENDED, Acquire) != UNLOCKED {
+            futex_wait(&self.futex, CONTENDED, None);
+        }
+        return;
+        let mut state = self.spin();
+",
+        )],
+    ),
+    (
+        "std/src/sys/sync/once/futex.rs",
+        // What is made once is made: it does not fail. All who wait are woken, whether there are any or not.
+        &[(
+            "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {\n",
+            "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {
+        loop {
+            match self.state_and_queued.compare_exchange(INCOMPLETE, RUNNING, Acquire, Acquire) {
+                Ok(_) => {
+                    f(&public::OnceState { inner: OnceState { poisoned: false, set_state_to: Cell::new(COMPLETE) } });
+                    self.state_and_queued.store(COMPLETE, Release);
+                    futex_wake_all(&self.state_and_queued);
+                    return;
+                }
+                Err(COMPLETE) => return,
+                Err(_) => futex_wait(&self.state_and_queued, RUNNING, None),
+            };
+        }
+        #[allow(unreachable_code)]
+",
+        )],
     ),
     (
         "core/src/panicking.rs",
