@@ -76,7 +76,6 @@ pub mod scenes;
 pub mod settings;
 pub mod simd;
 pub mod sky;
-#[cfg(feature = "full")]
 pub mod sound;
 pub mod texture;
 pub mod timeline;

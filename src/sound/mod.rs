@@ -18,4 +18,4 @@ pub use crate::simd::block::BLOCK;
 pub use note::Note;
 pub use samples::{Pair, RATE};
 pub use score::Score;
-pub use voice::Voice;
+pub use voice::{Voice, exp2};

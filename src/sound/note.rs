@@ -19,7 +19,9 @@ const FINE_BITS: u32 = 8;
 #[derive(Clone, Copy, Debug)]
 pub struct Note {
     /// The block that it starts with.
-    pub start: u64,
+    pub start: u32,
+    /// The first block after it.
+    pub end: u32,
     /// How long it is held, seconds.
     pub held: f32,
     /// Its frequency, hertz.
@@ -33,12 +35,22 @@ pub struct Note {
 impl Note {
     /// A note that starts after `start` seconds, to the nearest block: at most 0.73 ms beside it.
     pub fn new(start: f32, held: f32, pitch: f32, gain: [f32; 2], voice: &'static Voice) -> Note {
-        Note { start: (start * BLOCKS + 0.5) as u64, held, pitch, gain, voice }
+        let start = (start * BLOCKS + 0.5) as u32;
+        let end = start.saturating_add(((held + voice.release) * BLOCKS) as u32).saturating_add(1);
+        Note { start, end, held, pitch, gain, voice }
     }
 
-    /// The first block after it.
-    pub fn end(&self) -> u64 {
-        self.start + ((self.held + self.voice.release) * BLOCKS) as u64 + 1
+    /// The number of its noise: noises of notes that start at different times differ.
+    fn seed(&self) -> u32 {
+        self.start & 255
+    }
+
+    /// What it has where its block `number` begins, counted from its own start: as [`Voice::at`] has it, with gusts.
+    fn at(&self, number: u32) -> [f32; 3] {
+        let t = number as f32 / BLOCKS;
+        let mut at = self.voice.at(t, self.held);
+        at[0] *= self.voice.gust(self.seed(), t);
+        at
     }
 }
 
@@ -50,11 +62,11 @@ fn step(pitch: f32) -> u32 {
 
 /// Adds block `number` of a note to both ears, and to what goes to the room.
 #[simd]
-pub(super) fn add<S: Simd>(simd: S, note: &Note, number: u64, ears: &mut [Block; 2], sent: &mut Block) {
-    let Note { voice, held, pitch, gain, .. } = *note;
-    let from = (number - note.start) as u32;
-    // What is at the block's ends, from the number of its first sample on.
-    let ends = [from, from + 1].map(|block| voice.at(block as f32 / BLOCKS, held));
+pub(super) fn add<S: Simd>(simd: S, note: &Note, number: u32, ears: &mut [Block; 2], sent: &mut Block) {
+    let Note { voice, pitch, gain, .. } = *note;
+    let from = number - note.start;
+    // What is at the block's ends.
+    let ends = [note.at(from), note.at(from + 1)];
     let numbers = U::<S>::from_slice(simd, &STEPS[..F::<S>::LEN]);
     for i in 0..BLOCK / F::<S>::LEN {
         let within = numbers + (i * F::<S>::LEN) as u32;
@@ -86,24 +98,16 @@ pub(super) fn add<S: Simd>(simd: S, note: &Note, number: u64, ears: &mut [Block;
 #[inline(always)]
 fn roughness<S: Simd>(simd: S, note: &Note, from: u32, within: U<S>) -> F<S> {
     let voice = note.voice;
-    // Noises of notes that start at different times differ.
-    let seed = note.start as u32 & 127;
-    let noise = wander(simd, seed, from, within, voice.colour) * 2.0 - 1.0;
-    let gusts = (wander(simd, seed + 128, from, within, voice.gusts) - 1.0) * voice.gustiness + 1.0;
-    noise * gusts.max(F::<S>::splat(simd, 0.0)) * voice.noise + (1.0 - voice.noise)
-}
-
-/// Random numbers from 0 to 1, `rate` per second, with a smooth way from one to the next.
-#[inline(always)]
-fn wander<S: Simd>(simd: S, seed: u32, from: u32, within: U<S>, rate: f32) -> F<S> {
-    // Numbers per sample, and those before the block, in units of 2^-24.
-    let step = step(rate) >> 8;
+    // Random numbers per sample, and those before the block, in units of 2^-24.
+    let step = step(voice.colour) >> 8;
     let before = u64::from(from) * BLOCK as u64 * u64::from(step);
     let place = within * U::<S>::splat(simd, step) + (before as u32 & 0xff_ffff);
     let number = (place >> 24) + (before >> 24) as u32;
-    let a = float(simd, wide(simd, seed, number, 0)) * STEP;
-    let b = float(simd, wide(simd, seed, number + 1, 0)) * STEP;
-    a + (b - a) * smooth(simd, float(simd, place & 0xff_ffff) * STEP)
+    let a = float(simd, wide(simd, note.seed(), number, 0)) * STEP;
+    let b = float(simd, wide(simd, note.seed(), number + 1, 0)) * STEP;
+    // A smooth way from one to the next.
+    let noise = a + (b - a) * smooth(simd, float(simd, place & 0xff_ffff) * STEP);
+    (noise * 2.0 - 1.0) * voice.noise + (1.0 - voice.noise)
 }
 
 /// Sines of phases, off by less than 2e-6: the best odd polynomial of degree 7 on a quarter of a turn.

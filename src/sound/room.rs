@@ -25,7 +25,7 @@ const LOUDNESS: f32 = 0.24;
 const ECHO: [(f32, f32); 2] = [(0.375, 0.3), (0.75, 0.2)];
 
 /// The blocks before one that it has something of.
-pub const REACH: u64 = ((CLOSE + FAR) * RATE as f32) as u64 / BLOCK as u64 + 3;
+pub const REACH: u32 = ((CLOSE + FAR) * RATE as f32) as u32 / BLOCK as u32 + 3;
 
 /// A reflection: its delay in samples, and its amplitude.
 type Tap = (usize, f32);
@@ -43,42 +43,26 @@ pub struct Room {
 impl Room {
     /// A silent room.
     pub fn new() -> Room {
-        let close = taps(0, CLOSE_COUNT, CLOSE, 1.0);
-        let far = [1, 2].map(|ear| {
-            let mut taps = taps(ear, FAR_COUNT, FAR, FADE);
-            for (_, gain) in &mut taps {
-                *gain *= LOUDNESS;
-            }
-            taps
-        });
-        Room { close, far, sent: Delay::new(), diffuse: Delay::new() }
+        let far = [1, 2].map(|ear| taps(ear, FAR_COUNT, FAR, FADE, LOUDNESS));
+        Room { close: taps(0, CLOSE_COUNT, CLOSE, 1.0, 1.0), far, sent: Delay::new(), diffuse: Delay::new() }
     }
 
-    /// Forgets what was sent.
-    pub fn clear(&mut self) {
-        self.sent.clear();
-        self.diffuse.clear();
-    }
-
-    /// Takes the next block of what is sent.
-    pub fn send(&mut self, block: &Block) {
-        self.sent.push(block);
+    /// Takes what is sent in block `number`, after that of [`REACH`] blocks before it, and adds what is heard meanwhile.
+    pub fn play(&mut self, number: u32, sent: &Block, ears: &mut [Block; 2]) {
+        let at = number as usize * BLOCK;
+        self.sent.put(at, sent);
         let mut diffuse = [0.0; BLOCK];
-        for &tap in &self.close {
-            self.sent.add(tap, &mut diffuse);
-            // The mean with the sample after it, so that what is heard again is duller.
-            self.sent.add((tap.0 + 1, tap.1), &mut diffuse);
+        for &(delay, gain) in &self.close {
+            self.sent.add(at.wrapping_sub(delay), gain, &mut diffuse);
+            // The mean with the sample before it, so that what is heard again is duller.
+            self.sent.add(at.wrapping_sub(delay + 1), gain, &mut diffuse);
         }
-        self.diffuse.push(&diffuse);
-    }
-
-    /// Adds what is heard of it while its last block is heard.
-    pub fn add(&self, ears: &mut [Block; 2]) {
+        self.diffuse.put(at, &diffuse);
         for ((ear, taps), (delay, gain)) in ears.iter_mut().zip(&self.far).zip(ECHO) {
-            for &tap in taps {
-                self.diffuse.add(tap, ear);
+            for &(delay, gain) in taps {
+                self.diffuse.add(at.wrapping_sub(delay), gain, ear);
             }
-            self.sent.add(((delay * RATE as f32) as usize, gain), ear);
+            self.sent.add(at.wrapping_sub((delay * RATE as f32) as usize), gain, ear);
         }
     }
 }
@@ -90,49 +74,40 @@ impl Default for Room {
 }
 
 /// Reflections within `seconds`, one in each of as many equal pieces of that time, which fade to 2^-`fade`.
-fn taps(seed: u32, count: u32, seconds: f32, fade: f32) -> Vec<Tap> {
+fn taps(seed: u32, count: u32, seconds: f32, fade: f32, loudness: f32) -> Vec<Tap> {
     let tap = |k: u32| {
         let x = (k as f32 + rnd(seed, k, 0)) / count as f32;
         let sign = if rnd(seed, k, 1) < 0.5 { -1.0 } else { 1.0 };
-        let gain = exp2(-fade * x) * sign / (count as f32).sqrt();
+        let gain = exp2(-fade * x) * sign * loudness / (count as f32).sqrt();
         ((x * seconds * RATE as f32) as usize, gain)
     };
     (0..count).map(tap).collect()
 }
 
-/// The last blocks of a sound.
+/// The last samples of a sound, in a ring.
 #[derive(Clone, Debug)]
-struct Delay {
-    samples: Vec<f32>,
-    /// Where the last block starts.
-    last: usize,
-}
+struct Delay(Vec<f32>);
 
 impl Delay {
-    /// Samples that are kept.
-    const KEPT: usize = REACH as usize * BLOCK;
+    /// Samples of the ring: a power of two, more than reach back.
+    const RING: usize = 1 << 17;
 
     fn new() -> Delay {
-        // As many again to go on to, before what is kept is moved to the front.
-        Delay { samples: vec![0.0; 2 * Delay::KEPT], last: Delay::KEPT - BLOCK }
+        // Twice, so that a block that begins anywhere in the ring is in one piece.
+        Delay(vec![0.0; 2 * Delay::RING])
     }
 
-    fn clear(&mut self) {
-        self.samples.fill(0.0);
-    }
-
-    fn push(&mut self, block: &Block) {
-        self.last += BLOCK;
-        if self.last == self.samples.len() {
-            self.samples.copy_within(self.last - Delay::KEPT.., 0);
-            self.last = Delay::KEPT;
+    /// Keeps a block that begins with sample `at`, modulo 2^64.
+    fn put(&mut self, at: usize, block: &Block) {
+        for turn in [0, Delay::RING] {
+            self.0[at % Delay::RING + turn..][..BLOCK].copy_from_slice(block);
         }
-        self.samples[self.last..][..BLOCK].copy_from_slice(block);
     }
 
-    /// Adds the last block as it was a while before. No delay is longer than what is kept.
-    fn add(&self, (delay, gain): Tap, out: &mut Block) {
-        for (out, before) in out.iter_mut().zip(&self.samples[self.last - delay..]) {
+    /// Adds a block that begins with sample `at`.
+    #[inline(never)]
+    fn add(&self, at: usize, gain: f32, out: &mut Block) {
+        for (out, before) in out.iter_mut().zip(&self.0[at % Delay::RING..]) {
             *out += before * gain;
         }
     }

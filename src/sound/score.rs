@@ -2,29 +2,31 @@
 
 use super::note::{Note, add};
 use super::room::{REACH, Room};
-use super::samples::{Block, Pair, RATE, code};
+use super::samples::{Pair, RATE, code};
 use crate::simd::block::BLOCK;
 use crate::simd::level;
 use fearless_simd::{Level, dispatch};
+use std::array::from_fn;
 
 /// Notes, and how they sound where they are played.
 #[derive(Clone, Debug)]
 pub struct Score {
     notes: Vec<Note>,
     /// The number of blocks until the last note has ended.
-    length: u64,
+    length: u32,
     room: Room,
-    /// The block that was evaluated last, and its number, of which the room has heard all up to it.
-    last: ([Block; 2], u64),
+    /// The block that the room has heard all up to.
+    next: u32,
+    /// The number of the block that [`Score::samples`] took last, and its samples.
+    last: Option<(u32, [Pair; BLOCK])>,
     level: Level,
 }
 
 impl Score {
     /// A score of these notes, in any order, that ends after `seconds`.
-    pub fn new(mut notes: Vec<Note>, seconds: f64) -> Score {
-        notes.sort_by_key(|note| note.start);
-        let length = (seconds * f64::from(RATE) / BLOCK as f64) as u64;
-        Score { notes, length, room: Room::new(), last: ([[0.0; BLOCK]; 2], u64::MAX), level: level::best() }
+    pub fn new(notes: Vec<Note>, seconds: f64) -> Score {
+        let length = (seconds * f64::from(RATE) / BLOCK as f64) as u32;
+        Score { notes, length, room: Room::new(), next: 0, last: None, level: level::best() }
     }
 
     /// The same score, evaluated at a SIMD level that this machine has. The level does not change a sample.
@@ -32,55 +34,43 @@ impl Score {
         Score { level, ..self }
     }
 
-    /// The notes by their starts.
+    /// The notes.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 
     /// Samples from number `first` on: those of the whole, wherever it is cut. Past the end they are 0.
     pub fn samples(&mut self, first: u64, out: &mut [Pair]) {
-        let mut number = first;
-        let mut rest = out;
-        while !rest.is_empty() {
-            let (block, skip) = (number / BLOCK as u64, number as usize % BLOCK);
-            let count = rest.len().min(BLOCK - skip);
-            let (piece, after) = rest.split_at_mut(count);
-            let ears = if block < self.length { self.block(block) } else { [[0.0; BLOCK]; 2] };
-            for (i, pair) in (skip..).zip(piece) {
-                *pair = ears.map(|ear| code(ear[i], number as u32));
-                number += 1;
+        for (number, pair) in (first..).zip(out) {
+            // Beyond what blocks are counted to there is nothing, either.
+            let block = u32::try_from(number / BLOCK as u64).unwrap_or(u32::MAX);
+            if self.last.as_ref().is_none_or(|last| last.0 != block) {
+                self.last = Some((block, self.block(block)));
             }
-            rest = after;
+            *pair = self.last.as_ref().map_or([0; 2], |last| last.1[number as usize % BLOCK]);
         }
     }
 
-    /// A block of both ears.
-    fn block(&mut self, number: u64) -> [Block; 2] {
-        if number == self.last.1 {
-            return self.last.0;
+    /// The samples of a block; past the end they are 0.
+    pub fn block(&mut self, number: u32) -> [Pair; BLOCK] {
+        if number >= self.length {
+            return [[0; 2]; BLOCK];
         }
-        if number != self.last.1.wrapping_add(1) {
-            self.room.clear();
-            for before in number.saturating_sub(REACH)..number {
-                let (_, sent) = self.dry(before);
-                self.room.send(&sent);
+        // After a jump the room has to hear what came before. Before the first block no note plays.
+        let mut at = if number == self.next { number } else { number.wrapping_sub(REACH) };
+        loop {
+            let (mut ears, mut sent) = ([[0.0; BLOCK]; 2], [0.0; BLOCK]);
+            for note in &self.notes {
+                if note.start <= at && at < note.end {
+                    dispatch!(self.level, simd => add(simd, note, at, &mut ears, &mut sent));
+                }
+            }
+            self.room.play(at, &sent, &mut ears);
+            at = at.wrapping_add(1);
+            if at == number.wrapping_add(1) {
+                self.next = at;
+                return from_fn(|i| ears.map(|ear| code(ear[i], number * BLOCK as u32 + i as u32)));
             }
         }
-        let (mut ears, sent) = self.dry(number);
-        self.room.send(&sent);
-        self.room.add(&mut ears);
-        self.last = (ears, number);
-        ears
-    }
-
-    /// A block of the notes alone, and what of them goes to the room.
-    fn dry(&self, number: u64) -> ([Block; 2], Block) {
-        let (mut ears, mut sent) = ([[0.0; BLOCK]; 2], [0.0; BLOCK]);
-        for note in self.notes.iter().take_while(|note| note.start <= number) {
-            if number < note.end() {
-                dispatch!(self.level, simd => add(simd, note, number, &mut ears, &mut sent));
-            }
-        }
-        (ears, sent)
     }
 }

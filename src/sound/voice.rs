@@ -1,5 +1,6 @@
 //! What a note sounds like.
 
+use crate::simd::hash::rnd;
 use std::f32::consts::LN_2;
 
 /// An instrument, after Chowning `[Chowning73]`: a sine whose phase is moved by another, times noise. The rows of a score begin with [`Voice::SINE`].
@@ -65,11 +66,20 @@ impl Voice {
             self.fall * (1.0 - exp2(-self.falling * t)),
         ]
     }
+
+    /// What gusts multiply the amplitude by `t` seconds after the start of a note with noise `seed`.
+    pub(super) fn gust(&self, seed: u32, t: f32) -> f32 {
+        let place = t * self.gusts;
+        let number = place as u32;
+        let [a, b] = [rnd(seed, number, 1), rnd(seed, number + 1, 1)];
+        (1.0 + (a + (b - a) * (place - number as f32) - 1.0) * self.gustiness).max(0.0)
+    }
 }
 
 /// 2 to the power of `x`, for `x` of at most 0, off by less than 1e-6 of it; 0 below -126. Of no library, so that it has
 /// the same bits everywhere.
-pub(super) fn exp2(x: f32) -> f32 {
+#[inline(never)] // Called in several places, never in a hot loop.
+pub fn exp2(x: f32) -> f32 {
     let x = x.max(-127.0);
     // Towards 0, so that the fraction is of the sign of `x`.
     let whole = x as i32;

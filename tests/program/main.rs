@@ -9,7 +9,7 @@ mod display;
 mod fake;
 #[cfg(feature = "full")]
 mod parameters;
-#[cfg(all(target_os = "linux", feature = "full"))]
+#[cfg(target_os = "linux")]
 mod sound;
 #[cfg(all(target_os = "linux", feature = "terminal"))]
 mod terminal;

@@ -93,7 +93,7 @@ fn it_starts_and_ends_with_the_show() {
 fn each_cut_is_on_a_beat() {
     let score = score();
     for (start, _) in PARTS {
-        let block = (start * f64::from(RATE) / BLOCK as f64).round() as u64;
+        let block = (start * f64::from(RATE) / BLOCK as f64).round() as u32;
         let on = score.notes().iter().filter(|note| note.start == block).count();
         assert!(on >= 3, "{on} notes at the cut at {start} s");
     }

@@ -16,7 +16,6 @@ use paprsek::frame::knobs::Knob;
 use paprsek::frame::pool::cores;
 use paprsek::frame::{Options, Scene, Values};
 use paprsek::scenes;
-#[cfg(feature = "full")]
 use paprsek::scenes::show::intro::INTRO;
 use paprsek::settings::Quality;
 #[cfg(feature = "full")]
@@ -42,6 +41,7 @@ macro_rules! help {
             "
   --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; for DIR -, a stream to stdout
   --fullscreen                fill the screen
+  --no-sound                  play in silence
   --help                      print this help
 ",
             $own,
@@ -69,7 +69,6 @@ pub const HELP: &str = help!(
   --simd LEVEL                avx512, avx2, sse4.2, sse2, as this machine has them; default: the best
   --pixel X,Y                 tell how this pixel of the frame --at SECONDS comes to be; 0,0 is the top left one
   --sound FILE                write the intro's sound as a WAV file, beside a capture or alone
-  --no-sound                  play in silence
 "
 );
 /// The help of the 64 kB build, which plays and captures only.
@@ -78,9 +77,9 @@ pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "",
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
 /// The number of options where none is left out, but for `--pixel` and what follows it.
-const ALL_OPTIONS: usize = 20;
+const ALL_OPTIONS: usize = 21;
 /// The number of options in [`HELP`].
-const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 3 } else { 10 };
+const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 2 } else { 11 };
 
 // The places of options with a value in [`HELP`].
 const AT: usize = 0;
@@ -91,17 +90,17 @@ const THREADS: usize = 4;
 const SIZE: usize = 5;
 const QUALITY: usize = 6;
 const CAPTURE: usize = 7;
-const EYE_DISTANCE: usize = 11;
-const CONVERGENCE: usize = 12;
-const SET: usize = 18;
 #[cfg(feature = "full")]
-const SIMD: usize = 19;
+const EYE_DISTANCE: usize = 12;
 #[cfg(feature = "full")]
-const PIXEL: usize = 20;
+const CONVERGENCE: usize = 13;
+const SET: usize = 19;
 #[cfg(feature = "full")]
-const SOUND: usize = 21;
-#[cfg(all(unix, feature = "full"))]
-const NO_SOUND: usize = 22;
+const SIMD: usize = 20;
+#[cfg(feature = "full")]
+const PIXEL: usize = 21;
+#[cfg(feature = "full")]
+const SOUND: usize = 22;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -117,14 +116,18 @@ const CLASHES: &str = "\
 /// shifted much farther than its picture is wide, or eyes farther apart than a street, show nothing. The mean distance
 /// of adults' eyes is 0.063 m (Dodgson, "Variation and extrema of human interpupillary distance", 2004); the show's
 /// subjects are 3 to 10 m away.
-const RANGES: [(usize, f64, f64, f64); 6] = [
+const RANGES: [(usize, f64, f64, f64); NUMBERS] = [
     (AT, 0.0, MAX_TIME, 0.0),
     (FROM, 0.0, MAX_TIME, 0.0),
     (TO, 0.0, MAX_TIME, f64::INFINITY),
     (FPS, f64::MIN_POSITIVE, 1000.0, 30.0),
+    #[cfg(feature = "full")]
     (EYE_DISTANCE, 0.0, 100.0, 0.065),
+    #[cfg(feature = "full")]
     (CONVERGENCE, 0.01, 10000.0, 5.0),
 ];
+/// How many they are.
+const NUMBERS: usize = if cuts::STEREO { 6 } else { 4 };
 
 /// Latest time, seconds.
 const MAX_TIME: f64 = 1e12;
@@ -193,7 +196,7 @@ pub struct Args {
     #[cfg(feature = "full")]
     pub sound: Option<&'static [u8]>,
     /// Whether to play in silence.
-    #[cfg(all(unix, feature = "full"))]
+    #[cfg_attr(not(target_os = "linux"), expect(dead_code))]
     silent: bool,
     /// Quality, eyes and parameters.
     pub options: Options<'static>,
@@ -263,7 +266,7 @@ impl Args {
     ) -> Result<Args, Vec<u8>> {
         let refused = |option| refuse(option, values[option].unwrap_or_default());
         let (numbers, threads, size, (_quality_name, quality)) = parse(&values).map_err(refused)?;
-        let [instant, from, until, fps, eye_distance, convergence] = numbers;
+        let [instant, from, until, fps, eyes @ ..] = numbers;
         let mut is = [false; ALL_OPTIONS];
         for (is, value) in is.iter_mut().zip(values) {
             *is = value.is_some();
@@ -278,6 +281,7 @@ impl Args {
             rated,
             capture,
             fullscreen,
+            silent,
             help,
             version,
             apart,
@@ -307,7 +311,12 @@ impl Args {
             None if bench => Mode::Bench { json },
             None => Mode::Play,
         };
-        let stereo = two.then_some(Stereo { eye_distance: eye_distance as f32, convergence: convergence as f32 });
+        let stereo = match eyes[..] {
+            [eye_distance, convergence] if two => {
+                Some(Stereo { eye_distance: eye_distance as f32, convergence: convergence as f32 })
+            }
+            _ => None,
+        };
         let start = (at || since || to).then_some(if at { instant } else { from });
         let end = to.then_some(until);
         let (still, governed) = (at, !sized && !rated);
@@ -329,8 +338,7 @@ impl Args {
             fullscreen,
             #[cfg(feature = "full")]
             sound: values[SOUND],
-            #[cfg(all(unix, feature = "full"))]
-            silent: values[NO_SOUND].is_some(),
+            silent,
             options: Options { quality, stereo, values: changes },
             #[cfg(feature = "full")]
             level: simd_level(values[SIMD]).ok_or_else(|| refused(SIMD))?,
@@ -372,13 +380,12 @@ impl Args {
     }
 
     /// Whether the scene is the show, which alone has sound.
-    #[cfg(feature = "full")]
     fn is_show(&self) -> bool {
-        self.scene().name == INTRO.name
+        !cuts::SCENES || self.scene().name == INTRO.name
     }
 
     /// Whether sound is to be heard.
-    #[cfg(all(unix, feature = "full"))]
+    #[cfg(target_os = "linux")]
     pub fn sounds(&self) -> bool {
         self.is_show() && !self.still && !self.silent
     }
@@ -456,8 +463,8 @@ fn pixel_of(value: Option<&[u8]>, (width, height): (usize, usize)) -> Option<(us
 #[inline(never)]
 fn parse(
     values: &[Option<&[u8]>],
-) -> Result<([f64; RANGES.len()], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
-    let mut numbers = [0.0; RANGES.len()];
+) -> Result<([f64; NUMBERS], usize, (usize, usize), &'static (&'static str, Quality)), usize> {
+    let mut numbers = [0.0; NUMBERS];
     for (number, (option, least, most, usual)) in numbers.iter_mut().zip(&RANGES) {
         *number = match values.get(*option).copied().flatten() {
             Some(value) => decimal(value).filter(|number| number >= least && number <= most).ok_or(*option)?,

@@ -9,10 +9,10 @@ use std::time::Instant;
 /// How far an arrow key moves, seconds.
 pub const SEEK: f64 = 5.0;
 /// How far what is heard may be from the clock for it to follow, seconds.
-#[cfg(all(unix, feature = "full"))]
+#[cfg(target_os = "linux")]
 const FAR: f64 = 0.2;
 /// The share of that by which it comes nearer each time: answers of the server jitter by some milliseconds.
-#[cfg(all(unix, feature = "full"))]
+#[cfg(target_os = "linux")]
 const NEARER: f64 = 0.1;
 /// Shortest duration of a loop, seconds.
 const SHORTEST: f64 = 1e-3;
@@ -76,7 +76,7 @@ impl Clock {
 
     /// Follows what is heard: comes a little nearer to `heard`, the time of the show that sounds now, in seconds. Where
     /// that is far away the sound is still to jump, and nothing happens.
-    #[cfg(all(unix, feature = "full"))]
+    #[cfg(target_os = "linux")]
     pub fn follow(&mut self, heard: f64) {
         if let (Some(_), Some(now)) = (self.since, self.now()) {
             let apart = heard - now;

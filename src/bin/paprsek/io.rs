@@ -25,7 +25,7 @@ mod system {
     const MAX_CONTENTS: usize = 1 << 20;
 
     /// Writes all bytes, however slowly their reader takes them.
-    fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), i32> {
+    pub fn write_all(to: BorrowedFd<'_>, mut bytes: &[u8]) -> Result<(), i32> {
         while !bytes.is_empty() {
             match write(to, bytes) {
                 Ok(count) => bytes = &bytes[count..],
@@ -196,6 +196,16 @@ pub use system::contents;
 pub use system::keep_stderr;
 /// Makes a directory, unless it exists or cannot be made.
 pub use system::make_directory;
+#[cfg(unix)]
+pub use system::write_all;
+
+/// The value of a variable of the environment, given its name with `=`, kept for the whole run.
+#[cfg(unix)]
+pub fn variable(name: &[u8]) -> Option<&'static [u8]> {
+    // What is read here is leaked: dropping it would be code.
+    let environment: &[u8] = contents(b"/proc/self/environ\0").leak();
+    environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name))
+}
 
 /// Writes to stdout.
 pub fn print(bytes: &[u8]) -> Result<(), Vec<u8>> {

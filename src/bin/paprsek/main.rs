@@ -17,7 +17,6 @@ mod pixel;
 mod play;
 #[cfg(feature = "minifb")]
 mod raw;
-#[cfg(feature = "full")]
 mod sound;
 #[cfg(all(unix, feature = "terminal"))]
 mod terminal;

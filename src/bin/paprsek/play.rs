@@ -9,7 +9,7 @@ use crate::capture;
 use crate::clock::{Clock, SEEK};
 use crate::governor::{EIGHTHS, Governor, WHOLE};
 use crate::io::complain;
-#[cfg(all(unix, feature = "full"))]
+#[cfg(target_os = "linux")]
 use crate::sound;
 #[cfg(all(unix, feature = "minifb"))]
 use crate::window;
@@ -26,10 +26,7 @@ const PERIOD: Duration = Duration::from_nanos(16_666_667);
 const POLL: Duration = Duration::from_millis(10);
 /// Polls after which a still is sent again, a fifth of a second: the display forgets what another window covers.
 const REFRESH: usize = 20;
-/// A light runs along the middle of the window until there is a first frame: by this part of the width each
-/// [`REFRESH`].
-const LIGHT_STEPS: usize = 16;
-/// The colour of the light.
+/// A line grows along the middle of the window until there is a first frame, by a pixel each [`POLL`]: its colour.
 const LIGHT_COLOUR: u32 = 0x404040;
 
 /// What the two threads share.
@@ -68,17 +65,17 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
         shared.ended = Some(ended);
     };
     pool::start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
-    #[cfg(all(unix, feature = "full"))]
+    #[cfg(target_os = "linux")]
     if args.sounds() {
         let clock = move |heard: Option<f64>| {
             let clock = &mut lock(shared).clock;
             if let Some(heard) = heard {
                 clock.follow(heard);
             }
-            (clock.now(), clock.rests())
+            if clock.rests() { None } else { clock.now() }
         };
         // Without a thread for it the show is silent.
-        pool::start(Box::leak(Box::new(move || sound::play(&clock))));
+        pool::start(Box::leak(Box::new(move || _ = sound::play(&clock))));
     }
     if args.fullscreen && !cfg!(without = "fullscreen") {
         window.toggle_fullscreen();
@@ -121,10 +118,7 @@ fn watch(window: &mut Window, mut frame: Frame, shared: &Mutex<Shared>) -> Resul
             if time.is_none() {
                 // The first frame may take long, as it has to wait for whatever is baked.
                 let width = frame.width;
-                let line = &mut frame.pixels[width * (frame.height / 2)..][..width];
-                line.fill(0);
-                line[width * (polls / REFRESH % LIGHT_STEPS) / LIGHT_STEPS..][..width.div_ceil(LIGHT_STEPS)]
-                    .fill(LIGHT_COLOUR);
+                frame.pixels[width * (frame.height / 2)..][..polls.min(width)].fill(LIGHT_COLOUR);
             }
             window.show(&frame)?;
         }

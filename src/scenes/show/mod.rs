@@ -6,7 +6,6 @@ pub mod day;
 pub mod intro;
 pub mod letters;
 pub mod lumen;
-#[cfg(feature = "full")]
 pub mod score;
 pub mod snowfall;
 pub mod torches;

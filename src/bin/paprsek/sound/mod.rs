@@ -4,90 +4,85 @@
 //! jump is heard sooner than a frame that comes a little late. So the clock of the picture follows what is heard, and
 //! where one pauses or seeks the sound goes to where the clock is.
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 mod pulse;
+#[cfg(feature = "full")]
 mod wav;
 
+#[cfg(feature = "full")]
 pub use wav::save;
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 use paprsek::scenes::show::score::score;
-#[cfg(unix)]
-use paprsek::sound::{Pair, RATE};
-#[cfg(unix)]
-use pulse::Stream;
-#[cfg(unix)]
-use std::time::{Duration, Instant};
+#[cfg(target_os = "linux")]
+use paprsek::sound::{BLOCK, RATE};
+#[cfg(target_os = "linux")]
+use pulse::{PIECE, SECOND, Stream};
+#[cfg(target_os = "linux")]
+use std::time::Instant;
 
 /// How far the sound may be from the clock before it jumps, seconds: less is made up for by the clock.
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 const APART: f64 = 0.06;
-/// The most samples that are sent at once.
-#[cfg(unix)]
-const PIECE: usize = 512;
-/// How often the server is asked what is heard.
-#[cfg(unix)]
-const ASK: Duration = Duration::from_millis(100);
-/// The most that is sent ahead of what a second takes, in bytes: a server that asks for more does not play.
-#[cfg(unix)]
-const AHEAD: f64 = 1e6;
+/// How far ahead of time a server may get, seconds: one that asks for more does not play.
+#[cfg(target_os = "linux")]
+const AHEAD: f64 = 6.0;
+/// Seconds of a block.
+#[cfg(target_os = "linux")]
+const EACH: f64 = BLOCK as f64 / RATE as f64;
+/// A block that is never due.
+#[cfg(target_os = "linux")]
+const NONE: u32 = u32::MAX;
 
 /// Plays the show until the server goes. Without one it returns at once: the show plays on in silence, and nobody is
 /// told.
 ///
-/// `clock` is told the time of the show that is heard, if that is known, and says what time it is and whether time rests;
-/// no time past the end.
-#[cfg(unix)]
-pub fn play(clock: &dyn Fn(Option<f64>) -> (Option<f64>, bool)) {
-    let Some(mut stream) = Stream::open() else { return };
+/// `clock` is told the time of the show that is heard, if that is known, and says what time it is; none while time rests
+/// and past the end.
+#[cfg(target_os = "linux")]
+pub fn play(clock: &dyn Fn(Option<f64>) -> Option<f64>) -> Option<()> {
+    let mut stream = Stream::open()?;
     let mut score = score();
-    let rate = f64::from(RATE);
-    // The next sample of the show, and how many were sent since the sound has jumped.
-    let (mut next, mut since) = (0, 0);
+    // Times are seconds since now.
     let began = Instant::now();
-    let mut asked = began;
-    let mut samples: [Pair; PIECE] = [[0; 2]; PIECE];
+    // The next block of the show; when it will be heard; and from when on what is heard is the show since it jumped.
+    let (mut next, mut heard, mut since) = (NONE, f64::NAN, f64::INFINITY);
     loop {
-        let Some(news) = stream.listen() else { return };
-        let mut heard = None;
-        // What was heard when the server answered, unless that was before the jump.
-        if let Some(delay) = news.delay
-            && (since as f64) > delay * rate
-        {
-            heard = Some(next as f64 / rate - delay);
-        }
-        let (now, rests) = clock(heard);
-        if asked.elapsed() > ASK {
-            asked = Instant::now();
-            if stream.ask().is_none() {
-                return;
+        let delay = stream.listen()?;
+        let now = began.elapsed().as_secs_f64();
+        let mut known = None;
+        if let Some(delay) = delay {
+            heard = now + delay;
+            if now > since {
+                known = Some(f64::from(next) * EACH - delay);
             }
         }
-        let fair = began.elapsed().as_secs_f64() * rate * size_of::<Pair>() as f64 + AHEAD;
-        // All that is wanted, as some servers start to play once they have that.
-        while stream.wanted >= size_of::<Pair>() && (stream.sent as f64) < fair {
-            let samples = &mut samples[..(stream.wanted / size_of::<Pair>()).min(PIECE)];
+        let time = clock(known);
+        let asks = stream.wanted > 0;
+        while stream.wanted > 0 && stream.sent as f64 / SECOND - now < AHEAD {
+            let mut piece = [[[0; 2]; BLOCK]; PIECE];
             // Silence until it is known how late one is heard, and while time rests.
-            let (Some(now), Some(delay), false) = (now, stream.delay(), rests) else {
-                samples.fill([0; 2]);
-                since = 0;
-                if stream.send(samples).is_none() {
-                    return;
+            if let Some(time) = time
+                && !heard.is_nan()
+            {
+                // The time of the show when this piece will be heard.
+                let then = time + (heard - now);
+                if (then - f64::from(next) * EACH).abs() > APART {
+                    next = (then / EACH) as u32;
+                    since = heard;
                 }
-                continue;
-            };
-            // When this sample will be heard.
-            let then = now + delay;
-            if (then - next as f64 / rate).abs() > APART {
-                next = (then * rate) as u64;
-                since = 0;
+                for block in &mut piece {
+                    *block = score.block(next);
+                    next += 1;
+                }
+            } else {
+                (next, since) = (NONE, f64::INFINITY);
             }
-            score.samples(next, samples);
-            next += samples.len() as u64;
-            since += samples.len();
-            if stream.send(samples).is_none() {
-                return;
-            }
+            heard += PIECE as f64 * EACH;
+            stream.send(piece.as_flattened())?;
+        }
+        if asks {
+            stream.ask()?;
         }
     }
 }

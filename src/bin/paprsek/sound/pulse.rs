@@ -3,31 +3,35 @@
 //!
 //! A packet has a head of five big-endian words: the length of what follows, a channel, two words of an offset, and flags.
 //! On channel -1 are commands, whose values each have a byte for their type before them; on a stream's channel is its
-//! sound. Nothing that the server says is taken on trust: a packet longer than any that is meant for this client, or a
-//! value of another type than is due, ends the sound.
+//! sound. What the server says is looked for where version 8 has it. A packet longer than any that is meant for this
+//! client ends the sound, as an error does; numbers that make no sense are as good as others.
 
-use paprsek::sound::{Pair, RATE};
-use std::env;
-use std::io::{ErrorKind, Read, Write};
-use std::os::unix::ffi::OsStrExt;
-use std::os::unix::net::UnixStream;
-use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use crate::io::{c_path, variable, write_all};
+use crate::text::fill;
+use paprsek::sound::{BLOCK, Pair, RATE};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::read;
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketType, connect, socket};
+use std::os::fd::{AsFd, OwnedFd};
 
 /// Longest wait for the server to say something.
-const WAIT: Duration = Duration::from_millis(10);
-/// Longest wait for it to take something: one that takes longer plays nothing.
-const PATIENCE: Duration = Duration::from_secs(2);
+const WAIT: Timespec = Timespec { tv_sec: 0, tv_nsec: 10_000_000 };
 /// The longest packet that is listened to, bytes. Those that come are of some tens.
-const LONGEST: usize = 1 << 16;
+const LONGEST: usize = 1024;
 /// Bytes of a packet's head.
 const HEAD: usize = 20;
-/// Bytes of sound that the server is asked to keep: a tenth of a second. With more, one hears a jump later.
-const KEPT: u32 = RATE / 10 * size_of::<Pair>() as u32;
-/// What stands for any, where a number is due.
+/// Blocks of sound that are sent at once, 6 ms, and their bytes.
+pub const PIECE: usize = 4;
+const SENT: usize = PIECE * BLOCK * size_of::<Pair>();
+/// Bytes of sound that the server is asked to keep: whole pieces, a tenth of a second. With more, one hears a jump later.
+const KEPT: u32 = 17 * SENT as u32;
+/// The most bytes that a server may want at once.
+const MOST: u32 = 1 << 20;
+/// What stands for any, where a number is due; the channel of commands.
 const ANY: u32 = u32::MAX;
 
 // Commands (pulsecore/native-common.h).
+const ERROR: u32 = 0;
 const REPLY: u32 = 2;
 const CREATE_PLAYBACK_STREAM: u32 = 3;
 const AUTH: u32 = 8;
@@ -43,229 +47,191 @@ const COOKIE: usize = 256;
 const S16LE: u8 = 3;
 /// The channels of a front left and a front right loudspeaker.
 const LEFT_RIGHT: [u8; 2] = [1, 2];
+/// Bytes of sound in a second.
+pub const SECOND: f64 = RATE as f64 * size_of::<Pair>() as f64;
 /// A volume that changes nothing.
 const UNCHANGED: u32 = 0x10000;
 
-/// The name of the program, and of its stream.
-const NAME: &[u8] = b"Paprsek";
+// Where the values of an answer are, each after the byte of its type: what it is, the number of the command that it
+// answers, and what follows them.
+const WHAT: usize = 1;
+const TAG: usize = 6;
+/// The stream's channel, and the bytes that the server wants at first.
+const CHANNEL: usize = 11;
+const FIRST: usize = 21;
+/// How late the sink is, microseconds; whether it plays; the bytes that it has taken from the stream.
+const SINK: usize = 11;
+const PLAYS: usize = 28;
+const TAKEN: usize = 57;
+/// Of a request, whose tag is any: the bytes that the server wants now.
+const MORE: usize = 16;
+
+/// What is said at first, all at once: the server answers in turn.
+static HELLO: Packet = {
+    let hello = Packet::command(AUTH).number(VERSION).raw(b"x").word(COOKIE as u32).raw(&[0; COOKIE]);
+    let hello = hello.then(SET_CLIENT_NAME).raw(b"tPaprsek\0");
+    let hello = hello.then(CREATE_PLAYBACK_STREAM).raw(b"tPaprsek\0");
+    let hello = hello.raw(&[b'a', S16LE, 2]).word(RATE).raw(b"m\x02").raw(&LEFT_RIGHT);
+    // Any sink, by its number and by its name.
+    let hello = hello.number(ANY).raw(b"N");
+    // The longest buffer; not corked; what it keeps, has before it starts, and asks for at least.
+    let hello = hello.number(ANY).raw(b"0").number(KEPT).number(ANY).number(ANY);
+    // Together with no other stream, and as loud as it is.
+    hello.number(0).raw(b"v\x02").word(UNCHANGED).word(UNCHANGED)
+};
+/// Asks how late what is sent is heard: the stream's channel, which is still to be put in, and a time of day.
+const ASK: Packet = Packet::command(GET_PLAYBACK_LATENCY).number(0).raw(b"T\0\0\0\0\0\0\0\0");
 
 /// A connection with a stream on it.
 pub struct Stream {
-    socket: UnixStream,
-    /// What was received and not yet understood.
-    received: Vec<u8>,
+    socket: OwnedFd,
+    /// What the server is saying, and how many of its bytes have come.
+    packet: [u8; HEAD + LONGEST],
+    got: usize,
     /// The stream's channel, once the server has said it.
-    channel: Option<u32>,
-    /// Bytes of sound that the server wants by now.
-    pub wanted: usize,
-    /// Bytes that were sent.
+    channel: [u8; 4],
+    /// Bytes of sound that the server wants by now; below 0 where it got more.
+    pub wanted: i32,
+    /// Bytes of sound that were sent.
     pub sent: u64,
-    /// How late what was sent last will be heard, seconds; when the server said so, and the bytes that were sent until
-    /// then.
-    delay: Option<(f64, Instant, u64)>,
-}
-
-/// What the server has said.
-#[derive(Default)]
-pub struct News {
-    /// How long ago the last sample that was sent would have to have been for being heard now, seconds.
-    pub delay: Option<f64>,
 }
 
 impl Stream {
     /// A stream on the server of this user, if there is one.
     pub fn open() -> Option<Stream> {
-        let socket = UnixStream::connect(address()?).ok()?;
-        socket.set_read_timeout(Some(WAIT)).ok()?;
-        socket.set_write_timeout(Some(PATIENCE)).ok()?;
-        let mut stream = Stream { socket, received: Vec::new(), channel: None, wanted: 0, sent: 0, delay: None };
-        // All at once: the server answers them in turn.
-        stream.say(Command::new(AUTH).number(VERSION).bytes(&[0; COOKIE]))?;
-        stream.say(Command::new(SET_CLIENT_NAME).text(NAME))?;
-        let create = Command::new(CREATE_PLAYBACK_STREAM)
-            .text(NAME)
-            .raw(&[b'a', S16LE, 2])
-            .raw(&RATE.to_be_bytes())
-            .raw(&[b'm', 2])
-            .raw(&LEFT_RIGHT)
-            // Any sink, by its number and by its name.
-            .number(ANY)
-            .raw(b"N")
-            // The longest buffer; not corked; what it keeps, has before it starts, and asks for at least.
-            .number(ANY)
-            .raw(b"0")
-            .number(KEPT)
-            .number(ANY)
-            .number(ANY)
-            // Together with no other stream.
-            .number(0)
-            .raw(&[b'v', 2])
-            .raw(&UNCHANGED.to_be_bytes())
-            .raw(&UNCHANGED.to_be_bytes());
-        stream.say(create)?;
-        Some(stream)
+        let path = match variable(b"PULSE_SERVER=") {
+            Some(server) => fill("%\0", &[server.strip_prefix(b"unix:").unwrap_or(server)]),
+            None => fill("%/pulse/native\0", &[variable(b"XDG_RUNTIME_DIR=")?]),
+        };
+        let socket = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
+        connect(&socket, &SocketAddrUnix::new(c_path(&path)).ok()?).ok()?;
+        write_all(socket.as_fd(), HELLO.bytes()).ok()?;
+        Some(Stream { socket, packet: [0; _], got: 0, channel: [0; 4], wanted: 0, sent: 0 })
+    }
+
+    /// Sends a piece of sound.
+    pub fn send(&mut self, samples: &[Pair]) -> Option<()> {
+        let mut packet = [0; HEAD + SENT];
+        packet[..4].copy_from_slice(&(SENT as u32).to_be_bytes());
+        packet[4..8].copy_from_slice(&self.channel);
+        for (bytes, code) in packet[HEAD..].as_chunks_mut().0.iter_mut().zip(samples.as_flattened()) {
+            *bytes = code.to_le_bytes();
+        }
+        self.sent += SENT as u64;
+        self.wanted -= SENT as i32;
+        write_all(self.socket.as_fd(), &packet).ok()
     }
 
     /// Asks how late what is sent is heard.
-    pub fn ask(&mut self) -> Option<()> {
-        let Some(channel) = self.channel else { return Some(()) };
-        self.say(Command::new(GET_PLAYBACK_LATENCY).number(channel).raw(b"T\0\0\0\0\0\0\0\0"))
+    pub fn ask(&self) -> Option<()> {
+        let mut ask = ASK;
+        ask.bytes[HEAD + CHANNEL..][..4].copy_from_slice(&self.channel);
+        write_all(self.socket.as_fd(), ask.bytes()).ok()
     }
 
-    /// How late what is sent now will be heard, seconds, if the server has said.
-    pub fn delay(&self) -> Option<f64> {
-        let (delay, at, then) = self.delay?;
-        Some(delay + seconds(self.sent - then) - at.elapsed().as_secs_f64())
-    }
-
-    /// Sends sound.
-    pub fn send(&mut self, samples: &[Pair]) -> Option<()> {
-        let bytes: Vec<u8> = samples.as_flattened().iter().flat_map(|code| code.to_le_bytes()).collect();
-        self.packet(self.channel?, &bytes)?;
-        self.sent += bytes.len() as u64;
-        self.wanted = self.wanted.saturating_sub(bytes.len());
-        Some(())
-    }
-
-    /// Waits a little for news; none once the server has gone or makes no sense.
-    pub fn listen(&mut self) -> Option<News> {
-        let mut bytes = [0; 4096];
-        match self.socket.read(&mut bytes) {
-            Ok(0) => return None,
-            Ok(count) => self.received.extend_from_slice(&bytes[..count]),
-            Err(error)
-                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted) => {}
-            Err(_) => return None,
+    /// Waits a little for the server to say something; none once it has gone or makes no sense. What it may have said is
+    /// how late what is sent now will be heard, in seconds.
+    pub fn listen(&mut self) -> Option<Option<f64>> {
+        if poll(&mut [PollFd::new(&self.socket, PollFlags::IN)], Some(&WAIT)) == Ok(0) {
+            return Some(None);
         }
-        let mut news = News::default();
-        while let Some((head, rest)) = self.received.split_first_chunk::<HEAD>() {
-            let [length, channel] =
-                [0, 4].map(|at| u32::from_be_bytes([head[at], head[at + 1], head[at + 2], head[at + 3]]));
-            let length = length as usize;
-            if length > LONGEST {
-                return None;
-            }
-            if rest.len() < length {
-                break;
-            }
-            let packet = rest[..length].to_vec();
-            self.received.drain(..HEAD + length);
-            if channel == ANY {
-                self.understand(&packet, &mut news)?;
-            }
+        let end = if self.got < HEAD { HEAD } else { HEAD + self.word(0) as usize };
+        match read(&self.socket, &mut self.packet[self.got..end]) {
+            Ok(count @ 1..) => self.got += count,
+            _ => return None,
         }
-        Some(news)
-    }
-
-    /// Takes in a command of the server's.
-    fn understand(&mut self, packet: &[u8], news: &mut News) -> Option<()> {
-        let mut values = Values(packet);
-        match (values.number()?, values.number()?) {
+        if self.got < HEAD {
+            return Some(None);
+        }
+        let length = self.word(0) as usize;
+        if length > LONGEST {
+            return None;
+        }
+        if self.got < HEAD + length {
+            return Some(None);
+        }
+        self.got = 0;
+        let value = |at| self.word(HEAD + at);
+        let mut more = 0;
+        match (value(WHAT), value(TAG)) {
+            // Commands are told from each other by their numbers, so what failed needs no name.
+            (ERROR, _) => return None,
             (REPLY, CREATE_PLAYBACK_STREAM) => {
-                self.channel = Some(values.number()?);
-                let _index = values.number()?;
-                self.wanted = values.number()? as usize;
+                more = value(FIRST);
+                self.channel = value(CHANNEL).to_be_bytes();
             }
-            (REPLY, GET_PLAYBACK_LATENCY) => {
-                // The sink's, in microseconds, and a source's; whether it plays; two times of day; what the stream was
-                // sent and what was taken from it.
-                let sink = u64::from_be_bytes(values.of(b'U')?);
-                let _: [u8; 8] = values.of(b'U')?;
-                let plays = values.byte()? == b'1';
-                let _: [[u8; 8]; 2] = [values.of(b'T')?, values.of(b'T')?];
-                let _: [u8; 8] = values.of(b'r')?;
-                let taken = i64::from_be_bytes(values.of(b'r')?).max(0) as u64;
-                // A second is more than any sink has; a larger number is no time.
-                let delay = seconds(self.sent.saturating_sub(taken)) + (sink as f64 * 1e-6).min(1.0);
-                if plays {
-                    self.delay = Some((delay, Instant::now(), self.sent));
-                    news.delay = Some(delay);
-                }
+            (REPLY, GET_PLAYBACK_LATENCY) if self.packet[HEAD + PLAYS] == b'1' => {
+                let waits = self.sent.wrapping_sub(self.long(TAKEN)) as i64;
+                return Some(Some(self.long(SINK) as f64 * 1e-6 + waits as f64 / SECOND));
             }
-            (REQUEST, _) => {
-                values.number()?;
-                self.wanted = self.wanted.saturating_add(values.number()? as usize);
-            }
-            // Errors: the commands are told from each other by their numbers, so what failed needs no name.
-            (0, _) => return None,
+            (REQUEST, _) => more = value(MORE),
             _ => {}
         }
-        Some(())
+        self.wanted = (self.wanted + more.min(MOST) as i32).min(MOST as i32);
+        Some(None)
     }
 
-    fn say(&mut self, command: Command) -> Option<()> {
-        self.packet(ANY, &command.0)
+    /// The number at a place of the packet.
+    fn word(&self, at: usize) -> u32 {
+        let mut word = [0; 4];
+        word.copy_from_slice(&self.packet[at..][..4]);
+        u32::from_be_bytes(word)
     }
 
-    fn packet(&mut self, channel: u32, bytes: &[u8]) -> Option<()> {
-        let mut packet = Vec::with_capacity(HEAD + bytes.len());
-        for word in [bytes.len() as u32, channel, 0, 0, 0] {
-            packet.extend_from_slice(&word.to_be_bytes());
+    /// The number of 64 bits at a place among the values.
+    fn long(&self, at: usize) -> u64 {
+        u64::from(self.word(HEAD + at)) << 32 | u64::from(self.word(HEAD + at + 4))
+    }
+}
+
+/// Packets while they are put together, and where the last one begins.
+#[derive(Clone, Copy)]
+struct Packet {
+    bytes: [u8; 512],
+    length: usize,
+    start: usize,
+}
+
+impl Packet {
+    /// A command: its number, and the number by which its answer is known, which is the same.
+    const fn command(number: u32) -> Packet {
+        Packet { bytes: [0; 512], length: 0, start: 0 }.then(number)
+    }
+
+    /// Another command after those.
+    const fn then(self, number: u32) -> Packet {
+        let next = Packet { start: self.length, ..self };
+        next.word(0).word(ANY).word(0).word(0).word(0).number(number).number(number)
+    }
+
+    /// With these bytes after it. The head says so.
+    const fn raw(mut self, bytes: &[u8]) -> Packet {
+        let mut i = 0;
+        while i < bytes.len() {
+            self.bytes[self.length] = bytes[i];
+            self.length += 1;
+            i += 1;
         }
-        packet.extend_from_slice(bytes);
-        self.socket.write_all(&packet).ok()
-    }
-}
-
-/// The seconds that so many bytes of sound last.
-fn seconds(bytes: u64) -> f64 {
-    bytes as f64 / (f64::from(RATE) * size_of::<Pair>() as f64)
-}
-
-/// Where the server listens.
-fn address() -> Option<PathBuf> {
-    if let Some(server) = env::var_os("PULSE_SERVER") {
-        let server = server.as_bytes();
-        let path = server.strip_prefix(b"unix:").unwrap_or(server);
-        return path.starts_with(b"/").then(|| PathBuf::from(std::ffi::OsStr::from_bytes(path)));
-    }
-    Some(PathBuf::from(env::var_os("XDG_RUNTIME_DIR")?).join("pulse/native"))
-}
-
-/// A command: its number, the number by which its answer is known, which is the same, and its values.
-struct Command(Vec<u8>);
-
-impl Command {
-    fn new(number: u32) -> Command {
-        Command(Vec::new()).number(number).number(number)
-    }
-
-    fn raw(mut self, bytes: &[u8]) -> Command {
-        self.0.extend_from_slice(bytes);
+        let length = (self.length.saturating_sub(self.start + HEAD) as u32).to_be_bytes();
+        let mut i = 0;
+        while i < 4 {
+            self.bytes[self.start + i] = length[i];
+            i += 1;
+        }
         self
     }
 
-    fn number(self, number: u32) -> Command {
-        self.raw(b"L").raw(&number.to_be_bytes())
+    /// With a word without a type after it.
+    const fn word(self, word: u32) -> Packet {
+        self.raw(&word.to_be_bytes())
     }
 
-    fn text(self, text: &[u8]) -> Command {
-        self.raw(b"t").raw(text).raw(&[0])
+    /// With a number after it.
+    const fn number(self, number: u32) -> Packet {
+        self.raw(b"L").word(number)
     }
 
-    fn bytes(self, bytes: &[u8]) -> Command {
-        self.raw(b"x").raw(&(bytes.len() as u32).to_be_bytes()).raw(bytes)
-    }
-}
-
-/// The values of a command that are still to be read; none where they are of another type or too short.
-struct Values<'a>(&'a [u8]);
-
-impl Values<'_> {
-    fn byte(&mut self) -> Option<u8> {
-        let (&byte, rest) = self.0.split_first()?;
-        self.0 = rest;
-        Some(byte)
-    }
-
-    /// The bytes of a value of this type.
-    fn of<const N: usize>(&mut self, kind: u8) -> Option<[u8; N]> {
-        let (bytes, rest) = self.0.strip_prefix(&[kind])?.split_first_chunk()?;
-        self.0 = rest;
-        Some(*bytes)
-    }
-
-    fn number(&mut self) -> Option<u32> {
-        self.of(b'L').map(u32::from_be_bytes)
+    fn bytes(&self) -> &[u8] {
+        &self.bytes[..self.length]
     }
 }

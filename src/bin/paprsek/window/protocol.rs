@@ -8,7 +8,7 @@
 //! Nothing that the server says is taken on trust, and nothing is waited for long: the socket never blocks, waits are
 //! counted, and what a length names is there, as zeros if need be.
 
-use crate::io::{c_path, contents};
+use crate::io::{c_path, contents, variable};
 use crate::text::fill;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{read, write};
@@ -141,9 +141,6 @@ impl Server {
     /// Connects to the server that `DISPLAY` names, trying each cookie that may be for it. Without success `why` has
     /// the reason, if one is known.
     pub fn find(why: &mut &'static str) -> Option<Server> {
-        // What is read here is leaked: dropping it would be code.
-        let environment = contents(b"/proc/self/environ\0").leak();
-        let variable = |name: &[u8]| environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name));
         let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
         let address = SocketAddrUnix::new(c_path(&fill("/tmp/.X11-unix/X%\0", &[number]))).ok()?;
         let authority = match variable(b"XAUTHORITY=") {
