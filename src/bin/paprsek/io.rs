@@ -188,7 +188,7 @@ mod system {
     }
 }
 
-#[cfg(all(unix, not(feature = "wayland")))]
+#[cfg(unix)]
 pub use system::c_path;
 #[cfg(unix)]
 pub use system::contents;
