@@ -27,6 +27,7 @@ mod quality;
 mod samples;
 mod shadows;
 mod show;
+mod sound;
 mod stills;
 mod unseen;
 mod worst;
@@ -52,6 +53,8 @@ enum Measurement {
     Figures(Quick),
     /// The show, part by part: speed, error, and frames that pop.
     Show(Common),
+    /// The sound of the show: levels, spectrum and loudness.
+    Sound(Common),
     /// Shadow maps against traced shadows: by size, height of the sun, cascades and bias.
     Shadows(Common),
     /// Frames per second against objects and against lights.
@@ -110,6 +113,7 @@ fn run(measurement: Measurement) -> Result {
         Measurement::Quality(options) => quality::run(&options),
         Measurement::Figures(options) => figures::run(&options),
         Measurement::Show(options) => show::run(&options),
+        Measurement::Sound(options) => sound::run(&options),
         Measurement::Shadows(options) => shadows::run(&options),
         Measurement::Lights(options) => lights::run(&options),
         Measurement::Particles(options) => particles::run(&options),
@@ -147,6 +151,7 @@ fn all(common: &Common) -> Result {
         }),
         Measurement::Figures(Quick { quick }),
         Measurement::Show(common.clone()),
+        Measurement::Sound(common.clone()),
         Measurement::Shadows(common.clone()),
         Measurement::Lights(common.clone()),
         Measurement::Particles(common.clone()),
