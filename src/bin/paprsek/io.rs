@@ -199,11 +199,16 @@ pub use system::make_directory;
 #[cfg(unix)]
 pub use system::write_all;
 
-/// The value of a variable of the environment, given its name with `=`, kept for the whole run.
+/// The environment as this process got it, kept for the whole run.
 #[cfg(unix)]
-pub fn variable(name: &[u8]) -> Option<&'static [u8]> {
+pub fn environment() -> &'static [u8] {
     // What is read here is leaked: dropping it would be code.
-    let environment: &[u8] = contents(b"/proc/self/environ\0").leak();
+    contents(b"/proc/self/environ\0").leak()
+}
+
+/// The value of a variable of the environment, given its name with `=`.
+#[cfg(unix)]
+pub fn variable(environment: &'static [u8], name: &[u8]) -> Option<&'static [u8]> {
     environment.split(|byte| *byte == 0).find_map(|entry| entry.strip_prefix(name))
 }
 

@@ -6,7 +6,7 @@
 //! sound. What the server says is looked for where version 8 has it. A packet longer than any that is meant for this
 //! client ends the sound, as an error does; numbers that make no sense are as good as others.
 
-use crate::io::{c_path, variable, write_all};
+use crate::io::{c_path, environment, variable, write_all};
 use crate::text::fill;
 use paprsek::sound::{BLOCK, Pair, RATE};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -99,9 +99,10 @@ pub struct Stream {
 impl Stream {
     /// A stream on the server of this user, if there is one.
     pub fn open() -> Option<Stream> {
-        let path = match variable(b"PULSE_SERVER=") {
+        let environment = environment();
+        let path = match variable(environment, b"PULSE_SERVER=") {
             Some(server) => fill("%\0", &[server.strip_prefix(b"unix:").unwrap_or(server)]),
-            None => fill("%/pulse/native\0", &[variable(b"XDG_RUNTIME_DIR=")?]),
+            None => fill("%/pulse/native\0", &[variable(environment, b"XDG_RUNTIME_DIR=")?]),
         };
         let socket = socket(AddressFamily::UNIX, SocketType::STREAM, None).ok()?;
         connect(&socket, &SocketAddrUnix::new(c_path(&path)).ok()?).ok()?;

@@ -8,7 +8,7 @@
 //! Nothing that the server says is taken on trust, and nothing is waited for long: the socket never blocks, waits are
 //! counted, and what a length names is there, as zeros if need be.
 
-use crate::io::{c_path, contents, variable};
+use crate::io::{c_path, contents, environment, variable};
 use crate::text::fill;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{read, write};
@@ -141,11 +141,12 @@ impl Server {
     /// Connects to the server that `DISPLAY` names, trying each cookie that may be for it. Without success `why` has
     /// the reason, if one is known.
     pub fn find(why: &mut &'static str) -> Option<Server> {
-        let number = variable(b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
+        let environment = environment();
+        let number = variable(environment, b"DISPLAY=:")?.split(|byte| *byte == b'.').next()?;
         let address = SocketAddrUnix::new(c_path(&fill("/tmp/.X11-unix/X%\0", &[number]))).ok()?;
-        let authority = match variable(b"XAUTHORITY=") {
+        let authority = match variable(environment, b"XAUTHORITY=") {
             Some(path) => fill("%\0", &[path]),
-            None => fill("%/.Xauthority\0", &[variable(b"HOME=").unwrap_or_default()]),
+            None => fill("%/.Xauthority\0", &[variable(environment, b"HOME=").unwrap_or_default()]),
         };
         // As `ANY`, but with the number of this display behind its length.
         let own = fill("\0%%\0\x12MIT-MAGIC-COOKIE-1\0\x10", &[&[number.len() as u8], number]).leak();
