@@ -48,7 +48,7 @@ fn no_frame_knows_the_ones_before_it() {
 fn it_flies_into_clouds_and_out_of_them() {
     let mut renderer = Renderer::new(2).unwrap();
     let mut variance = |time: f64| moments(&frame(&mut renderer, time, &Quality::FAST))[1];
-    for (outside, inside) in [(2.0, 4.8), (7.5, 10.9), (31.0, 26.2)] {
+    for (outside, inside) in [(2.0, 4.2), (6.75, 9.2), (31.0, 26.2)] {
         let [outside, inside] = [variance(outside), variance(inside)];
         assert!(outside > 3.0 * inside, "{outside} {inside}");
     }

@@ -3,7 +3,7 @@
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
-use paprsek::scenes::show::intro::{FADE, INTRO, PARTS, READ, WRITING, brightness};
+use paprsek::scenes::show::intro::{DARK, FADE, INTRO, PARTS, READ, WRITING, brightness};
 use paprsek::view::Stereo;
 
 const SIZE: (usize, usize) = (96, 54);
@@ -27,12 +27,14 @@ fn it_comes_first_and_its_parts_are_scenes() {
     }
 }
 
-/// Every so many seconds, up to the very fades.
+/// Every so many seconds, up to the very fades, or to the cuts that have none.
 fn parts_are_shown_as_they_are(step: usize) {
     let ends: Vec<f64> = PARTS.iter().skip(1).map(|part| part.0).chain([INTRO.duration]).collect();
     for (number, (start, (scene, from))) in PARTS.iter().enumerate() {
-        let first = if number == 0 { 0.0 } else { start + FADE };
-        let last = ends[number] - FADE;
+        let fade = |cut: f64| if DARK.contains(&cut) || cut == INTRO.duration { FADE } else { 0.0 };
+        let first = start + fade(*start);
+        // A frame before the next part.
+        let last = ends[number] - fade(ends[number]).max(1.0 / 60.0);
         let steps = (last - first).floor() as usize;
         for time in (0..=steps).step_by(step).map(|step| first + step as f64).chain([last]) {
             let written = WRITING.iter().any(|([begin, ..], _)| (0.0..READ).contains(&(time - f64::from(*begin))));
@@ -80,9 +82,8 @@ fn it_ends_in_the_dark() {
 }
 
 #[test]
-fn light_fades_at_cuts_and_at_the_end_alone() {
-    let parts = [(0.0, ()), (10.0, ()), (25.0, ())];
-    let light = |time| brightness(&parts, 40.0, time);
+fn light_fades_at_dark_cuts_and_at_the_end_alone() {
+    let light = |time| brightness(&[10.0, 25.0], 40.0, time);
     for time in [-3.0, 0.0, 0.1, 5.0, 10.0 - FADE, 10.0 + FADE, 24.0, 25.0 + FADE, 40.0 - FADE] {
         assert_eq!(light(time), 1.0, "{time}");
     }

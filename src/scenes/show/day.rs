@@ -94,18 +94,21 @@ fn picture(spec: &FrameSpec) -> Picture {
     // Central European Time is an hour ahead of UT.
     let start = spec.get(&START) - FIRST_HOUR - 1.0;
     let midnight = valley::date(spec, &DATE) + start * HOUR + date as f64;
-    let dome = valley::sky(spec, midnight + hour * HOUR);
+    let mut dome = valley::sky(spec, midnight + hour * HOUR);
+    let dark = ease(-0.02, 0.1, -dome.sky.sun.y as f64);
+    // A display needs more light than an eye.
+    dome.exposure *= 1.0 + dark;
     let now = dome.lighting();
-    // The aeroplane comes over the hill every 15 seconds.
-    let flights = spec.time / 15.0;
+    // The aeroplane comes over the hill every 6 seconds, and where the show cuts from it to September.
+    let flights = (spec.time + 2.0) / 6.0;
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
     let turn = angle::turn_y(-1.0) * angle::turn_z(0.25);
-    let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 38.0, -20.0);
+    let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 30.0, -20.0);
     #[cfg(feature = "full")]
     let (place, turn) = spec.flown(place, turn);
     let view = spec.view(camera);
     let mut world = valley::world(&dome, textures, turn, place, spec.time);
     world.lights[0].shadow = valley::cascades(spec, view.camera(), now.direction, &[24.0, 80.0, 500.0, 6000.0]);
-    valley::lamp(&mut world, ease(-0.02, 0.1, -dome.sky.sun.y as f64));
+    valley::lamp(&mut world, dark);
     valley::show(spec, dome, world, view, None)
 }

@@ -1,5 +1,4 @@
-//! The show: parts one after another, each a scene of its own, with a fade through black between them, and writing made
-//! of sparks over the first and the last.
+//! The show: parts one after another, each a scene of its own, and writing made of sparks over the first and the last.
 
 use super::{clouds, day, letters, lumen, snowfall, torches};
 use crate::effects::Fade;
@@ -37,6 +36,10 @@ const fn part(scene: Scene, built: bool) -> Scene {
     if built { scene } else { Scene::EMPTY }
 }
 
+/// The seconds of cuts that fade through black. The others match: the aeroplane flies on in another season, the light in
+/// a door becomes a torch, and the moon a ball of glass.
+pub const DARK: [f64; 3] = [21.0, 35.0, 83.0];
+
 /// The length of the show, seconds.
 const END: f64 = 154.0;
 
@@ -48,7 +51,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     // The show has no parameters, so its parts have their defaults.
     let mut picture = (part.picture)(&FrameSpec { time: from + time, ..*spec });
     write(spec, &mut picture);
-    let brightness = brightness(PARTS, END, spec.time);
+    let brightness = brightness(&DARK, END, spec.time);
     if brightness < 1.0 {
         picture.layers.push(Box::new(Fade(brightness)));
     }
@@ -104,10 +107,10 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
     }
 }
 
-/// The share of light at `time` seconds in a show of these parts: 0 at cuts and from the `end` on, 1 away from them.
-/// The show itself starts without a fade, since its first frame should show something.
-pub fn brightness<T>(parts: &[(f64, T)], end: f64, time: f64) -> f32 {
-    let cuts = parts[1..].iter().map(|&(start, _)| ease(0.0, FADE, (time - start).abs()));
+/// The share of light at `time` seconds in a show with these `dark` cuts: 0 at each and from the `end` on, 1 away from
+/// them. The show itself starts without a fade, since its first frame should show something.
+pub fn brightness(dark: &[f64], end: f64, time: f64) -> f32 {
+    let cuts = dark.iter().map(|&cut| ease(0.0, FADE, (time - cut).abs()));
     let light = cuts.fold(ease(0.0, FADE, end - time), f32::min);
     // Squared, since the eye and the codes of a display go by about the root of the light.
     light * light

@@ -432,9 +432,9 @@ const fn inlay(mirror: Word, y: Word, radius: Word) -> [Word; 19] {
 /// Sunset: the ball on the water, and the sun in it. The sea is a disc, so that its edge and the clouds mirror the sky
 /// beyond.
 const SUNSET: &[u8] = script! {
-    ..key(0.0, [-1.4, 0.9, 3.4], [0.3, 1.05, 0.0], 40.0, 0.0);
-    ..key(5.0, [-0.8, 1.3, 5.4], [0.8, 1.3, 0.0], 40.0, 0.0);
-    ..key(11.0, [0.6, 2.3, 9.0], [1.2, 1.6, 0.0], 40.0, 0.0);
+    ..key(0.0, [-0.5, 1.5, 21.0], [-0.5, 0.9, 0.0], 40.0, 0.0);
+    ..key(4.0, [0.6, 2.3, 9.0], [1.2, 1.6, 0.0], 40.0, 0.0);
+    ..key(11.0, [-1.4, 0.9, 3.4], [0.3, 1.05, 0.0], 40.0, 0.0);
     camera();
 
     // The sea.

@@ -51,7 +51,7 @@ static WALK: [Key<5>; 6] = [
     [9.0, -35.0, 63.5, 0.95, 0.25],
     [12.0, -33.5, 58.5, 1.0, 0.3],
     [18.0, -31.0, 49.5, 0.55, 0.05],
-    [32.0, -23.0, 27.0, 0.66, 0.16],
+    [32.0, -9.0, 17.0, 0.7, 0.12],
 ];
 
 /// The near field: flakes around the eye.
@@ -135,7 +135,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
     let dusk = ease(0.0, LENGTH, spec.time);
-    let sky = vec3(1.0, 1.04, 1.1) * (vec3(2.8, 2.45, 1.95) * -dusk).exp();
+    let sky = vec3(1.0, 1.04, 1.1) * (vec3(2.5, 2.1, 1.6) * -dusk).exp();
     let amount = 0.04 * (spec.time - 2.0).clamp(0.0, 25.0) as f32;
     // What the ground reflects: more as it whitens.
     let ground = 0.15 + 0.65 * amount;

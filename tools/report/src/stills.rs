@@ -35,7 +35,7 @@ const SHEETS: [Sheet; 8] = [
     ("day.png", scenes::show::day::DAY, DAY, (336, 189), 3),
     ("clouds.png", scenes::show::clouds::CLOUDS, &[1.8, 6.6, 37.0, 45.0], (640, 360), 2),
     ("snowfall.png", scenes::show::snowfall::SNOWFALL, &[5.0, 12.0, 16.0, 26.0], (640, 360), 2),
-    ("torches.png", scenes::show::torches::TORCHES, &[3.0, 10.0, 15.0, 22.0], (640, 360), 2),
+    ("torches.png", scenes::show::torches::TORCHES, &[2.0, 7.0, 14.0, 25.0], (640, 360), 2),
 ];
 
 /// Seconds from one still of the contact sheet to the next, and the least distance to a cut, where the show is dark.

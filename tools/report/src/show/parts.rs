@@ -2,7 +2,7 @@
 
 use paprsek::frame::Scene;
 use paprsek::scenes::INTRO;
-use paprsek::scenes::show::intro::{PARTS, brightness};
+use paprsek::scenes::show::intro::{DARK, PARTS, brightness};
 use paprsek::scenes::show::{clouds, day, lumen, torches};
 use std::ops::Range;
 
@@ -69,5 +69,5 @@ impl Part {
 
 /// Whether the show has its full light, and does not fade to a cut or from it.
 pub fn is_lit(time: f64) -> bool {
-    brightness(PARTS, INTRO.duration, time) == 1.0
+    brightness(&DARK, INTRO.duration, time) == 1.0
 }
