@@ -104,7 +104,7 @@ const SEASONS: &[u8] = script! {
     // 0, grass.
     ..near(-0.5, MEADOW_RED); ..near(0.0, MEADOW_GREEN); ..near(0.2, MEADOW_BLUE);
     ..near(2.5, MEADOW_RED); ..near(2.0, MEADOW_GREEN); ..near(1.8, MEADOW_BLUE);
-    texture(0.9, 6.0, CLOUDS);
+    texture(0.35, 5.0, CLOUDS);
     // 1, the land by height, from -50 m to 1250 m: grass, woods, rock, snow.
     push(MEADOW_RED * 0.115, MEADOW_GREEN * 0.165, MEADOW_BLUE * 0.035);
     ..far(0.045); ..far(0.075); ..far(0.025);
