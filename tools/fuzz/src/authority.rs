@@ -24,12 +24,12 @@ pub fn run(bytes: &[u8]) {
     let input = &mut Input::new(bytes);
     let (file, fitting) = if input.flag() { (bytes.to_vec(), Vec::new()) } else { entries(input, &display.number) };
     fs::write(&display.authority, file).unwrap();
-    display.says(REFUSAL);
+    display.server.says(REFUSAL);
     let began = Instant::now();
     let mut why = "";
     assert!(Server::find(&mut why).is_none(), "a refusal is taken for a welcome");
     assert!(began.elapsed() < LONG, "{:?}", began.elapsed());
-    let heard = display.heard();
+    let heard = display.server.heard();
     let mut tried = heard.iter().filter_map(|said| said.get(COOKIE_AT..)?.first_chunk::<COOKIE>());
     // Bytes of an entry may look like another, so there may be more.
     for cookie in &fitting {

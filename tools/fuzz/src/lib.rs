@@ -9,6 +9,7 @@ mod cloud;
 mod command_line;
 mod display;
 mod input;
+mod listener;
 pub mod mutate;
 mod numbers;
 mod particles;
@@ -17,6 +18,7 @@ mod raster;
 mod scripts;
 mod server;
 mod solid;
+mod sound_server;
 mod trace;
 mod unpacker;
 
@@ -30,6 +32,9 @@ mod io;
 #[allow(dead_code, reason = "the program uses the rest")]
 #[path = "../../../src/bin/paprsek/parameters.rs"]
 mod parameters;
+#[allow(dead_code, unused_imports, reason = "the program uses the rest")]
+#[path = "../../../src/bin/paprsek/sound/mod.rs"]
+mod sound;
 #[allow(dead_code, reason = "the program uses the rest")]
 #[path = "../../../src/bin/paprsek/text.rs"]
 mod text;
@@ -53,11 +58,12 @@ use paprsek::{angle, texture};
 pub type Target = fn(&[u8]);
 
 /// The targets by name.
-pub const TARGETS: [(&str, Target); 10] = [
+pub const TARGETS: [(&str, Target); 11] = [
     ("command_line", command_line::run),
     ("numbers", numbers::run),
     ("server", server::run),
     ("authority", authority::run),
+    ("sound", sound_server::run),
     ("unpacker", unpacker::run),
     ("scripts", scripts::run),
     ("raster", raster::run),

@@ -65,7 +65,7 @@ pub fn run(bytes: &[u8]) {
     let Some((&beginning, rest)) = bytes.split_first() else { return };
     let polite = polite();
     let kept = if beginning < 128 { polite.len() } else { polite.len() * usize::from(beginning - 128) / 128 };
-    display.says(&[&polite[..kept], rest].concat());
+    display.server.says(&[&polite[..kept], rest].concat());
     let began = Instant::now();
     let mut why = "";
     if let Some(mut server) = Server::find(&mut why) {
@@ -102,5 +102,5 @@ pub fn run(bytes: &[u8]) {
         }
     }
     assert!(began.elapsed() < LONG, "{:?}", began.elapsed());
-    display.heard();
+    display.server.heard();
 }

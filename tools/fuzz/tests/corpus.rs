@@ -20,8 +20,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Runs a target over its kept inputs and `runs` mutations of them. A display that only the process itself serves, and an
-/// authority file of its own, are there for it.
+/// Runs a target over its kept inputs and `runs` mutations of them. A display and a sound server that only the process itself
+/// serves, and an authority file of its own, are there for it.
 #[track_caller]
 fn replay(target: &str, runs: u32) {
     static NEXT: AtomicU32 = AtomicU32::new(0);
@@ -33,7 +33,9 @@ fn replay(target: &str, runs: u32) {
     let mut shell = Command::new("sh");
     shell.args(["-c", "ulimit -v $0; exec \"$@\"", &MEMORY.to_string(), env!("CARGO_BIN_EXE_replay"), target]);
     shell.args([&runs.to_string(), SEED]).args(&kept).current_dir(root());
-    shell.env("DISPLAY", format!(":{number}")).env("XAUTHORITY", &authority).stdout(Stdio::piped());
+    let sound = authority.with_extension("sound");
+    shell.env("DISPLAY", format!(":{number}")).env("XAUTHORITY", &authority);
+    shell.env("PULSE_SERVER", format!("unix:{}", sound.display())).stdout(Stdio::piped());
     let (mut child, began) = (shell.spawn().unwrap(), Instant::now());
     let status = loop {
         if let Some(status) = child.try_wait().unwrap() {
@@ -46,6 +48,7 @@ fn replay(target: &str, runs: u32) {
         sleep(Duration::from_millis(20));
     };
     let _ = fs::remove_file(authority);
+    let _ = fs::remove_file(sound);
     let _ = fs::remove_file(format!("/tmp/.X11-unix/X{number}"));
     assert!(status.success(), "{target}: {status}, over target/fuzz/{target}-last");
     let mut said = String::new();
@@ -71,6 +74,11 @@ fn an_x_server_may_say_anything() {
 #[test]
 fn an_authority_file_may_hold_anything() {
     replay("authority", 500);
+}
+
+#[test]
+fn a_sound_server_may_say_anything() {
+    replay("sound", 500);
 }
 
 #[test]

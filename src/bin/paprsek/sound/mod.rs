@@ -66,14 +66,15 @@ pub fn play(clock: &dyn Fn(Option<f64>) -> Option<f64>) -> Option<()> {
                 && !heard.is_nan()
             {
                 // The time of the show when this piece will be heard.
-                let then = time + (heard - now);
+                let then = (time + (heard - now)).max(0.0);
                 if (then - f64::from(next) * EACH).abs() > APART {
                     next = (then / EACH) as u32;
                     since = heard;
                 }
                 for block in &mut piece {
                     *block = score.block(next);
-                    next += 1;
+                    // A server that tells wild times gets the last block there can be, which is silent.
+                    next = next.saturating_add(1);
                 }
             } else {
                 (next, since) = (NONE, f64::INFINITY);
