@@ -28,6 +28,8 @@ pub struct CloudKind {
     rings: &'static [[i8; 7]],
     /// Height of the base, below which nothing is, hundredths.
     base: i8,
+    /// Distance inside of the surface over which density rises from 0 to 255. Less than two voxels show as steps.
+    rise: f32,
 }
 
 /// How far noise moves points.
@@ -38,55 +40,62 @@ const WARP: f32 = 0.22;
 const EROSION: f32 = 0.42;
 const SHIFT: f32 = EROSION * 0.16;
 
-/// Distance inside of the surface over which density rises from 0 to 255.
-const EDGE: f32 = 0.12;
-
 impl CloudKind {
     /// A fair-weather cloud: a dome on a flat base.
     pub const CUMULUS: CloudKind =
-        CloudKind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46 };
+        CloudKind { rings: &[[8, 30, 16, -34, 22, 22, 13], [1, 0, 0, -4, 0, 50, 12]], base: -46, rise: 0.12 };
     /// A tower of domes.
     pub const CONGESTUS: CloudKind = CloudKind {
         rings: &[[8, 26, 16, -62, 16, 20, 10], [5, 12, 14, -30, 30, 24, 12], [3, 6, 14, 20, 30, 20, 14]],
         base: -80,
+        rise: 0.12,
     };
+
+    /// The same kind with another distance over which density rises: less than 0.12 looks crisper from close by, and wants
+    /// more voxels.
+    pub const fn with_rise(self, rise: f32) -> CloudKind {
+        CloudKind { rise, ..self }
+    }
 
     /// The cloud of a kind and a seed, `edge` points along an edge: a multiple of 4.
     ///
-    /// Points are taken in blocks, in the order in which voxels are stored:
+    /// Points are taken in blocks along x, and blocks in columns along y, whose base is the same:
     ///
     /// ```text
-    /// for each block:
+    /// for each column, for each block of it:
     ///     warped = point + WARP * noise(point)
     ///     distance = to the nearest puff from the warped point, + SHIFT
     ///     skip the block where erosion could not bring any point inside
     ///     distance -= EROSION * four octaves of |noise(warped)|
     ///     base = height over the base, which noise makes uneven
-    ///     density = clamp(-distance / EDGE) * clamp(base), and 0 at the faces of the cube
+    ///     density = clamp(-distance / rise) * clamp(base), and 0 at the faces of the cube
     /// ```
     #[simd]
     pub fn grow<S: Simd>(simd: S, kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
         let o = 17.3 * (seed + 1) as f32;
         let puffs = kind.puffs(seed);
         let mut density = vec![0; edge * edge * edge];
-        let (mut ground, mut base) = ([[9.0; BLOCK]; 2], [0.0; BLOCK]);
-        for (block, density) in density.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
-            let ([mut x, mut y, mut z], mut inside) = ([[0.0; BLOCK]; 3], [0.0; BLOCK]);
-            points(block, edge, [&mut x, &mut y, &mut z], &mut inside);
-            let mut warped = [x, y, z];
-            warp(simd, [&x, &y, &z], o, &mut warped);
-            let mut distance = [0.0; BLOCK];
-            if !erode(simd, &warped, &puffs, o, &mut distance) {
-                continue;
-            }
-            // Blocks above one another have the same base.
-            if ground != [x, z] {
-                ground = [x, z];
-                base = fbm(simd, [&x, &y, &z], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4);
-            }
-            for (i, density) in density.iter_mut().enumerate() {
-                let base = (y[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
-                *density = ((distance[i] * (-1.0 / EDGE)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
+        let across = edge.div_ceil(BLOCK);
+        for column in 0..across * edge {
+            let (first, z) = (column % across * BLOCK, column / across);
+            let mut base = None;
+            for y in 0..edge {
+                let (mut at, mut inside) = ([[0.0; BLOCK]; 3], [0.0; BLOCK]);
+                points([first, y, z], edge, &mut at, &mut inside);
+                let [px, py, pz] = &at;
+                let mut warped = at;
+                warp(simd, [px, py, pz], o, &mut warped);
+                let mut distance = [0.0; BLOCK];
+                if !erode(simd, &warped, &puffs, o, &mut distance) {
+                    continue;
+                }
+                let base =
+                    base.get_or_insert_with(|| fbm(simd, [px, py, pz], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4));
+                let row = density[(z * edge + y) * edge..][..edge][first..].iter_mut();
+                for (i, density) in row.take(BLOCK).enumerate() {
+                    let base = (py[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
+                    *density = ((distance[i] * (-1.0 / kind.rise)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
+                }
             }
         }
         Voxels::new(edge, density)
@@ -111,14 +120,15 @@ impl CloudKind {
 
 // The steps write into the caller's blocks: as results these would be copied, 0.2 kB packed.
 
-/// The points of a block, and the greatest density of each: 255, or 0 at the faces of the cube.
+/// The points of a block that begins at voxel `[x, y, z]`, and 255 for those that are not in a face of the cube.
 #[inline(always)]
-fn points(block: usize, edge: usize, [x, y, z]: [&mut [f32; BLOCK]; 3], inside: &mut [f32; BLOCK]) {
+fn points([first, y, z]: [usize; 3], edge: usize, at: &mut Block3, inside: &mut [f32; BLOCK]) {
     let scale = 2.0 / to_f32(edge);
     for i in 0..BLOCK {
-        let at = block * BLOCK + i;
-        let place = [at % edge, at / edge % edge, at / (edge * edge)];
-        [x[i], y[i], z[i]] = place.map(|i| (to_f32(i) + 0.5) * scale - 1.0);
+        let place = [first + i, y, z];
+        for (at, place) in at.iter_mut().zip(place) {
+            at[i] = (to_f32(place) + 0.5) * scale - 1.0;
+        }
         inside[i] = if place.iter().any(|i| *i == 0 || *i == edge - 1) { 0.0 } else { 255.0 };
     }
 }

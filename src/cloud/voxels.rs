@@ -132,16 +132,19 @@ impl Voxels {
         let half = to_f32(self.edge) * 0.5;
         let mut full = vec![false; n * n * n];
         self.reach = 0.0;
-        for (index, density) in self.density.iter().enumerate() {
-            if *density > 0 {
-                let place = [index % self.edge, index / self.edge % self.edge, index / (self.edge * self.edge)];
-                // Density falls to 0 only at the next point: hence one more.
-                let at = Vec3::from(place.map(|i| to_f32(i) + 0.5 - half));
-                self.reach = self.reach.max((at.length() + 1.0) / half);
-                // A point belongs to the cells on both of its sides along each axis.
-                for corner in 0..8 {
-                    let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
-                    full[x + n * (y + n * z)] = true;
+        let mut density = self.density.iter();
+        for z in 0..self.edge {
+            for y in 0..self.edge {
+                for (x, _) in density.by_ref().take(self.edge).enumerate().filter(|(_, density)| **density > 0) {
+                    let place = [x, y, z];
+                    // Density falls to 0 only at the next point: hence one more.
+                    let at = Vec3::from(place.map(|i| to_f32(i) + 0.5 - half));
+                    self.reach = self.reach.max((at.length() + 1.0) / half);
+                    // A point belongs to the cells on both of its sides along each axis.
+                    for corner in 0..8 {
+                        let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
+                        full[x + n * (y + n * z)] = true;
+                    }
                 }
             }
         }

@@ -33,13 +33,13 @@ macro_rules! help {
   --at SECONDS                show one instant, up to 10^12
   --from SECONDS              start at this time, up to 10^12
   --to SECONDS                end at this time, up to 10^12
-  --fps N                     frames per second, captured or held: up to 1000; default 30
-  --threads N                 1 to 1024; at most, and by default, one per core
-  --size WxH                  pixels: 1 to 16384 each, 67108864 in all; default 1280x720, less if that is too slow
+  --fps N                     frames per second, up to 1000; default 30
+  --threads N                 1 to 1024; default and most: one per core
+  --size WxH                  up to 16384 pixels each, 67108864 in all; default 1280x720, less if too slow
   --quality NAME              fast: every shortcut; default: anti-aliased too",
             $exact,
             "
-  --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; for DIR -, a stream to stdout
+  --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; DIR - is stdout
   --fullscreen                fill the screen
   --no-sound                  play in silence
   --help                      print this help

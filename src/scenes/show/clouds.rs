@@ -42,7 +42,7 @@ const THICKNESS: Parameter = Parameter::new(
     "thickness",
     "1",
     (1.0, 100.0),
-    26.0,
+    40.0,
     "optical depth of the densest cloud through half of its width",
 );
 const EAST: Parameter =
@@ -70,8 +70,13 @@ const FIELD: CloudField = CloudField {
     height: 640.0,
     size: [110.0, 190.0],
     range: 5200.0,
-    extinction: 26.0,
+    extinction: 40.0,
 };
+
+/// Voxels along an edge of a shape, and over what distance their density rises: two and a half voxels, since the flight
+/// goes close by.
+const VOXELS: usize = 96;
+const RISE: f32 = 0.05;
 
 /// A shot: how the aeroplane flies, and how the eye follows it.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +140,7 @@ struct Shape {
 struct Shapes(Vec<Shape>);
 
 impl Shapes {
-    /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some half of a degree.
+    /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.
     fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
@@ -144,7 +149,7 @@ impl Shapes {
         }
         spec.workers.each(self.0.iter_mut().enumerate(), |(number, shape)| {
             // Each shape at a time of its own, lest one frame has to light all of them.
-            let sun = ((towards * 128.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
+            let sun = ((towards * 64.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
             let known = shape.voxels.as_deref().filter(|_| !cuts::PARAMETERS || shape.kind == only);
             if known.is_none() || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
                 let kind = match only {
@@ -153,9 +158,10 @@ impl Shapes {
                     _ if number < 4 => CloudKind::CUMULUS,
                     _ => CloudKind::CONGESTUS,
                 };
+                let kind = kind.with_rise(RISE);
                 let mut new = match known {
                     Some(old) => Voxels::clone(old),
-                    None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, 64)),
+                    None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, VOXELS)),
                 };
                 dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, extinction));
                 *shape = Shape { voxels: Some(Arc::new(new)), sun, kind: only, extinction };

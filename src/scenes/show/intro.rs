@@ -1,6 +1,7 @@
 //! The show: parts one after another, each a scene of its own, and writing made of sparks over the first and the last.
 
 use super::{clouds, day, letters, lumen, snowfall, torches};
+use crate::cuts;
 use crate::effects::Fade;
 use crate::frame::{FrameSpec, Picture, Scene};
 use crate::particles::{Emitter, Lens, ParticleLayer, Strokes};
@@ -9,8 +10,13 @@ use crate::view::Camera;
 use glam::{Vec3, vec3};
 
 /// The show.
-pub const INTRO: Scene =
-    Scene { name: "intro", about: "the show: its parts one after another", duration: END, parameters: &[], picture };
+pub const INTRO: Scene = Scene {
+    name: "intro",
+    about: if cuts::SCENES { "the show: its parts one after another" } else { "" },
+    duration: END,
+    parameters: &[],
+    picture,
+};
 
 /// The parts: the second of the show at which each starts, its scene, and the second of the scene at which it begins.
 #[rustfmt::skip]
