@@ -173,7 +173,7 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
     let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
-    valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [256, from], traced)
+    valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [384, from], traced)
 }
 
 /// Flames and sparks of a bowl.
