@@ -27,7 +27,8 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     let main = towards.abs().max_position();
     let (u, v) = ((main + 1) % 3, (main + 2) % 3);
     let slope = 1.0 / way[main].abs();
-    let (du, dv) = (way[u] * slope, way[v] * slope);
+    // A sun from nowhere must not lead out of a layer.
+    let [du, dv] = [u, v].map(|axis| (way[axis] * slope).clamp(-1.0, 1.0));
     // Half of the optical depth of one layer, per step of density.
     let half = extinction * slope / to_f32(255 * n);
     // Layers with a margin in which nothing is: one row and column before their own, and two after.
