@@ -40,7 +40,7 @@
 //! ```
 //!
 //! A frame is a pure function of its scene, time, size, quality and parameters: it has the same bytes on every number of
-//! threads, at every SIMD level, and whatever was rendered before.
+//! threads, at every SIMD level, on every machine, and whatever was rendered before.
 //!
 //! # The rooms
 //!
@@ -63,6 +63,9 @@
 //! this list's floors only: no renderer knows another.
 //!
 //! Lengths are metres, angles radians, times seconds; `y` is up and axes are right-handed; light is linear, and 1 is white.
+
+// Of functions that C libraries compute differently: see clippy.toml.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod angle;
 pub mod cloud;

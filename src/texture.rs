@@ -5,6 +5,7 @@
 //! size of a pixel on the surface it estimates the mean over it: octaves of noise fade, checks are averaged in closed
 //! form.
 
+use crate::angle;
 use crate::cuts;
 use crate::noise::{self, Footprint};
 use crate::simd::block::{BLOCK, Block3, load, store, vectors};
@@ -139,7 +140,7 @@ impl Texture {
             Pattern::Clouds { octaves } => 0.5 + 0.5 * noise::fbm(p, octaves),
             Pattern::Turbulence { octaves } => noise::turbulence(p, octaves),
             Pattern::Marble { warp, scale, octaves } => {
-                0.5 + 0.5 * (p.x + warp * noise::fbm(p * (1.0 / scale), octaves)).sin()
+                0.5 + 0.5 * angle::sin(p.x + warp * noise::fbm(p * (1.0 / scale), octaves))
             }
             Pattern::Wood { warp, octaves } => {
                 let ring = (p.x * p.x + p.z * p.z).sqrt() + warp * noise::fbm(p, octaves);

@@ -64,7 +64,7 @@ impl Imposter {
         let towards = plan.eye / way;
         // With a margin of a texel in which nothing is.
         let wide = reach / (way * way - reach * reach).sqrt() * to_f32(edge) / to_f32(edge - 2);
-        let camera = Camera::look_at(plan.eye, Vec3::ZERO, 2.0 * wide.atan(), 0.0);
+        let camera = Camera::look_at(plan.eye, Vec3::ZERO, 2.0 * f64::from(wide).atan() as f32, 0.0);
         let plane = PLANE * reach;
         let texel = to_f32(edge) * 0.5 / (wide * wide * (way - plane));
         let [right, down] = [camera.right * texel, camera.up * -texel];

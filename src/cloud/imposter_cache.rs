@@ -12,6 +12,7 @@ use super::cells;
 use super::imposter::{Imposter, ImposterPlan, PLANE};
 use super::seen::SeenClouds;
 use super::world::{Cloud, CloudLight};
+use crate::angle;
 use crate::frame::{Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::simd::math::smooth1;
@@ -164,14 +165,14 @@ fn eyes(q: Vec3, reach: f32, bound: f32) -> Vec<(Vec3, f32)> {
         // As the eye goes around by an angle, what is `z` before the plane moves by `z` times that.
         let step = (2.0 * bound * way / (PLANE * reach)).min(0.5);
         let rows = (PI / step).ceil();
-        let row = (q.y / q.length()).clamp(-1.0, 1.0).acos() / PI * rows;
+        let row = f64::from((q.y / q.length()).clamp(-1.0, 1.0)).acos() as f32 / PI * rows;
         for (row, weight) in [row.floor(), row.floor() + 1.0].into_iter().zip(blend(row.fract()).map(|w| w * weight)) {
-            let (sin, cos) = (row / rows * PI).sin_cos();
+            let (sin, cos) = angle::sin_cos(row / rows * PI);
             let columns = (TAU * sin.abs() / step).ceil().max(1.0);
-            let column = (q.z.atan2(q.x) / TAU + 0.5) * columns;
+            let column = (f64::from(q.z).atan2(q.x.into()) as f32 / TAU + 0.5) * columns;
             for (column, share) in [column.floor(), column.floor() + 1.0].into_iter().zip(blend(column.fract())) {
-                let around = column % columns / columns * TAU;
-                let eye = Vec3::new(-sin * around.cos(), cos, -sin * around.sin()) * way;
+                let (across, along) = angle::sin_cos(column % columns / columns * TAU);
+                let eye = Vec3::new(-sin * along, cos, -sin * across) * way;
                 if weight * share > 0.0 {
                     eyes.push((eye, weight * share));
                 }

@@ -88,7 +88,7 @@ impl SeenClouds {
     pub fn add_air(&mut self, range: f32, light: impl Fn(Vec3) -> Vec3) {
         let eye = self.view.camera().eye;
         for seen in &mut self.clouds {
-            seen.fades = (-seen.distance / range).exp();
+            seen.fades = f64::from(-seen.distance / range).exp() as f32;
             seen.veil = light((seen.cloud.centre - eye) / seen.distance.max(1e-3)) * (1.0 - seen.fades);
         }
     }

@@ -63,7 +63,7 @@ impl Layer for SkyLayer {
         } else {
             "all of it".into()
         };
-        let degrees = |cosine: f32| cosine.clamp(-1.0, 1.0).acos().to_degrees();
+        let degrees = |cosine: f32| f64::from(cosine.clamp(-1.0, 1.0)).acos().to_degrees();
         let up = 90.0 - degrees(d.y);
         let [sun, moon] = [self.dome.sky.sun, self.dome.sky.moon].map(|disc| degrees(d.dot(disc)));
         vec![

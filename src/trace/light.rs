@@ -4,6 +4,7 @@ use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::FAR;
 use super::world::{Background, Emitter, Light, NOWHERE, World};
+use crate::angle;
 use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::math;
@@ -93,7 +94,7 @@ pub fn visibility<S: Simd>(
 fn disc_point(k: u32, n: u32) -> (f32, f32) {
     const GOLDEN_ANGLE: f32 = 2.399_963_2;
     let radius = ((k as f32 + 0.5) / n as f32).sqrt();
-    let (sin, cos) = (k as f32 * GOLDEN_ANGLE).sin_cos();
+    let (sin, cos) = angle::sin_cos(k as f32 * GOLDEN_ANGLE);
     (radius * cos, radius * sin)
 }
 

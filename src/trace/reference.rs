@@ -233,7 +233,7 @@ pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, dire
         let glint = (aim - normal * (2.0 * cosine)).dot(direction);
         diffuse += light.color * cosine;
         if glint > 0.0 {
-            specular += light.color * (material.specular * glint.powf(material.exponent));
+            specular += light.color * (material.specular * f64::from(glint).powf(material.exponent.into()) as f32);
         }
     }
     (diffuse, specular)
@@ -263,5 +263,5 @@ pub fn background(world: &World, d: Vec3) -> Vec3 {
     if glow.exponent == 0.0 {
         return base;
     }
-    base + glow.color * d.dot(glow.direction).max(0.0).powf(glow.exponent)
+    base + glow.color * f64::from(d.dot(glow.direction).max(0.0)).powf(glow.exponent.into()) as f32
 }

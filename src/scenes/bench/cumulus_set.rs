@@ -95,7 +95,7 @@ fn bake(density: &[u8]) -> Vec<u8> {
             let face = |at: usize| along(at) + (along(at + WIDE) - along(at)) * f.y;
             depth += face(at) + (face(at + WIDE * WIDE) - face(at)) * f.z;
         }
-        let q = 30.0 * depth / 32.0;
+        let q = f64::from(30.0 * depth / 32.0);
         (255.0 * (0.7 * (-0.5 * q).exp() + 0.3 * (-0.06 * q).exp())).round() as u8
     };
     (0..EDGE * EDGE * EDGE).map(light).collect()

@@ -3,6 +3,7 @@
 //! Thesis C leaves rain open, since its drops are sprites that lie down where one looks up. Here drops are the flakes'
 //! own code: what they cover while the shutter is open is drawn as a streak, which is right in every direction of view.
 
+use crate::angle;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::particles::{Flakes, Lens, ParticleLayer, Snow};
 use crate::scenes::flakes;
@@ -56,7 +57,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let t = spec.time;
     // Ahead, then up to the zenith and back.
     let up = ease(4.0, 9.0, t) * (1.0 - ease(14.0, 19.0, t));
-    let (sin, cos) = (1.55 * up).sin_cos();
+    let (sin, cos) = angle::sin_cos(1.55 * up);
     let eye = vec3(14.0, 12.0, 34.0 - 0.8 * t as f32);
     let view = spec.view(Camera::look_at(eye, eye + vec3(-0.35 * cos, sin, -cos), 1.0, 0.0));
     let dome = valley::sky(spec, valley::date(spec, &DATE) + (spec.get(&START) - 1.0) * HOUR);

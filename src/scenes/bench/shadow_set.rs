@@ -3,6 +3,7 @@
 //! 9984 triangles: a smooth field of snow from noise, 64 boxes and 64 pines at random places; and how the eye and the
 //! two lights move.
 
+use crate::angle;
 use crate::noise::{fbm, noise};
 use crate::raster::form::Rings;
 use crate::raster::{Face, Mesh, Paint};
@@ -98,7 +99,7 @@ fn place(i: u32) -> Vec3 {
 
 /// The turn of object `i` about y.
 fn turn(i: u32) -> Mat3 {
-    Mat3::from_rotation_y((TAU * random(i, 5) as f64) as f32)
+    angle::turn_y((TAU * random(i, 5) as f64) as f32)
 }
 
 /// Adds box `i`. Its sides are halved along the diagonals that the specification says, which [`Mesh::block`] does not

@@ -103,7 +103,7 @@ impl Cycle {
         let (sin, cos) = (spec.get(&SPEED) * spec.time + spec.get(&START)).sin_cos();
         let sun = vec3(spec.get(&TILT) as f32 * cos as f32, sin as f32, cos as f32).normalize();
         let day = smoothstep(-0.15, 0.25, sun.y);
-        let dusk = 0.75 * (-18.0 * sun.y * sun.y).exp();
+        let dusk = 0.75 * f64::from(-18.0 * sun.y * sun.y).exp() as f32;
         let zenith = vec3(0.003, 0.006, 0.022).lerp(vec3(0.05, 0.16, 0.46), day);
         let horizon = vec3(0.010, 0.016, 0.045).lerp(vec3(0.48, 0.62, 0.82), day);
         // The cosine of the disc's edge is 0.99978. A circle on a flat screen is stretched away from the middle.

@@ -2,6 +2,7 @@
 //!
 //! Nine spheres on a floor, traced as in thesis A. The parameters' defaults are the specification.
 
+use crate::angle;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::scenes::single::traced;
@@ -74,7 +75,7 @@ fn ring(time: f64, count: u32, textured: bool, glass: bool) -> World {
         let a = i as f64 * (TAU / count as f64) + 0.4 * time;
         let center = vec3(2.6 * a.cos() as f32, (0.85 + 0.25 * (2.0 * a + time).sin()) as f32, 2.6 * a.sin() as f32);
         let hue = Vec3::splat(i as f32 / count as f32) + vec3(0.0, 0.33, 0.67);
-        let color = Vec3::splat(0.55) + (hue * std::f32::consts::TAU).map(f32::cos) * 0.45;
+        let color = Vec3::splat(0.55) + (hue * std::f32::consts::TAU).map(|x| angle::sin_cos(x).1) * 0.45;
         let albedo = if textured {
             // C (0.6 + 0.4 fbm4(4 P)), and the field is 1/2 + 1/2 fbm.
             Texture::new(Pattern::Clouds { octaves: 4 }, Palette::Mix(color * 0.2, color), 4.0)

@@ -17,7 +17,7 @@ use crate::scenes::models::land;
 use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
-use glam::{DVec3, Mat3, Vec2, Vec3, vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3, dvec3, vec3};
 
 /// The scene.
 pub const SNOWFALL: Scene = Scene {
@@ -135,7 +135,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
     let dusk = ease(0.0, LENGTH, spec.time);
-    let sky = vec3(1.0, 1.04, 1.1) * (vec3(2.5, 2.1, 1.6) * -dusk).exp();
+    let sky = vec3(1.0, 1.04, 1.1) * (dvec3(2.5, 2.1, 1.6) * -f64::from(dusk)).exp().as_vec3();
     let amount = 0.04 * (spec.time - 2.0).clamp(0.0, 25.0) as f32;
     // What the ground reflects: more as it whitens.
     let ground = 0.15 + 0.65 * amount;
@@ -149,7 +149,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
     valley::lamp(&mut world, ease(20.0, 26.0, spec.time));
-    let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).exp();
+    let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).as_dvec3().exp().as_vec3();
     world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
     let weather = weather_in([spec.get(&EAST), spec.get(&SOUTH)], spec.time);

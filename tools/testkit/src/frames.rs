@@ -68,7 +68,7 @@ impl fmt::Display for Row {
 }
 
 /// The frame's pixels by FNV-1a, 64 bits (Fowler, Noll and Vo).
-fn hash(frame: &Frame) -> u64 {
+pub fn hash(frame: &Frame) -> u64 {
     let bytes = frame.pixels.iter().flat_map(|pixel| pixel.to_le_bytes());
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ byte as u64).wrapping_mul(0x0100_0000_01b3))
 }

@@ -34,7 +34,7 @@ fn the_page_s_frames_are_the_native_ones() {
         let asked: Vec<&Value> = rows.iter().map(|(row, _)| row).collect();
         let found = chrome.evaluate(&format!("frameHashes({})", json!(asked)));
         let pairs = rows.iter().zip(found.as_array().unwrap());
-        differ.extend(pairs.filter(|((_, hash), found)| found != hash).map(|((row, _), _)| row.to_string()));
+        differ.extend(pairs.filter(|((_, hash), found)| **found != **hash).map(|((row, _), _)| row.to_string()));
     }
     assert!(differ.is_empty(), "{differ:#?}");
     assert_eq!(chrome.errors, [""; 0]);

@@ -1,6 +1,6 @@
 //! The module in node, without a page.
 
-use crate::hashes::{STEP, differing, kept};
+use crate::hashes::{STEP, differing, kept, large};
 use crate::site::site;
 use testkit::{Tool, needs};
 
@@ -10,7 +10,8 @@ fn the_module_s_frames_are_the_native_ones() {
         return;
     }
     let Some(site) = site() else { return };
-    let kept = kept(STEP);
-    let differ = differing(site, &kept);
-    assert!(differ.is_empty(), "{differ:#?}");
+    for frames in [kept(STEP), large()] {
+        let differ = differing(site, &frames);
+        assert!(differ.is_empty(), "{differ:#?}");
+    }
 }
