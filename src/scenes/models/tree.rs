@@ -74,9 +74,9 @@ const TRUNK: Rings = round(&[[-5, 0, 5, 5, BARK], [20, 0, 3, 3, BARK], [60, 0, 2
 const CROWN: Rings = round(
     &[
         [-90, 0, 0, 0, LEAF],
-        [-60, 0, 70, 70, LEAF],
-        [10, 0, 100, 100, LEAF],
-        [70, 0, 66, 66, LEAF],
+        [-60, 0, 80, 80, LEAF],
+        [0, 0, 100, 100, LEAF],
+        [60, 0, 80, 80, LEAF],
         [100, 0, 0, 0, LEAF],
     ],
     7,
@@ -100,11 +100,15 @@ const RADIUS: Word = variable(5);
 static KINDS: [&[u8]; 4] = [
     script! {
         ..part(3.0, 0.0, 0.0); body(0.0, 0.0, 0.0, 0.1, 0.1, 0.1, STEM);
-        RADIUS = (0.26 * 0.1);
-        ..part(4.0, THIRD, 0.77); ..crown(1.76);
-        ..part(5.0, 2.0 * THIRD, 0.77); ..crown(2.1);
-        ..part(6.0, 0.0, 0.77); ..crown(2.44);
-        ..part(7.0, THIRD, 0.15); ..crown(2.8);
+        RADIUS = (0.18 * 0.1);
+        ..part(4.0, 0.0, 0.9); ..crown(1.5);
+        ..part(5.0, 2.0 * THIRD, 1.0); ..crown(1.6);
+        ..part(6.0, THIRD, 0.9); ..crown(1.75);
+        ..part(7.0, 0.0, 0.8); ..crown(2.1);
+        ..part(8.0, THIRD, 0.9); ..crown(2.2);
+        ..part(9.0, 2.0 * THIRD, 0.75); ..crown(2.4);
+        ..part(10.0, THIRD, 0.5); ..crown(2.8);
+        ..part(11.0, 0.0, 0.2); ..crown(2.9);
         end();
     },
     script! { ..part(0.0, 0.0, 0.0); body(0.0, 0.0, 0.0, 0.1, 0.1, 0.1, WHOLE_FIR); end(); },

@@ -119,7 +119,7 @@ const SEASONS: &[u8] = script! {
     // 6, leaves.
     ..near(-0.8, LEAF_RED); ..near(-0.5, LEAF_GREEN); ..near(-0.2, LEAF_BLUE);
     ..near(2.8, LEAF_RED); ..near(2.5, LEAF_GREEN); ..near(2.2, LEAF_BLUE);
-    texture(1.2, 4.0, CLOUDS);
+    texture(2.5, 4.0, CLOUDS);
     end();
 };
 
