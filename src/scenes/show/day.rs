@@ -108,7 +108,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let (place, turn) = spec.flown(place, turn);
     let view = spec.view(camera);
     let mut world = valley::world(&dome, textures, turn, place, spec.time);
-    world.lights[0].shadow = valley::cascades(spec, view.camera(), now.direction, &[24.0, 80.0, 500.0, 6000.0]);
+    world.lights[0].shadow = valley::cascades(spec, view.camera(), now.direction, &[24.0, 80.0, 500.0, 1800.0]);
     valley::lamp(&mut world, dark);
     valley::show(spec, dome, world, view, None)
 }
