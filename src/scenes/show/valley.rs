@@ -102,9 +102,9 @@ const SEASONS: &[u8] = script! {
     FAR_BARE = (FAR_SNOW * -1.0 + 1.0);
     FAR_SNOW = (FAR_SNOW * 0.6);
     // 0, grass.
-    ..near(-0.5, MEADOW_RED); ..near(0.0, MEADOW_GREEN); ..near(0.2, MEADOW_BLUE);
-    ..near(2.5, MEADOW_RED); ..near(2.0, MEADOW_GREEN); ..near(1.8, MEADOW_BLUE);
-    texture(0.35, 5.0, CLOUDS);
+    ..near(-0.2, MEADOW_RED); ..near(0.2, MEADOW_GREEN); ..near(0.3, MEADOW_BLUE);
+    ..near(2.2, MEADOW_RED); ..near(1.8, MEADOW_GREEN); ..near(1.7, MEADOW_BLUE);
+    texture(0.7, 5.0, CLOUDS);
     // 1, the land by height, from -50 m to 1250 m: grass, woods, rock, snow.
     push(MEADOW_RED * 0.115, MEADOW_GREEN * 0.165, MEADOW_BLUE * 0.035);
     ..far(0.045); ..far(0.075); ..far(0.025);
