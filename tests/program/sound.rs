@@ -102,6 +102,11 @@ impl Server {
         Server(directory)
     }
 
+    /// Where it listens, as `PULSE_SERVER` names it.
+    fn address(&self) -> String {
+        format!("unix:{}", self.0.path().join("native").display())
+    }
+
     /// Plays a range of the show before a display that sees nothing, with sound to this server.
     fn play(&self, words: &[&str]) -> (Child, Fake) {
         let fake = Fake::open(|mut client| {
@@ -110,9 +115,7 @@ impl Server {
         });
         let mut command = paprsek();
         command.args(words).args(["--size", "64x36"]).env("DISPLAY", &fake.name).env("XAUTHORITY", "/nowhere");
-        command
-            .env("PULSE_SERVER", format!("unix:{}", self.0.path().join("native").display()))
-            .env_remove("XMODIFIERS");
+        command.env("PULSE_SERVER", self.address()).env_remove("XMODIFIERS");
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         (command.spawn().unwrap(), fake)
     }
@@ -240,6 +243,30 @@ fn the_show_is_heard_as_it_is_and_with_the_picture() {
     // What was heard when the show was over, and the window closed, was its end.
     let last = (heard.ended - heard.began).as_secs_f64() + (place as f64 - at as f64) / f64::from(RATE);
     assert!((last - 48.0).abs() < 0.15, "{last}");
+}
+
+#[test]
+#[cfg(feature = "terminal")]
+fn a_terminal_hears_it_too() {
+    if !needs(&[Tool::Script]) {
+        return;
+    }
+    let (sender, heard) = channel();
+    let server = Server::new(move |stream| sender.send(serve(stream, 1.0)).unwrap());
+    let line = format!("stty rows 4 cols 8; exec {} --from 44 --to 47", paprsek().get_program().display());
+    let mut script = Command::new("script");
+    script.args(["-qec", &line, "/dev/null"]).env("TERM", "xterm-256color").env("SHELL", "/bin/sh");
+    script.env("PULSE_SERVER", server.address()).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    let mut child = script.stdin(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    // Kept to the end: a closed input would be an end of file typed into the terminal.
+    let _keyboard = child.stdin.take();
+    succeeds(ending(child, PATIENCE));
+    let heard = heard.recv_timeout(PATIENCE).unwrap();
+    let pieces = pieces(&pairs(&heard.bytes), 43, 49);
+    assert!(pieces.iter().any(|piece| piece.2 > RATE as usize), "{pieces:?}");
+    let &(at, place, _) = pieces.iter().max_by_key(|piece| piece.2).unwrap();
+    let last = (heard.ended - heard.began).as_secs_f64() + (place as f64 - at as f64) / f64::from(RATE);
+    assert!((last - 47.0).abs() < 0.15, "{last}");
 }
 
 /// A card that plays 4 % faster than it says: so does the show.

@@ -74,16 +74,18 @@ impl Clock {
         self.since = if self.since.is_none() { Some(Instant::now()) } else { None };
     }
 
-    /// Follows what is heard: comes a little nearer to `heard`, the time of the show that sounds now, in seconds. Where
-    /// that is far away the sound is still to jump, and nothing happens.
+    /// Follows what is heard: comes a little nearer to `heard`, the time of the show that sounds now, in seconds, if that
+    /// is known. Where it is far away the sound is still to jump, and nothing happens. The time that the sound is to be
+    /// at; `None` while time rests and past the end.
     #[cfg(target_os = "linux")]
-    pub fn follow(&mut self, heard: f64) {
-        if let (Some(_), Some(now)) = (self.since, self.now()) {
+    pub fn follow(&mut self, heard: Option<f64>) -> Option<f64> {
+        if let (Some(heard), Some(_), Some(now)) = (heard, self.since, self.now()) {
             let apart = heard - now;
             if apart.abs() < FAR {
                 self.base += apart * NEARER;
             }
         }
+        if self.rests() { None } else { self.now() }
     }
 
     /// Whether time stands still.

@@ -67,13 +67,7 @@ pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     pool::start(Box::leak(Box::new(render))).ok_or("cannot start threads")?;
     #[cfg(target_os = "linux")]
     if args.sounds() {
-        let clock = move |heard: Option<f64>| {
-            let clock = &mut lock(shared).clock;
-            if let Some(heard) = heard {
-                clock.follow(heard);
-            }
-            if clock.rests() { None } else { clock.now() }
-        };
+        let clock = move |heard| lock(shared).clock.follow(heard);
         // Without a thread for it the show is silent.
         pool::start(Box::leak(Box::new(move || _ = sound::play(&clock))));
     }

@@ -8,6 +8,8 @@ mod signals;
 use crate::args::Args;
 use crate::capture;
 use crate::clock::{Clock, SEEK};
+#[cfg(target_os = "linux")]
+use crate::sound;
 use paprsek::frame::Frame;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::termios::{
@@ -16,7 +18,7 @@ use rustix::termios::{
 use std::env;
 use std::fs::File;
 use std::io::{self, IsTerminal, Read, Write};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -54,11 +56,19 @@ pub fn shows_colour() -> bool {
 /// Plays until Esc, q or Ctrl-C, or until the end of the scene.
 pub fn play(args: &Args) -> Result<(), String> {
     let mut renderer = capture::renderer(args)?;
-    let mut clock = Clock::new(args).once();
+    // Leaked: the sound goes on until the process goes.
+    let clock: &Mutex<Clock> = Box::leak(Box::new(Mutex::new(Clock::new(args).once())));
+    let lock = move || clock.lock().unwrap_or_else(PoisonError::into_inner);
+    #[cfg(target_os = "linux")]
+    if args.sounds() {
+        // Without a thread for it the show is silent.
+        let _ = thread::Builder::new().spawn(move || sound::play(&|heard| lock().follow(heard)));
+    }
     let mut keyboard = Keyboard::open();
     let mut frame = capture::black_frame((1, 1))?;
     let mut text = Vec::new();
-    while let Some(time) = clock.now() {
+    loop {
+        let Some(time) = lock().now() else { return Ok(()) };
         let began = Instant::now();
         let (columns, rows) = size();
         if (frame.width, frame.height) != (columns, 2 * rows) {
@@ -71,13 +81,12 @@ pub fn play(args: &Args) -> Result<(), String> {
         match keyboard.as_mut().map_or(Action::Nothing, Keyboard::action) {
             Action::Nothing => {}
             Action::Leave => return Ok(()),
-            Action::Pause => clock.toggle(),
-            Action::Seek(seconds) => clock.seek(seconds),
-            Action::Part(part) => clock.jump(part),
+            Action::Pause => lock().toggle(),
+            Action::Seek(seconds) => lock().seek(seconds),
+            Action::Part(part) => lock().jump(part),
         }
         thread::sleep(PERIOD.saturating_sub(began.elapsed()));
     }
-    Ok(())
 }
 
 /// Columns and rows of the terminal. Where it does not report them, `COLUMNS` and `LINES` of the environment, or 80x24.
