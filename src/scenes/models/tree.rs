@@ -1,6 +1,6 @@
 //! Firs and broadleaves, and where they stand.
 //!
-//! A fir is one body of rings whose skirts overlap; a broadleaf is a stem and four balls of leaves at random angles.
+//! A fir is one body of rings whose skirts overlap; a broadleaf is a stem and eight balls of leaves at random angles.
 //! Far away each is a single body of some twenty triangles. Noise moves the points, so that no two trees are alike.
 //! They stand where a hash and the noise of [`wooded`] say, more densely near the middle of the valley.
 
