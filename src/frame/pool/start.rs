@@ -3,7 +3,7 @@
 use std::thread::Builder;
 
 /// Stack of a thread, bytes: the standard size. Because it is said, the standard library does not look for it in the
-/// environment.
+/// environment. The packed file's library does not ask for it at all (`tools/pack/src/library.rs`).
 pub const STACK: usize = 2 << 20;
 
 /// Starts a thread that nobody waits for; `None` where no thread can start.

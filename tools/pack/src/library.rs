@@ -59,15 +59,9 @@ const CUTS: [Cuts; 18] = [
     (
         "std/src/sys/thread/unix.rs",
         &[
-            // The stack that is asked for is larger.
-            ("let stack_size = cmp::max(stack, min_stack_size(attr.as_ptr()));", "let stack_size = stack;"),
-            // It is a multiple of the page.
-            ("assert_eq!(n, libc::EINVAL);", "return Err(io::Error::from_raw_os_error(n));"),
-            // These cannot fail, and what the second frees was never asked for.
-            (
-                "assert_eq!(libc::pthread_attr_init(attr.as_mut_ptr()), 0);",
-                "libc::pthread_attr_init(attr.as_mut_ptr());",
-            ),
+            // Threads have the stack that the system gives by itself: as much as the first thread, or 2 MB.
+            ("        let mut attr: mem::MaybeUninit<libc::pthread_attr_t> = mem::MaybeUninit::uninit();\n", ""),
+            ("        assert_eq!(libc::pthread_attr_init(attr.as_mut_ptr()), 0);\n", ""),
             (
                 "        let mut attr = DropGuard::new(&mut attr, |attr| {
             assert_eq!(libc::pthread_attr_destroy(attr.as_mut_ptr()), 0)
@@ -75,6 +69,10 @@ const CUTS: [Cuts; 18] = [
 ",
                 "",
             ),
+            ("let stack_size = cmp::max(stack, min_stack_size(attr.as_ptr()));", "let stack_size = stack;"),
+            ("match libc::pthread_attr_setstacksize(attr.as_mut_ptr(), stack_size) {", "match 0 {"),
+            ("if libc::pthread_attr_setstacksize(attr.as_mut_ptr(), stack_size) != 0 {", "if false {"),
+            ("attr.as_ptr(), thread_start", "ptr::null(), thread_start"),
             // No handler tells a stack overflow from other faults.
             ("let _handler = sys::stack_overflow::Handler::new();", ""),
         ],
