@@ -1,6 +1,6 @@
 //! What the tracer does, told by its reference: the path of one ray, and how deep paths are.
 
-use super::reference::{Exits, Ray, background, first, fresnel, local, shadowed, toward};
+use super::reference::{Exits, Ray, background, first, fresnel, local, through, toward};
 use super::world::World;
 use crate::frame::Tile;
 use glam::Vec3;
@@ -123,12 +123,14 @@ fn state(world: &World, hit: &Hit, ray: &Ray, light: &super::world::Light) -> St
     if cosine <= 0.0 {
         return "behind the surface".into();
     }
-    if shadowed(world, hit.index, hit.point, aim, reach) {
+    let seen = through(world, hit.index, hit.point, aim, reach);
+    if seen == 0.0 {
         return format!("in shadow, cosine {cosine:.3}");
     }
     let glint = (aim - hit.normal * (2.0 * cosine)).dot(ray.direction);
     let shines = glint > 0.0 && world.objects[hit.index].material.specular > 0.0;
-    format!("lit{}, cosine {cosine:.3}", if shines { " with a highlight" } else { "" })
+    let glass = if seen == 1.0 { String::new() } else { format!(" {seen:.3} times through glass") };
+    format!("lit{glass}{}, cosine {cosine:.3}", if shines { " with a highlight" } else { "" })
 }
 
 /// A colour as words.

@@ -3,7 +3,7 @@
 use super::bounds::{Bounds, Extent, Shaft, Start};
 use super::ray::{RayPacket, Search, nearest};
 use super::shape::FAR;
-use super::world::{Background, Emitter, Light, NOWHERE, World};
+use super::world::{Background, Emitter, Light, World};
 use crate::angle;
 use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
@@ -34,9 +34,10 @@ pub fn aim<S: Simd>(simd: S, light: &Light, point: V3<S>) -> Aim<S> {
     }
 }
 
-/// The share of a light that each lane sees: 0 or 1 for a point, the share of `samples` points for a light with a radius.
+/// The share of a light that each lane sees: 0 or 1 for a point, the share of `samples` points for a light with a radius;
+/// through balls of glass any number, also above 1.
 ///
-/// Shadow rays leave the points `point` on the bodies `from`, which are what `start` says. Lanes that are not `wanted` see nothing.
+/// Shadow rays leave the points `point` on the bodies `from`, which are what `start` says. Lanes that are not `wanted` have unspecified results.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub fn visibility<S: Simd>(
@@ -83,9 +84,9 @@ pub fn visibility<S: Simd>(
             Emitter::Directional(towards) if !soft => Shaft::new(simd, start, Extent::point(towards)),
             _ => Shaft::new(simd, start, Extent::new(simd, direction, wanted)),
         };
-        let (object, _) =
+        let (_, share) =
             nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);
-        seen += (wanted & object.simd_eq(U::<S>::splat(simd, NOWHERE))).select(one, zero);
+        seen += share;
     }
     seen * (1.0 / samples as f32)
 }

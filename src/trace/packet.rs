@@ -336,7 +336,7 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
         specular = specular + V3::splat(simd, source.color) * Lane(shine);
         let bright = lit & (shine * node.weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
-        let partly = lit & seen.simd_lt(one);
+        let partly = lit & seen.simd_ne(one);
         let state = |state| U::<S>::splat(simd, state);
         let code =
             partly.select(state(PARTLY_LIT), bright.select(state(HIGHLIT), lit.select(state(LIT), state(UNLIT))));

@@ -3,6 +3,7 @@
 //! It has no lanes, no deferred textures and no thresholds, and takes lights with a radius as points. Conventions are those
 //! of [`super::ray`] and [`super::world`]. The tests hold the packets against it, and it against closed forms.
 
+use super::ray::{GATHERS, passes};
 use super::shape::{FAR, Shape};
 use super::surface::DENSE;
 use super::world::{Background, Emitter, Light, World};
@@ -227,13 +228,15 @@ pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, dire
     for light in &world.lights {
         let (aim, reach) = toward(light, point);
         let cosine = normal.dot(aim);
-        if cosine <= 0.0 || shadowed(world, index, point, aim, reach) {
+        let seen = through(world, index, point, aim, reach);
+        if cosine <= 0.0 || seen <= 0.0 {
             continue;
         }
         let glint = (aim - normal * (2.0 * cosine)).dot(direction);
-        diffuse += light.color * cosine;
+        diffuse += light.color * (cosine * seen);
         if glint > 0.0 {
-            specular += light.color * (material.specular * f64::from(glint).powf(material.exponent.into()) as f32);
+            let power = f64::from(glint).powf(material.exponent.into()) as f32;
+            specular += light.color * (material.specular * power * seen);
         }
     }
     (diffuse, specular)
@@ -247,13 +250,33 @@ pub(super) fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
     }
 }
 
-/// Whether a body other than `from` lies between a point and a light.
-pub(super) fn shadowed(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> bool {
-    world.objects.iter().enumerate().any(|(index, body)| {
-        body.casts_shadow
-            && index != from
-            && span(&body.shape, point, aim).is_some_and(|(t0, t1)| t1 > 0.0 && t0 < reach)
-    })
+/// The light that bodies other than `from` let through between a point and a light, in multiples of what there is without
+/// them: 0 in the shadow of anything but a ball of glass.
+pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> f32 {
+    let mut light = 1.0;
+    for (index, body) in world.objects.iter().enumerate() {
+        if !body.casts_shadow || index == from {
+            continue;
+        }
+        let Some((t0, t1)) = span(&body.shape, point, aim).filter(|(t0, t1)| *t1 > 0.0 && *t0 < reach) else {
+            continue;
+        };
+        light *= match body.shape {
+            Shape::Sphere { radius, .. } if body.material.is_glass() => {
+                gathered((t0 + t1) / (2.0 * radius), (t1 - t0) / (2.0 * radius)) * passes(&body.material)
+            }
+            _ => 0.0,
+        };
+    }
+    light
+}
+
+/// What [`super::ray`] says of light behind a ball of glass; `z` and half of the chord in radii.
+fn gathered(z: f32, half: f32) -> f32 {
+    let square = z * z;
+    let spread = square + GATHERS * (1.0 - half * half);
+    // Not a number in the middle of the ball: dark.
+    ((square + GATHERS) / spread * (square / spread)).max(0.0)
 }
 
 /// The background's light in a unit direction.

@@ -69,9 +69,6 @@ pub enum Ball {
     Exact,
     /// To a few ulps of the distance to the centre: enough to tell which body is nearest, at half the cost.
     Rough,
-    /// Both distances are where the line is nearest to the centre, which takes no root: enough to tell whether the ball
-    /// lies between two points outside it.
-    Middle,
 }
 
 /// The distance beyond which a ray has left the scene.
@@ -114,7 +111,6 @@ impl Shape {
                         let s = disc.max(zero).sqrt();
                         (b - s, b + s)
                     }
-                    Ball::Middle => (b, b),
                 };
                 (t0, t1, disc.simd_gt(zero))
             }

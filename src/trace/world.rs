@@ -85,8 +85,9 @@ pub struct Object {
     pub shape: Shape,
     /// What it is made of.
     pub material: Material,
-    /// Whether it keeps light from other bodies. Shadows are opaque, so glass usually should not; a floor below all
-    /// lights need not. A point within a ball is in its shadow only where the ball's middle lies towards the light.
+    /// Whether it keeps light from other bodies. A ball of glass gathers behind it what it lets through, as one with an
+    /// index of 1.5 does, in the light's own colour; all else casts the shadow of a solid, so other glass usually should
+    /// not. A floor below all lights need not.
     pub casts_shadow: bool,
 }
 

@@ -410,6 +410,39 @@ fn highlights_peak_in_the_mirror_direction() {
     assert!(worst < 48.0 * 4.0 * testkit::ULP * 0.4);
 }
 
+/// On a plane across a ray of the sun, the shadow of a ball of glass has in the mean what gets through the ball, wherever
+/// the plane is: light is gathered, none is made. Beside the shadow there is all of it.
+#[test]
+fn glass_gathers_what_it_lets_through() {
+    let filter = vec3(0.9, 0.8, 0.7);
+    for (radius, away) in [(1.0f32, 1.05f32), (1.0, 1.5), (0.5, 2.0), (3.0, 40.0), (1.0, 1000.0)] {
+        let bodies = vec![
+            (ball(Vec3::ZERO, radius), Material::glass(1.5, filter)),
+            (Shape::Plane { normal: Vec3::Y, offset: -away * radius }, white()),
+        ];
+        let mut world = furnace(bodies, 1);
+        (world.ambient, world.background) = (Vec3::ZERO, Background::even(Vec3::ZERO));
+        world.lights = vec![Light::directional(Vec3::Y, Vec3::ONE)];
+        let at = |x: f32, z: f32| {
+            let o = vec3(x * radius, -away * radius + 1e-3 * radius, z * radius);
+            f64::from(reference::radiance(&world, Ray::new(o, Vec3::NEG_Y), 1).x)
+        };
+        // Rings of equal area, and places on the rings.
+        let rings = 40_000;
+        let mut sum = 0.0;
+        for ring in 0..rings {
+            let r = ((ring as f32 + 0.5) / rings as f32).sqrt();
+            let (sin, cos) = (2.4 * ring as f32).sin_cos();
+            sum += at(r * cos, r * sin);
+        }
+        let (mean, passes) = (sum / f64::from(rings), 0.84375 * f64::from(filter.length_squared()) / 3.0);
+        println!("{away} radii behind a ball of {radius} m: {mean} of {passes}");
+        assert!((mean / passes - 1.0).abs() < 2e-3, "{mean} of {passes}");
+        assert_eq!(at(1.001, 0.0), 1.0);
+        assert!(at(0.0, 0.0) > passes && at(0.999, 0.0) < passes);
+    }
+}
+
 /// Every shape, every pattern, both palettes, every kind of material and light.
 fn everything() -> (World, Camera) {
     let colors = [vec3(0.1, 0.05, 0.02), vec3(0.8, 0.3, 0.1), vec3(0.9, 0.8, 0.3), vec3(0.2, 0.5, 0.9)];
@@ -442,7 +475,7 @@ fn everything() -> (World, Camera) {
     ];
     let mut world = furnace(bodies.to_vec(), 5);
     for body in &mut world.objects {
-        body.casts_shadow = !body.material.is_glass() && !matches!(body.shape, Shape::Globe { .. });
+        body.casts_shadow = !matches!(body.shape, Shape::Globe { .. });
     }
     world.lights = vec![
         Light::point(vec3(3.0, 5.0, 4.0), vec3(0.6, 0.5, 0.4)),

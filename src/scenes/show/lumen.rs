@@ -213,7 +213,7 @@ impl Set {
 /// A body of glass.
 const CLEAR: Object = Object {
     shape: Shape::Sphere { center: Vec3::ZERO, radius: 0.0 },
-    material: Material::glass(1.5, vec3(0.95, 0.985, 0.98)).shiny(0.8, 200.0),
+    material: Material::glass(1.5, vec3(0.9375, 0.984375, 0.984375)).shiny(0.75, 200.0),
     casts_shadow: true,
 };
 

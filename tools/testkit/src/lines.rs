@@ -52,8 +52,8 @@ pub fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let ray = RayPacket { origin: o, direction: d, from, inward };
     let bounds = Bounds::new(&world);
     let (reach, list) = (F::<S>::splat(simd, reach), &bounds.casters);
-    let (object, _) = nearest(simd, &world, &bounds, list, None, &ray, !inward, reach, Search::Shadow);
-    object[0] != NOWHERE
+    let (_, light) = nearest(simd, &world, &bounds, list, None, &ray, !inward, reach, Search::Shadow);
+    light[0] == 0.0
 }
 
 /// The outward normal in the first lane.

@@ -2,7 +2,9 @@
 
 use super::{Random, Row, frame, told};
 use crate::metrics::Error;
-use glam::{DVec3, dvec3};
+use glam::{DVec3, Vec3, dvec3, vec3};
+use paprsek::trace::reference::{Ray, radiance};
+use paprsek::trace::{Background, Light, Material, Object, Shape, World};
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -60,7 +62,24 @@ fn floor(cells: usize, photons: u32, towards: DVec3) -> Vec<f64> {
     light.into_iter().map(|light| light.max(0.0)).collect()
 }
 
-/// A ball's shadow as a solid, and no shadow at all, against the light that it gathers.
+/// The light on the middles of the cells by the tracer.
+fn traced(cells: usize, towards: DVec3) -> Vec<f64> {
+    let plane = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
+    let ball = Shape::Sphere { center: Vec3::Y, radius: 1.0 };
+    let bodies = [(plane, Material::plain(Vec3::ONE)), (ball, Material::glass(INDEX as f32, Vec3::ONE))];
+    let world = World {
+        ambient: Vec3::ZERO,
+        background: Background::even(Vec3::ZERO),
+        max_level: 1,
+        lights: vec![Light::directional(towards.as_vec3(), Vec3::splat(1.0 / towards.y as f32))],
+        ..World::new(bodies.map(|(shape, material)| Object::new(shape, material)).to_vec())
+    };
+    let at = |n: usize| ((n as f64 + 0.5) / cells as f64 * 2.0 * HALF - HALF) as f32;
+    let from = |index: usize| vec3(at(index % cells), 1e-3, at(index / cells));
+    (0..cells * cells).map(|index| f64::from(radiance(&world, Ray::new(from(index), Vec3::NEG_Y), 1).x)).collect()
+}
+
+/// A ball's shadow as a solid, no shadow at all, and what the tracer draws, against the light that it gathers.
 pub fn rows(quick: bool) -> Vec<Row> {
     let (cells, photons) = if quick { (32, 100_000) } else { (160, 8_000_000) };
     let towards = dvec3(0.6, 0.8, 0.0);
@@ -82,7 +101,12 @@ pub fn rows(quick: bool) -> Vec<Row> {
         })
         .collect();
     let truth = lit(&truth);
-    [("no shadow", vec![1.0; cells * cells]), ("the shadow of a solid", solid)]
+    let models = [
+        ("no shadow", vec![1.0; cells * cells]),
+        ("the shadow of a solid", solid),
+        ("what the tracer gathers, in closed form", traced(cells, towards)),
+    ];
+    models
         .into_iter()
         .map(|(model, light)| Row {
             what: "tracer: caustics",
