@@ -108,7 +108,7 @@ const SEASONS: &[u8] = script! {
     // 1, the land by height, from -50 m to 1250 m: grass, woods, rock, snow.
     push(MEADOW_RED * 0.115, MEADOW_GREEN * 0.165, MEADOW_BLUE * 0.035);
     ..far(0.045); ..far(0.075); ..far(0.025);
-    push(0.04 * 0.06, 2.5, LAYERS, 0.7);
+    push(0.04 * 0.06, 3.0, LAYERS, 0.2);
     ..far(0.2); ..far(0.185); ..far(0.17);
     texture(0.8, 0.83, 0.88, 6.0);
     // 2 to 5, bark, needles, masonry, tiles: these vary the paint's own colour about 1.
