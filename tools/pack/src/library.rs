@@ -286,13 +286,13 @@ enum AllocInit {",
             // There is such a clock.
             (
                 "cvt(unsafe { libc::clock_gettime(clock, t.as_mut_ptr()) }).unwrap();",
-                "unsafe { libc::clock_gettime(clock, t.as_mut_ptr()) };",
+                "unsafe { libc::syscall(libc::SYS_clock_gettime, clock, t.as_mut_ptr()) };",
             ),
             (
                 "        let t = unsafe { t.assume_init() };
         Timespec::new(t.tv_sec as i64, t.tv_nsec as i64).unwrap()
 ",
-                "        let t = unsafe { t.assume_init() };
+                "        let t: libc::timespec = unsafe { t.assume_init() };
         unsafe { Timespec::new_unchecked(t.tv_sec as i64, t.tv_nsec as i64) }
 ",
             ),
