@@ -9,7 +9,8 @@
 //! scatter    add the light to the tile's pixels by coverage
 //! ```
 //!
-//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, by Schlick's Fresnel term `[Schlick94]`.
+//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, above a dark shore, by Schlick's Fresnel term
+//! `[Schlick94]`. As the texture of water moves, so do its mirrored lights: waves.
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::exact_shadow::lifted;
@@ -38,6 +39,13 @@ const FARTHEST: f32 = 1e-18;
 /// How fast the mirrored sky goes from the horizon's colour to the zenith's with the sine of the height: half of it in
 /// 1 / `RISE`.
 const RISE: f32 = 4.0;
+
+/// How fast what is mirrored goes from a shore, as dark as the surface itself, to that sky: from 12 degrees on it is all sky,
+/// as between mountains.
+const SHORE: f32 = 2.5;
+
+/// A glossy surface mirrors in proportion to its albedo's green, fully where that is 1 / `MIRRORED`.
+const MIRRORED: f32 = 20.0;
 
 /// Shades the first block of a queue and adds its light to the pixels of the tile. `texture` is the index of the queue's
 /// texture, or [`super::id::PLAIN`].
@@ -221,13 +229,14 @@ fn finish<S: Simd>(simd: S, context: &ShadeContext, queue: &mut FragmentQueue) {
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let (p, n) = (V3::load(simd, &queue.point, i), V3::load(simd, &queue.normal, i));
-        let mut color = V3::load(simd, &queue.albedo, i).mulv(V3::load(simd, &queue.light, i));
+        let albedo = V3::load(simd, &queue.albedo, i);
+        let mut color = albedo.mulv(V3::load(simd, &queue.light, i));
         let way = p.sub1(view.camera().eye);
         let distance = way.dot(way).sqrt();
         let way = way * Lane(one / distance);
         let gloss: F<S> = load(simd, &queue.gloss, i);
         if gloss.simd_gt(zero).any_true() {
-            color = glossy(simd, world, color, gloss, way, n);
+            color = glossy(simd, world, color, gloss * (albedo.y * MIRRORED), way, n);
         }
         if world.film || !cuts::LIGHT_WITHOUT_FILM {
             color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
@@ -250,7 +259,8 @@ fn glossy<S: Simd>(simd: S, world: &World, color: V3<S>, gloss: F<S>, way: V3<S>
     let mirrored = way - n * Lane(cosine + cosine);
     let horizon = world.haze.at(simd, mirrored);
     let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
-    let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height) + world.haze.image_at(simd, mirrored);
+    let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height);
+    let sky = color + (sky - color) * Lane((height * SHORE).min(one)) + world.haze.image_at(simd, mirrored);
     // Schlick's approximation of the Fresnel term.
     let rest = one - cosine.abs().min(one);
     let grazing = rest * rest;

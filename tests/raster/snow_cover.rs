@@ -123,10 +123,14 @@ fn open_slopes_are_covered_by_their_formula() {
                     let Spot { ray, grain, .. } = spot(&camera, pixel, normal);
                     let cover = cover(amount, normal.y, albedo, gloss, grain);
                     let lit = 1.0 + light.as_dvec3() * normal.y;
-                    let color = albedo.as_dvec3().lerp(white(grain), cover) * lit;
-                    // What is left of its gloss mirrors a black sky.
-                    let grazing = (1.0 + ray.normalize().dot(normal)).powi(5);
-                    let mirrored = gloss as f64 * (1.0 - cover) * (0.05 + 0.95 * grazing);
+                    let seen = albedo.as_dvec3().lerp(white(grain), cover);
+                    let color = seen * lit;
+                    // What is left of its gloss mirrors a black sky above a shore like itself, by the green that is seen.
+                    let cosine = ray.normalize().dot(normal);
+                    let up = (ray.normalize() - 2.0 * cosine * normal).y.max(0.0);
+                    let open = (2.5 * (1.0 - (-4.0 * up).exp2())).min(1.0);
+                    let grazing = (1.0 + cosine).powi(5);
+                    let mirrored = gloss as f64 * (1.0 - cover) * 20.0 * seen.y * (0.05 + 0.95 * grazing) * open;
                     let gap = (found.as_dvec3() - color * (1.0 - mirrored)).abs().max_element();
                     worst = worst.max(gap);
                     assert!(gap <= EXACT, "{degrees} degrees, {amount}: off by {gap} at {pixel}");

@@ -31,7 +31,7 @@ pub static PAINTS: [Paint; 14] = [
     solid(vec3(0.07, 0.12, 0.03), 6),
     solid(vec3(0.36, 0.32, 0.26), 4),
     solid(vec3(0.26, 0.1, 0.06), 5),
-    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: None, gloss: 1.0 },
+    Paint { albedo: vec3(0.02, 0.05, 0.07), texture: Some(7), gloss: 1.0 },
 ];
 
 /// Grass in summer.

@@ -120,8 +120,14 @@ const SEASONS: &[u8] = script! {
     ..near(-0.8, LEAF_RED); ..near(-0.5, LEAF_GREEN); ..near(-0.2, LEAF_BLUE);
     ..near(2.8, LEAF_RED); ..near(2.5, LEAF_GREEN); ..near(2.2, LEAF_BLUE);
     texture(2.5, 4.0, CLOUDS);
+    // 7, water: waves.
+    ..pattern(kind::CLOUDS, [0.0; 3], [2.0; 3], 0.2, 3.0); texture();
     end();
 };
+
+/// The texture of water. Its noise passes at a metre a second along each axis, and up through the surface: so waves come
+/// and go.
+const WAVES: usize = 7;
 
 /// A row of the table: a season's date in days since J2000; what the colours of meadows and of leaves are multiplied
 /// by; the share of the land that is white.
@@ -192,11 +198,12 @@ pub fn show(spec: &FrameSpec, dome: Dome, world: World, view: View, between: Opt
 }
 
 /// The land under a sky, lit by sun or moon, without shadows. The aeroplane is turned by `turn` and stands at `place`;
-/// its propeller turns by `time`, seconds.
+/// its propeller turns and the waves go by `time`, seconds.
 #[inline(never)]
-pub fn world(dome: &Dome, textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
+pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
     let now = dome.lighting();
     let mut bodies = bodies();
+    textures[WAVES].origin = Vec3::splat(time as f32);
     // Five turns per second.
     let turns = 5.0 * time;
     let spin = turn * angle::turn_z((turns - turns.floor()) as f32 * TAU);
