@@ -5,11 +5,12 @@ use pack_model::coder::Decoder;
 use pack_model::model::{Model, Sets};
 use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
-/// A model that knows nothing yet, on the heap: 80 MB that must not pass through the stack.
+/// A model at the start of the text, on the heap: 80 MB that must not pass through the stack.
 #[allow(unsafe_code)]
-fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
+pub fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     let layout = Layout::new::<Model>();
-    // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers and of one false.
+    // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers, of falses, and of an
+    // Option<Box>, whose zeros are None.
     let mut model = unsafe {
         let memory = alloc_zeroed(layout);
         if memory.is_null() {

@@ -43,6 +43,8 @@ pub struct Trimmed {
     pub bytes: Vec<u8>,
     /// From the first to the last instruction: offsets in the file.
     pub code: Range<usize>,
+    /// The parts of that which sections have; between them are zeros.
+    pub code_parts: Vec<Range<usize>>,
     /// Address of the first instruction.
     pub code_address: u64,
     /// The segments that are loaded.
@@ -114,12 +116,14 @@ fn sections(elf: &[u8]) -> Result<Vec<Section>, String> {
     Ok(all)
 }
 
-/// File range of the sections that hold instructions.
-fn code_sections(sections: &[Section]) -> Option<Range<usize>> {
+/// File ranges of the sections that hold instructions, in their order in the file.
+fn code_sections(sections: &[Section]) -> Vec<Range<usize>> {
     const PROGBITS: u64 = 1;
     const EXECINSTR: u64 = 4;
     let code = sections.iter().filter(|s| s.kind == PROGBITS && s.flags & EXECINSTR != 0).map(|s| s.file.clone());
-    code.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end))
+    let mut code: Vec<_> = code.collect();
+    code.sort_by_key(|range| range.start);
+    code
 }
 
 /// Drops section headers, whatever no loaded segment covers, needless program headers, and what nobody reads.
@@ -159,8 +163,13 @@ pub fn trim(elf: &[u8]) -> Result<Trimmed, String> {
     needless::clear(&mut bytes, &sections, all.iter().any(|s| s.kind == GNU_EH_FRAME));
     // What the file says of its sections is only trusted within the segment that can be executed.
     let within = executable.file.clone();
-    let code = code_sections(&sections)
-        .map_or(within.clone(), |c| c.start.clamp(within.start, within.end)..c.end.clamp(within.start, within.end));
+    let clamped =
+        |part: &Range<usize>| part.start.clamp(within.start, within.end)..part.end.clamp(within.start, within.end);
+    let mut code_parts: Vec<_> = code_sections(&sections).iter().map(clamped).collect();
+    if code_parts.is_empty() {
+        code_parts.push(within.clone());
+    }
+    let code = code_parts[0].start..code_parts.iter().map(|part| part.end).max().expect("there is one");
     let code_address = executable.address.wrapping_add((code.start - within.start) as u64);
-    Ok(Trimmed { bytes, code, code_address, loads })
+    Ok(Trimmed { bytes, code, code_parts, code_address, loads })
 }

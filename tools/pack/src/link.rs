@@ -1,8 +1,10 @@
-//! Links the intro once more: its functions and data in the order that packs best, and nothing that nobody needs.
+//! Links the intro once more: its functions and data in the order that packs best, nothing that nobody needs, and then its
+//! instructions in the order that packs best.
 
 use crate::order::{self, TASTES, Taste, fold::fold};
 use crate::packer;
 use crate::pieces::{GDB_SCRIPTS, Kind, Parts, Pieces, Target};
+use crate::rewrite::rewrite;
 use object::elf::{RelocationType, SHF_ALLOC, SHF_WRITE, SHT_INIT_ARRAY};
 use object::read::elf::ElfFile64;
 use object::write::{Object, Relocation, SectionId, Symbol, SymbolId, SymbolSection};
@@ -35,7 +37,8 @@ pub fn link(executable: &Path, unpacker: &[u8]) -> Result<PathBuf, String> {
         }
     }
     let (_, program) = best.expect("some were tried");
-    fs::write(&out, program).map_err(failed(&out))?;
+    let [_, primer] = packer::stages(unpacker)?;
+    fs::write(&out, rewrite(&program, primer)?).map_err(failed(&out))?;
     Ok(out)
 }
 

@@ -1,6 +1,7 @@
 //! What is packed comes back, whatever it is.
 
-use pack::compress::{compress, costs, decompress};
+use pack::compress::{compress, costs, decompress, model};
+use pack::rewrite::search::price;
 use pack_model::address::{Way, convert};
 use pack_model::parse::Parser;
 use pack_model::tuned::SETS;
@@ -17,6 +18,21 @@ fn texts() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
+/// Instructions that do not jump.
+fn instructions() -> impl Strategy<Value = Vec<u8>> {
+    let some: [&[u8]; 8] = [
+        b"\xc5\xfc\x58\xc1",
+        b"\xc4\xe2\x7d\x18\x44\x24\x08",
+        b"\x48\x8b\x44\x24\x10",
+        b"\x89\xd8",
+        b"\x55",
+        b"\xb8\x01\x02\x03\x04",
+        b"\x48\x8d\x84\xc8\x00\x01\x00\x00",
+        b"\x0f\xb6\xc0",
+    ];
+    prop::collection::vec(prop::sample::select(some.to_vec()), 0..150).prop_map(|all| all.concat())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -27,6 +43,22 @@ proptest! {
         // The costs are those of the packed bytes, up to the rounding of the coder.
         let bits: f32 = costs(&SETS, &primer, &text, [a, b, 0x40_0000]).iter().map(|cost| cost.0).sum();
         prop_assert!((bits / 8.0 - packed.len() as f32).abs() < 3.0 + bits / 800.0);
+    }
+
+    /// A model that has gone back codes what comes as one that was never there.
+    #[test]
+    fn going_back_undoes(start in instructions(), lost in instructions(), rest in instructions(), code in 0u32..700) {
+        let bits = |lost: &[&[u8]]| {
+            let mut model = model(&SETS, &[], [0, code, 0x40_0000]);
+            let before = price(&mut model, start.iter().copied());
+            for text in lost {
+                model.mark();
+                price(&mut model, text.iter().copied());
+                model.back_to_mark();
+            }
+            (before, price(&mut model, rest.iter().copied()), model.position())
+        };
+        prop_assert_eq!(bits(&[]), bits(&[&lost, &rest, &lost]));
     }
 
     #[test]

@@ -16,6 +16,7 @@ pub const FEATURES: usize = 32;
 /// 28 the opcode that last wrote what VEX names; 29 the operands byte that followed the same opcode last, 31 the
 /// addressing mode. In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
+#[derive(Clone)]
 pub struct Features {
     /// The features themselves.
     pub f: [u32; FEATURES],
@@ -30,9 +31,10 @@ pub struct Features {
     operands: [u32; 1024],
     /// The opcode that last had each register first.
     writers: [u32; 16],
-    /// Which positions are jumped to, from before.
-    targets: [bool; MOST],
 }
+
+/// Which positions are jumped to, from before.
+pub type Targets = [bool; MOST];
 
 /// Mixes a number into a hash.
 pub fn hash(h: u32, value: u32) -> u32 {
@@ -51,7 +53,6 @@ impl Features {
         numbers: [0; 256],
         operands: [0; 1024],
         writers: [0; 16],
-        targets: [false; MOST],
     };
 
     /// A small number that says what is to come: in code the field, in data the position modulo 4. Below 32.
@@ -61,7 +62,7 @@ impl Features {
 
     /// Takes one byte. `position` is that of the next byte, which is `code` or is not.
     #[inline(never)]
-    pub fn push(&mut self, byte: u8, position: u32, code: bool) {
+    pub fn push(&mut self, byte: u8, position: u32, code: bool, targets: &mut Targets) {
         let f = &mut self.f;
         let value = byte as u32;
         f.copy_within(0..if code { 5 } else { 27 }, 1);
@@ -86,7 +87,7 @@ impl Features {
             if before == IMM8 {
                 self.number = self.number.wrapping_add(address);
             }
-            self.targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
+            targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
         }
         if jump || matches!(before, DISP8 | DISP32_LAST) {
             self.numbers[p.modrm as usize & 0xc7] = self.number;
@@ -123,7 +124,7 @@ impl Features {
         f[6] = field | ((p.relative != 0) as u32) << 4 | p.map << 5;
         f[21] = p.high;
         f[28] = self.writers[((!p.rex >> 3) & 15) as usize];
-        f[22] = (0..16).find(|i| self.targets[(position + i) as usize & (MOST - 1)]).unwrap_or(16);
+        f[22] = (0..16).find(|i| targets[(position + i) as usize & (MOST - 1)]).unwrap_or(16);
         f[29] = self.operands[(p.map << 8 | p.op) as usize & 1023];
     }
 }

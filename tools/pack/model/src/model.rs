@@ -2,11 +2,14 @@
 
 #![allow(unsafe_code)]
 
-use crate::features::{self, Features, hash};
+mod undo;
+
+use crate::features::{self, Features, Targets, hash};
 use crate::mix::{Layer, VECTORS, squash, stretch};
 use crate::slot;
 use crate::vector::{Words, gather, put_floats, put_words, scatter, words};
 use core::arch::x86_64::*;
+use undo::Undo;
 
 /// Contexts of a byte, in groups of eight. The unpacker's time goes with it.
 pub const CONTEXTS: usize = 8 * GROUPS;
@@ -72,8 +75,10 @@ pub struct Model {
     first: Layer,
     last: Layer,
     heads: [u32; 1 << 16],
+    targets: Targets,
     text: [u8; MOST],
     cells: [u32; CELLS],
+    undo: Undo,
 }
 
 impl Model {
@@ -100,8 +105,10 @@ impl Model {
         first: Layer::ZERO,
         last: Layer::ZERO,
         heads: [0; 1 << 16],
+        targets: [false; MOST],
         text: [0; MOST],
         cells: [0; CELLS],
+        undo: Undo::ZERO,
     };
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions, the first of them at the
@@ -153,6 +160,7 @@ impl Model {
         }
         let head = &mut self.heads[(h >> 16) as usize];
         let found = *head;
+        self.undo.head(h >> 16, found);
         *head = self.position;
         if !follows {
             self.match_at = found;
@@ -199,11 +207,12 @@ impl Model {
                 if other[0] == check || slot::count(other[1]) < slot::count(cells[at as usize][1]) {
                     at ^= 1;
                 }
-                let line = &mut cells[at as usize];
-                if line[0] != check {
-                    line.fill(0);
-                    line[0] = check;
-                }
+            }
+            let cells = &mut cells[at as usize];
+            self.undo.line(at, cells);
+            if cells[0] != check {
+                cells.fill(0);
+                cells[0] = check;
             }
             *line = at * 16;
         }
@@ -297,9 +306,11 @@ impl Model {
     #[target_feature(enable = "avx2,fma")]
     fn update_avx2(&mut self, bit: u32) {
         if (bit << 16).abs_diff(self.p) > LEAST_ERROR {
+            self.undo.weights(&self.first, &self.last);
             self.first.learn(MIXERS[0], VECTORS, bit, RATES[0]);
             self.last.learn(MIXERS[1], 1, bit, RATES[1]);
         }
+        self.undo.cells(&self.at[GROUPS..], &self.slots[GROUPS..]);
         for (slots, at) in self.slots.iter().zip(&self.at) {
             // SAFETY: they were read from there.
             unsafe { scatter(slot::learned(words(slots), bit), &mut self.cells, at) };
@@ -317,7 +328,7 @@ impl Model {
             self.text[self.position as usize & (MOST - 1)] = byte;
             self.position += 1;
             let code = self.class == 0;
-            self.features.push(byte, self.position, code);
+            self.features.push(byte, self.position, code, &mut self.targets);
             self.contexts();
         }
     }

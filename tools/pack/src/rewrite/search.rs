@@ -1,0 +1,130 @@
+//! Tries orders, and has the model say what each costs.
+
+use super::instruction::{FLAGS, Op, UNITS};
+use super::window::{MOST, Window};
+use iced_x86::InstructionInfoFactory;
+use pack_model::model::Model;
+
+/// How often all changes of a window are tried, unless none is any good.
+const ROUNDS: usize = 3;
+/// Bits that a change must save, so that rounding does not make one.
+const LEAST: f64 = 1e-6;
+
+/// Bits that the model codes `bytes` in, which it learns.
+pub fn price(model: &mut Model, bytes: impl Iterator<Item = u8>) -> f64 {
+    let mut bits = 0.0;
+    for byte in bytes {
+        let mut product = 1.0;
+        for i in (0..8).rev() {
+            let bit = byte as u32 >> i & 1;
+            let one = model.predict();
+            product *= f64::from(if bit != 0 { one } else { 65536 - one });
+            model.update(bit);
+        }
+        bits += 8.0 * 16.0 - product.log2();
+    }
+    bits
+}
+
+/// Codes all instructions with the model, in the order that costs least as far as it was found; appends their bytes to
+/// `code`.
+pub(super) fn search(model: &mut Model, mut ops: Vec<Op>, code: &mut Vec<u8>) {
+    let mut factory = InstructionInfoFactory::new();
+    let flags = live_flags(&ops);
+    let stays = |op: &Op| op.fixed || op.starts_block;
+    let mut at = 0;
+    while at < ops.len() {
+        let mut kept = 1;
+        if !ops[at].fixed {
+            let rest = &ops[at + 1..];
+            let end = at + 1 + rest.iter().position(stays).unwrap_or(rest.len()).min(MOST - 1);
+            let window = best(model, &mut factory, &ops[at..end], flags[end - 1], ops.get(end));
+            // A block that goes on is cut in the middle of the window: the next one begins there.
+            kept = if ops.get(end).is_none_or(stays) { end - at } else { (end - at) / 2 };
+            for (op, new) in ops[at..end].iter_mut().zip(window) {
+                *op = new;
+                op.starts_block = false;
+            }
+        }
+        model.mark();
+        for op in &ops[at..at + kept] {
+            price(model, op.bytes.iter().copied());
+            code.extend(&op.bytes);
+        }
+        at += kept;
+    }
+}
+
+/// For each instruction whether flags are looked at after it, as far as the block says.
+fn live_flags(ops: &[Op]) -> Vec<bool> {
+    const ALL: u32 = (1 << (UNITS - FLAGS)) - 1;
+    let mut live = vec![true; ops.len()];
+    // Flags that are looked at before they are written.
+    let mut wanted = ALL;
+    for (k, op) in ops.iter().enumerate().rev() {
+        if op.ends_flags {
+            wanted = 0;
+        } else if op.fixed || ops.get(k + 1).is_none_or(|next| next.starts_block) {
+            wanted = ALL;
+        }
+        live[k] = wanted != 0;
+        let flags = |uses: &[(u8, u8)]| {
+            uses.iter().filter(|u| u.1 >= FLAGS as u8).fold(0, |bits, u| bits | 1 << (u.1 as usize - FLAGS))
+        };
+        wanted = wanted & !flags(&op.writes) | flags(&op.reads);
+    }
+    live
+}
+
+/// The instructions of a window in an order, and as variants, that the model codes in fewer bits, with the one that follows.
+fn best(
+    model: &mut Model,
+    factory: &mut InstructionInfoFactory,
+    ops: &[Op],
+    flags_live: bool,
+    next: Option<&Op>,
+) -> Vec<Op> {
+    let window = Window::new(ops, flags_live);
+    let mut order: Vec<usize> = (0..ops.len()).collect();
+    let mut ops = ops.to_vec();
+    model.mark();
+    let mut cost = |ops: &[Op], order: &[usize]| {
+        let all = order.iter().map(|&k| &ops[k]).chain(next);
+        let bits = price(model, all.flat_map(|op| op.bytes.iter().copied()));
+        model.back_to_mark();
+        bits
+    };
+    let mut least = cost(&ops, &order);
+    for _ in 0..ROUNDS {
+        let before = least;
+        for k in 0..ops.len() {
+            for variant in ops[k].variants(factory) {
+                let old = std::mem::replace(&mut ops[k], variant);
+                let bits = cost(&ops, &order);
+                if bits < least - LEAST {
+                    least = bits;
+                } else {
+                    ops[k] = old;
+                }
+            }
+        }
+        for from in 0..ops.len() {
+            for to in (0..ops.len()).filter(|&to| to != from && to + 1 != from) {
+                let mut moved = order.clone();
+                let k = moved.remove(from);
+                moved.insert(to, k);
+                if !window.allows(&ops, &moved) {
+                    continue;
+                }
+                let bits = cost(&ops, &moved);
+                if bits < least - LEAST {
+                    (least, order) = (bits, moved);
+                }
+            }
+        }
+        if least == before {
+            break;
+        }
+    }
+    order.into_iter().map(|k| ops[k].clone()).collect()
+}

@@ -1,0 +1,46 @@
+//! Programs rewritten and run.
+
+use pack::rewrite::rewrite;
+use pack::{elf, packer, stub};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn work(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+/// What a program prints.
+fn says(program: &Path) -> String {
+    let output = Command::new(program).output().expect("it runs");
+    assert!(output.status.success(), "{} fails: {}", program.display(), output.status);
+    String::from_utf8(output.stdout).expect("it prints text")
+}
+
+#[test]
+fn a_rewritten_program_does_the_same_and_packs_better() {
+    let (here, place) = (Path::new(env!("CARGO_MANIFEST_DIR")), work("rewrite-stub"));
+    fs::create_dir_all(&place).expect("the work directory is writable");
+    let unpacker = stub::build(Path::new("rustc"), here, &place).expect("the unpacker compiles");
+    let [_, primer] = packer::stages(&unpacker).expect("it has two stages");
+    let bits = |program: &[u8]| packer::measure(program, &unpacker).expect("a program").bits.iter().sum::<f32>();
+    for options in [&["-O1"][..], &["-O2", "-mavx2"], &["-O3", "-mavx2", "-ffast-math"]] {
+        let name = options.concat();
+        let (before, after) = (work(&format!("as-is{name}")), work(&format!("rewritten{name}")));
+        let source = here.join("tests/rewrite.c");
+        let mut cc = Command::new("cc");
+        cc.args(options).args(["-no-pie", "-g0"]).arg(source).arg("-lm").arg("-o").arg(&before);
+        assert!(cc.status().expect("cc runs").success(), "cc fails");
+        let program = fs::read(&before).expect("just linked");
+        let new = rewrite(&program, primer).expect("an ordinary program");
+        // Only instructions have changed.
+        let code = elf::trim(&program).expect("a program").code;
+        let mut with_new_code = program.clone();
+        with_new_code[code.clone()].copy_from_slice(&new[code]);
+        assert!(new == with_new_code && new != program, "{name}");
+        assert!(bits(&new) < bits(&program) - 40.0, "{name}: {} {}", bits(&new), bits(&program));
+        fs::copy(&before, &after).expect("the work directory is writable");
+        fs::write(&after, new).expect("own file");
+        assert_eq!(says(&before), says(&after), "{name}");
+    }
+}
