@@ -151,8 +151,9 @@ impl TriangleSetup {
                 if twice > 0 {
                     let mut normals = fan.map(|corner| corner.normal);
                     if self.shaded && mesh.normals.is_empty() {
-                        let [a, b, c] = index.map(|i| corners[i].place);
-                        normals = [(b - a).cross(c - a).normalize_or_zero(); 3];
+                        // Vec3A's cross product is fused where the target can.
+                        let [a, b, c] = index.map(|i| Vec3::from(corners[i].place));
+                        normals = [Vec3A::from((b - a).cross(c - a)).normalize_or_zero(); 3];
                     }
                     let paint = &mesh.paints[face.paint as usize];
                     self.push(&mut out, fan, normals, twice, Skin { paint, bulge: bulges / 12.0, face: number as u32 });
