@@ -54,6 +54,9 @@ pub struct CloudSettings {
     pub opaque: f32,
     /// A ray ends between clouds where its transmittance falls below this, and solids behind are not drawn; 0 for never.
     pub hidden: f32,
+    /// Pixels that a voxel's edge has at least where there is detail below a voxel, which is in full at twice as many; 0 for
+    /// detail everywhere.
+    pub grain: f32,
     /// Edge of the coarsest square of pixels with rays at its corners, a power of two up to 16. At 1 every pixel has a
     /// ray.
     pub cell: usize,
@@ -118,6 +121,7 @@ impl Quality {
             detail: 0.5,
             opaque: 1.0 / 256.0,
             hidden: 1.0 / 256.0,
+            grain: 3.0,
             cell: 8,
             // At the tracer's threshold 0.6 instead of 0.2 % of the pixels of `sky-of-clouds` are off by more than 8 codes.
             threshold: 0.015,
@@ -153,6 +157,7 @@ impl Quality {
             detail: f32::INFINITY,
             opaque: 0.0,
             hidden: 0.0,
+            grain: 0.0,
             cell: 1,
             threshold: 0.0,
             grid: 1,

@@ -5,6 +5,7 @@ use super::imposter_cache::ImposterCache;
 #[cfg(feature = "full")]
 use super::inspect;
 use super::seen::SeenClouds;
+use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
 use crate::cuts;
 #[cfg(feature = "full")]
@@ -14,6 +15,7 @@ use crate::settings::CloudSettings;
 use crate::view::View;
 use fearless_simd::Level;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// Clouds before an eye: a layer after the solids and before the sky.
 pub struct CloudLayer {
@@ -24,6 +26,13 @@ impl CloudLayer {
     /// The layer of clouds, in any order, in clear air and in the full light of the sun.
     pub fn new(clouds: Vec<Cloud>, light: CloudLight, view: &View, settings: &CloudSettings) -> CloudLayer {
         CloudLayer { clouds: SeenClouds::new(clouds, light, view, settings) }
+    }
+
+    /// The same with detail below a voxel from a [`table`](super::grain::table), where voxels are large on the screen: clouds
+    /// that one flies through.
+    pub fn with_grain(mut self, table: &Arc<Voxels>) -> CloudLayer {
+        self.clouds.add_grain(table);
+        self
     }
 
     /// The same in air of which `range` metres let 1/e of a cloud's light through, and which has the linear light

@@ -6,6 +6,7 @@
 //! square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
 //! steps the transmittance of clouds that have one in closed form.
 
+use super::grain::{Fine, grain};
 use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, U, V3};
 use crate::simd::math::{opacity, to_f32};
@@ -13,6 +14,13 @@ use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{DVec3, Vec3};
 use std::f32::consts::LOG2_E;
+
+/// How much detail below a voxel adds to the density, of its distance to none and to all, and to the light.
+const GRAIN: f32 = 3.0;
+const SHADE: f32 = 0.008;
+
+/// Most of the product of a density and what it lacks, halved with 127.5 each: where detail is strongest.
+const MOST: f32 = 255.0 / 4.0;
 
 /// What rays meet in a cloud, without the colours of its light.
 pub struct Passage<S: Simd> {
@@ -46,6 +54,7 @@ impl<S: Simd> Passage<S> {
 /// What rays from `eye` along unit directions `d` meet of a cloud, up to `limit` metres from the eye.
 ///
 /// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
+/// Of `fine` detail there is nothing where less than 16 times `opaque` comes through.
 ///
 /// Directions have to have the length 1: they are not normalised, and the depth is in proportion to it. The cube is
 /// closed: a ray along an axis that runs within a face is in the cloud. `limit` may be infinite; where it is 0 or less
@@ -73,6 +82,7 @@ pub fn march<S: Simd>(
     limit: F<S>,
     steps: f32,
     opaque: F<S>,
+    fine: Option<&Fine>,
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);
@@ -102,7 +112,18 @@ pub fn march<S: Simd>(
         let u = V3 { x: voxel(p.x), y: voxel(p.y), z: voxel(p.z) };
         let leap = cloud.voxels.leap(simd, u);
         if (goes & leap.simd_lt(zero)).any_true() {
-            let [density, sunlit] = cloud.voxels.look_up(simd, u);
+            let [mut density, mut sunlit] = cloud.voxels.look_up(simd, u);
+            if let Some(fine) = fine {
+                let near = (F::<S>::splat(simd, fine.distance) / (way + along) - 1.0).min(1.0);
+                let near = transmittance.simd_ge(opaque * 16.0).select(near, zero).max(zero);
+                // Neither emptiness nor a cloud's inside has any.
+                let near = (density * (density * (-1.0 / 255.0) + 1.0)).min(near * MOST);
+                if (goes & near.simd_gt(zero)).any_true() {
+                    let grain = grain(simd, &fine.table, u) * near;
+                    density = (density + grain * GRAIN).max(zero).min(255.0);
+                    sunlit += sunlit * grain * SHADE;
+                }
+            }
             // From the depth so far, and not as what is missing from 1: of a thin cloud that would be rounding alone.
             depth += goes.select(density * thickness, zero);
             let [kept, passes] = opacity(simd, depth);

@@ -22,6 +22,7 @@
 
 mod cells;
 pub mod field;
+pub mod grain;
 mod imposter;
 mod imposter_cache;
 #[cfg(feature = "full")]

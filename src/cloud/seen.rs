@@ -1,9 +1,11 @@
 //! Clouds as they are seen from an eye: sorted by distance, each with the steps that it is worth, and with the air and
 //! the shadows of others between.
 
+use super::grain::Fine;
 use super::imposter::Imposter;
 use super::march::{Passage, march};
 use super::shadow;
+use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
 use crate::cuts;
 use crate::frame::Tile;
@@ -31,6 +33,8 @@ pub(super) struct SeenCloud {
     pub distance: f32,
     /// Steps through its cube.
     pub steps: f32,
+    /// Its detail below a voxel.
+    pub fine: Option<Fine>,
     /// The share of its light that comes through the air.
     pub fades: f32,
     /// The light of the air before it, where it hides all that is behind.
@@ -71,7 +75,17 @@ impl SeenClouds {
             let steps = (steps as f32).min((pixels * detail).max(LEAST_STEPS).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
             let (fades, veil, sunlit) = (1.0, Vec3::ZERO, 1.0);
-            let new = SeenCloud { cloud, distance, steps, fades, veil, sunlit, imposters: Vec::new(), direct: 1.0 };
+            let new = SeenCloud {
+                cloud,
+                distance,
+                steps,
+                fine: None,
+                fades,
+                veil,
+                sunlit,
+                imposters: Vec::new(),
+                direct: 1.0,
+            };
             seen.insert(at, new);
         }
         SeenClouds {
@@ -81,6 +95,15 @@ impl SeenClouds {
             settings: *settings,
             #[cfg(feature = "full")]
             frame: 0,
+        }
+    }
+
+    /// Gives the clouds detail below a voxel: see [`CloudLayer::with_grain`](super::CloudLayer::with_grain).
+    pub fn add_grain(&mut self, table: &Arc<Voxels>) {
+        for seen in &mut self.clouds {
+            let voxel = 2.0 / to_f32(seen.cloud.voxels.edge());
+            let distance = voxel / (self.view.pixel() * self.settings.built().grain);
+            seen.fine = Some(Fine { table: table.clone(), distance });
         }
     }
 
@@ -127,7 +150,7 @@ impl SeenCloud {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
             self.meet_imposters(simd, eye, d, limit, opaque)
         } else {
-            march(simd, &self.cloud, eye, d, limit, self.steps, opaque)
+            march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref())
         }
     }
 
@@ -139,7 +162,7 @@ impl SeenCloud {
         let q = (eye - self.cloud.centre) / self.cloud.size;
         let mut sums = [zero; 3];
         if self.direct > 0.0 {
-            let met = march(simd, &self.cloud, eye, d, limit, self.steps, opaque);
+            let met = march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref());
             sums = [met.transmittance * self.direct, met.upper * self.direct, met.lit * self.direct];
         }
         for (imposter, weight) in &self.imposters {
@@ -168,7 +191,7 @@ impl SeenCloud {
         if !cut.any_true() {
             return met;
         }
-        let cast = march(simd, &self.cloud, eye, d, limit, self.steps, opaque);
+        let cast = march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref());
         Passage {
             hidden: cut.select(cast.hidden, met.hidden),
             upper: cut.select(cast.upper, met.upper),

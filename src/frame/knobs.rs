@@ -63,6 +63,7 @@ pub const KNOBS: &[Knob] = &[
     knob!(q, q.cloud.detail as f64, v, q.cloud.detail = v as f32; "cloud.detail", "1", (0.01, 1000.0), "steps per pixel of the cube's edge, where that makes fewer"),
     knob!(q, q.cloud.opaque as f64, v, q.cloud.opaque = v as f32; "cloud.opaque", "1", (0.0, 1.0), "a ray ends inside a cloud where less light passes"),
     knob!(q, q.cloud.hidden as f64, v, q.cloud.hidden = v as f32; "cloud.hidden", "1", (0.0, 1.0), "a ray ends between clouds where less light passes, and solids behind are not drawn"),
+    knob!(q, q.cloud.grain as f64, v, q.cloud.grain = v as f32; "cloud.grain", "pixels", (0.0, 1000.0), "pixels of a voxel's edge from which on there is detail below it; 0 for everywhere"),
     knob!(q, q.cloud.cell as f64, v, q.cloud.cell = power(v); "cloud.cell", "count", (1.0, 16.0), "edge of the coarsest square of pixels with rays at its corners, a power of two"),
     knob!(q, q.cloud.threshold as f64, v, q.cloud.threshold = v as f32; "cloud.threshold", "1", (0.0, 1.0), "a square is interpolated where its centre is off by at most this, in linear light"),
     knob!(q, q.cloud.grid as f64, v, q.cloud.grid = v.round() as _; "cloud.grid", "count", (1.0, 8.0), "samples along each axis of every pixel, where the cell is 1"),

@@ -5,7 +5,7 @@
 
 use super::valley::{self, LATITUDE, LONGITUDE};
 use crate::angle;
-use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, shadow, sunlight};
+use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, grain, shadow, sunlight};
 use crate::cuts;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
@@ -137,17 +137,20 @@ struct Shape {
 
 /// The shapes that clouds have, kept from frame to frame.
 #[derive(Default)]
-struct Shapes(Vec<Shape>);
+struct Shapes {
+    all: Vec<Shape>,
+    grain: Option<Arc<Voxels>>,
+}
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.
     fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
-        while self.0.len() < 6 {
-            self.0.push(Shape::default());
+        while self.all.len() < 6 {
+            self.all.push(Shape::default());
         }
-        spec.workers.each(self.0.iter_mut().enumerate(), |(number, shape)| {
+        spec.workers.each(self.all.iter_mut().enumerate(), |(number, shape)| {
             // Each shape at a time of its own, lest one frame has to light all of them.
             let sun = ((towards * 64.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
             let known = shape.voxels.as_deref().filter(|_| !cuts::PARAMETERS || shape.kind == only);
@@ -167,7 +170,7 @@ impl Shapes {
                 *shape = Shape { voxels: Some(Arc::new(new)), sun, kind: only, extinction };
             }
         });
-        self.0.iter().filter_map(|shape| shape.voxels.clone()).collect()
+        self.all.iter().filter_map(|shape| shape.voxels.clone()).collect()
     }
 }
 
@@ -216,7 +219,11 @@ fn picture(spec: &FrameSpec) -> Picture {
     let dome = valley::sky(spec, valley::date(spec, &DATE) + (hour - 1.0) / 24.0);
     let now = dome.lighting();
     let field = if cuts::PARAMETERS { altered(spec) } else { FIELD };
-    let shapes = spec.cache.get::<Shapes>().lock().lit(spec, now.direction, field.extinction);
+    let cache = spec.cache.get::<Shapes>();
+    let mut kept = cache.lock();
+    let shapes = kept.lit(spec, now.direction, field.extinction);
+    let grain = kept.grain.get_or_insert_with(|| Arc::new(grain::table())).clone();
+    drop(kept);
     let clouds =
         if cuts::PARAMETERS { blown(spec, &field, eye, &shapes) } else { field.around(eye, spec.time as f32, &shapes) };
     #[cfg(feature = "full")]
@@ -245,7 +252,9 @@ fn picture(spec: &FrameSpec) -> Picture {
         phase: [0.8, 0.8],
     };
     let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
-    let clouds =
-        CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud).in_air(9000.0, air).shaded_by(&clouds);
+    let clouds = CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud)
+        .in_air(9000.0, air)
+        .shaded_by(&clouds)
+        .with_grain(&grain);
     valley::show(spec, dome, world, view, Some(Box::new(clouds)))
 }

@@ -22,7 +22,7 @@ pub const TORCHES: Scene = Scene {
     name: "torches",
     about: "fires in a ruin under the moon",
     duration: LENGTH,
-    parameters: &[RADIUS, PARTICLES, LIFE, EAST, SOUTH, LIGHTS, REACH, STEADY, DATE, START, LATITUDE, LONGITUDE],
+    parameters: &[RADIUS, PARTICLES, LIFE, EAST, SOUTH, LIGHTS, REACH, STEADY, BEAT, DATE, START, LATITUDE, LONGITUDE],
     picture,
 }
 .part();
@@ -46,6 +46,8 @@ const REACH: Parameter =
     Parameter::new("reach", "m", (0.5, 50.0), 5.0, "distance that the light of a fire of size 1 reaches");
 const STEADY: Parameter =
     Parameter::new("steady", "1", (0.0, 1.0), 0.4, "the least light of a fire as it flickers, of the most");
+const BEAT: Parameter =
+    Parameter::new("beat", "1", (0.0, 2.0), 0.5, "how much brighter fires are at a note of the bass, of their light");
 const DATE: Parameter =
     Parameter::new("date", "days", (1.0, 731.0), 448.0, "the day's number, counted from 1 January 2026");
 const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 0.5, "time of day, UT + 1");
@@ -170,7 +172,11 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     // It comes from where the fire flares.
     let [a, b, c] = [1, 2, 3].map(|k| flicker(4 * number + k, spec.time, -1.0));
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
-    let color = vec3(12.0, 4.0, 0.75) * (root * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
+    // The bass of the score has a note every two seconds, which fires answer within a tenth.
+    let since = (spec.time * 0.5).rem_euclid(1.0) as f32;
+    let left = (1.0 - since) * (1.0 - since);
+    let flare = 1.0 + spec.get(&BEAT) as f32 * (since * 20.0).min(1.0) * left * left;
+    let color = vec3(12.0, 4.0, 0.75) * (root * flare * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
     let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
     valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [384, from], traced)

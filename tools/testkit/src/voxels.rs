@@ -2,6 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{DVec3, Vec3, dvec3, vec3};
+use paprsek::cloud::grain::Fine;
 use paprsek::cloud::march::march;
 use paprsek::cloud::{Cloud, CloudLight, Voxels};
 use paprsek::noise::{fbm, noise};
@@ -59,9 +60,22 @@ pub fn rays(
     limit: f32,
     cut: [f32; 2],
 ) -> Vec<(Vec3, f32)> {
+    fine_rays(level, (cloud, None), look, eye, d, limit, cut)
+}
+
+/// The same through a cloud with detail below a voxel.
+pub fn fine_rays(
+    level: Level,
+    (cloud, fine): (&Cloud, Option<&Fine>),
+    look: &CloudLight,
+    eye: Vec3,
+    d: &[Vec3; 16],
+    limit: f32,
+    cut: [f32; 2],
+) -> Vec<(Vec3, f32)> {
     fn all<S: Simd>(
         simd: S,
-        (cloud, look, eye): (&Cloud, &CloudLight, Vec3),
+        (cloud, fine, look, eye): (&Cloud, Option<&Fine>, &CloudLight, Vec3),
         d: &[Vec3; 16],
         limit: f32,
         cut: [f32; 2],
@@ -71,7 +85,8 @@ pub fn rays(
             let axis = |axis: usize| d.iter().map(|d| d[axis]).collect::<Vec<_>>();
             let [x, y, z] = [0, 1, 2].map(|k| F::<S>::from_slice(simd, &axis(k)));
             let d = V3 { x, y, z };
-            let met = march(simd, cloud, eye, d, F::<S>::splat(simd, limit), cut[0], F::<S>::splat(simd, cut[1]));
+            let [limit, opaque] = [limit, cut[1]].map(|x| F::<S>::splat(simd, x));
+            let met = march(simd, cloud, eye, d, limit, cut[0], opaque, fine);
             let (light, left) = met.shine(simd, look, d);
             for i in 0..F::<S>::LEN {
                 found.push((vec3(light.x[i], light.y[i], light.z[i]), left[i]));
@@ -79,7 +94,7 @@ pub fn rays(
         }
         found
     }
-    dispatch!(level, simd => all(simd, (cloud, look, eye), d, limit, cut))
+    dispatch!(level, simd => all(simd, (cloud, fine, look, eye), d, limit, cut))
 }
 
 /// Light and transmittance along one ray that nothing ends before `limit`.
@@ -124,10 +139,27 @@ pub fn span(q: DVec3, d: DVec3) -> Option<(f64, f64)> {
     (exit > entry).then_some((entry, exit))
 }
 
-/// Density and light at a point of the cube, 0 to 1: trilinear between centres of voxels.
-fn look_up(voxels: &Voxels, p: DVec3) -> [f64; 2] {
+/// The point of the lattice of voxels, in voxels, at a point of the cube.
+fn voxel(voxels: &Voxels, p: DVec3) -> DVec3 {
+    let n = voxels.edge() as f64;
+    ((p + 1.0) * (0.5 * n) - 0.5).clamp(DVec3::ZERO, DVec3::splat(n - 1.0))
+}
+
+/// Detail at a point of the lattice of voxels, from -1 to 1: the table, mirrored, by turned coordinates.
+fn grain(table: &Voxels, u: DVec3) -> f64 {
+    let x = u.x * 0.8 + u.y * 0.6;
+    let turned = dvec3(x, u.z * 0.8 + x * 0.6, u.y * 0.8 - u.x * 0.6);
+    let most = (table.edge() - 1) as f64;
+    let mirrored = |x: f64| {
+        let far = (x * 2.4).rem_euclid(2.0 * most);
+        if far > most { 2.0 * most - far } else { far }
+    };
+    look_up(table, dvec3(mirrored(turned.x), mirrored(turned.y), mirrored(turned.z)))[0] * 2.0 - 0.8
+}
+
+/// Density and light at a point of the lattice, 0 to 1: trilinear between voxels.
+fn look_up(voxels: &Voxels, u: DVec3) -> [f64; 2] {
     let n = voxels.edge();
-    let u = ((p + 1.0) * (0.5 * n as f64) - 0.5).clamp(DVec3::ZERO, DVec3::splat((n - 1) as f64));
     let base = u.floor().min(DVec3::splat((n - 2) as f64));
     let f = u - base;
     let mut sum = [0.0; 2];
@@ -146,14 +178,33 @@ fn look_up(voxels: &Voxels, p: DVec3) -> [f64; 2] {
 
 /// The march in f64, as the bench scenes specify it, but that nothing ends it.
 pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, steps: u32) -> (DVec3, f64) {
+    fine_truth((cloud, None), look, eye, d, steps)
+}
+
+/// The same with detail below a voxel.
+pub fn fine_truth(
+    (cloud, fine): (&Cloud, Option<&Fine>),
+    look: &CloudLight,
+    eye: Vec3,
+    d: Vec3,
+    steps: u32,
+) -> (DVec3, f64) {
     let (q, d) = ((eye - cloud.centre).as_dvec3() / cloud.size as f64, d.as_dvec3());
     let Some((entry, exit)) = span(q, d) else { return (DVec3::ZERO, 1.0) };
     let length = (exit - entry) / steps as f64;
     let (mut light, mut left) = (DVec3::ZERO, 1.0);
     let phase = look.phase[0] as f64 + look.phase[1] as f64 * d.dot(look.towards.as_dvec3()).max(0.0).powi(6);
     for step in 0..steps {
-        let p = q + d * (entry + (step as f64 + 0.5) * length);
-        let [density, lit] = look_up(&cloud.voxels, p);
+        let along = entry + (step as f64 + 0.5) * length;
+        let p = q + d * along;
+        let u = voxel(&cloud.voxels, p);
+        let [mut density, mut lit] = look_up(&cloud.voxels, u);
+        if let Some(fine) = fine {
+            let near = (fine.distance as f64 / along - 1.0).clamp(0.0, 1.0);
+            let grain = grain(&fine.table, u) * (density * (1.0 - density)).min(near * 0.25);
+            density = (density + 3.0 * grain).clamp(0.0, 1.0);
+            lit *= 1.0 + 2.04 * grain;
+        }
         let hides = left * -(-cloud.extinction as f64 * length * density).exp_m1();
         let ambient = look.ambient[0].as_dvec3().lerp(look.ambient[1].as_dvec3(), p.y * 0.5 + 0.5);
         light += hides * (ambient + look.sun.as_dvec3() * (lit * phase));

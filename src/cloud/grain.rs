@@ -1,0 +1,55 @@
+//! Detail below a voxel: billows from a small table of noise, which a cloud has where one is close by.
+//!
+//! Voxels of some metres are soft from close by. What is finer comes from one table for all clouds, three octaves of
+//! turbulence `[Perlin85]` on a lattice of half voxels, so that a lookup costs what one of a cloud's own voxels does,
+//! whatever the octaves. Beyond its faces the table is mirrored.
+
+use super::voxels::Voxels;
+use crate::noise::octaves;
+use crate::simd::lanes::{F, V3};
+use crate::simd::math::to_f32;
+use fearless_simd::prelude::*;
+use glam::Vec3;
+use std::sync::Arc;
+
+/// Points along an edge of the table.
+const EDGE: usize = 32;
+
+/// Points of the table per voxel of a cloud, and per wavelength of the longest octave.
+const FINER: f32 = 2.4;
+const WAVE: f32 = 9.0;
+
+/// The table.
+pub fn table() -> Voxels {
+    let point = |at: usize| {
+        let p = Vec3::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(to_f32));
+        let mut sum = 0.0;
+        for (zoom, share) in [(1.0, 560.0), (2.1, 280.0), (4.3, 140.0)] {
+            sum += octaves(p * (zoom / WAVE) + zoom, 1, true) * share;
+        }
+        sum.min(255.0) as u8
+    };
+    Voxels::new(EDGE, (0..EDGE * EDGE * EDGE).map(point).collect())
+}
+
+/// Where a cloud has it.
+pub struct Fine {
+    /// [`table`].
+    pub table: Arc<Voxels>,
+    /// Distance from the eye up to which there is some, halves of the cube's edge. Within half of it there is all.
+    pub distance: f32,
+}
+
+/// Detail at points `u` of a cloud, in its voxels: from -1 to 1, and 0 in the mean.
+#[inline(always)]
+pub(super) fn grain<S: Simd>(simd: S, table: &Voxels, u: V3<S>) -> F<S> {
+    let most = (EDGE - 1) as f32;
+    let mirrored = |x: F<S>| {
+        let turns = x * (0.5 * FINER / most);
+        (turns - (turns + 0.5).floor()).abs() * (2.0 * most)
+    };
+    // Askew, so that neither lattice shows in the other.
+    let (x, z) = (u.x * 0.8 + u.y * 0.6, u.y * 0.8 - u.x * 0.6);
+    let place = V3 { x: mirrored(x), y: mirrored(u.z * 0.8 + x * 0.6), z: mirrored(z) };
+    table.look_up(simd, place)[0] * (1.0 / 127.5) - 0.8
+}
