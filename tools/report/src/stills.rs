@@ -33,7 +33,7 @@ const SHEETS: [Sheet; 8] = [
     ("dance.png", scenes::show::lumen::LUMEN, &[43.9], (960, 540), 1),
     ("sunset.png", scenes::show::lumen::LUMEN, &[51.5], (960, 540), 1),
     ("day.png", scenes::show::day::DAY, DAY, (336, 189), 3),
-    ("clouds.png", scenes::show::clouds::CLOUDS, &[1.8, 6.6, 37.0, 45.0], (640, 360), 2),
+    ("clouds.png", scenes::show::clouds::CLOUDS, &[1.8, 10.0, 28.0, 45.0], (640, 360), 2),
     ("snowfall.png", scenes::show::snowfall::SNOWFALL, &[5.0, 12.0, 16.0, 26.0], (640, 360), 2),
     ("torches.png", scenes::show::torches::TORCHES, &[2.0, 7.0, 14.0, 25.0], (640, 360), 2),
 ];
