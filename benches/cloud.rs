@@ -59,7 +59,7 @@ fn sum<S: Simd>(simd: S, cloud: &Cloud, opaque: f32) -> f32 {
             let d = d * Lane(F::<S>::splat(simd, 1.0) / length);
             let limit = F::<S>::splat(simd, f32::INFINITY);
             let met =
-                march(simd, cloud, vec3(0.0, 0.0, 3.0), d, limit, STEPS as f32, F::<S>::splat(simd, opaque), None);
+                march(simd, (cloud, None), vec3(0.0, 0.0, 3.0), d, limit, STEPS as f32, F::<S>::splat(simd, opaque));
             let (light, left) = met.shine(simd, &LOOK, d);
             // One by one, so that every level adds in the same order.
             for i in 0..F::<S>::LEN {

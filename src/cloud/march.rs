@@ -76,13 +76,12 @@ impl<S: Simd> Passage<S> {
 #[simd]
 pub fn march<S: Simd>(
     simd: S,
-    cloud: &Cloud,
+    (cloud, fine): (&Cloud, Option<&Fine>),
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
     steps: f32,
     opaque: F<S>,
-    fine: Option<&Fine>,
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);

@@ -150,7 +150,7 @@ impl SeenCloud {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
             self.meet_imposters(simd, eye, d, limit, opaque)
         } else {
-            march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref())
+            march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque)
         }
     }
 
@@ -162,7 +162,7 @@ impl SeenCloud {
         let q = (eye - self.cloud.centre) / self.cloud.size;
         let mut sums = [zero; 3];
         if self.direct > 0.0 {
-            let met = march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref());
+            let met = march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque);
             sums = [met.transmittance * self.direct, met.upper * self.direct, met.lit * self.direct];
         }
         for (imposter, weight) in &self.imposters {
@@ -191,7 +191,7 @@ impl SeenCloud {
         if !cut.any_true() {
             return met;
         }
-        let cast = march(simd, &self.cloud, eye, d, limit, self.steps, opaque, self.fine.as_ref());
+        let cast = march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque);
         Passage {
             hidden: cut.select(cast.hidden, met.hidden),
             upper: cut.select(cast.upper, met.upper),

@@ -86,7 +86,7 @@ pub fn fine_rays(
             let [x, y, z] = [0, 1, 2].map(|k| F::<S>::from_slice(simd, &axis(k)));
             let d = V3 { x, y, z };
             let [limit, opaque] = [limit, cut[1]].map(|x| F::<S>::splat(simd, x));
-            let met = march(simd, cloud, eye, d, limit, cut[0], opaque, fine);
+            let met = march(simd, (cloud, fine), eye, d, limit, cut[0], opaque);
             let (light, left) = met.shine(simd, look, d);
             for i in 0..F::<S>::LEN {
                 found.push((vec3(light.x[i], light.y[i], light.z[i]), left[i]));
