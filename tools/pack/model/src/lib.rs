@@ -55,7 +55,10 @@
 //! - 2^19 lines: 190 bytes more; 2^14, which fit the cache: 4 kB more and 0.12 s less, so that is what memory costs;
 //! - without the match's own slots: 0.6 kB more; without its second one for long matches: 52 bytes; further slots by the
 //!   last two bytes or opcodes, without a hash: no difference.
-#![cfg_attr(not(any(test, feature = "undo")), no_std)]
+#![cfg_attr(not(test), no_std)]
+
+#[cfg(feature = "undo")]
+extern crate alloc;
 
 pub mod address;
 pub mod coder;

@@ -12,6 +12,8 @@ mod log {
     use crate::features::Features;
     use crate::mix::{Layer, VECTORS};
     use crate::vector::{Floats, Words};
+    use alloc::boxed::Box;
+    use alloc::vec::Vec;
 
     /// What was there before, since the last mark, if there is one.
     pub struct Undo(Option<Box<Log>>);
