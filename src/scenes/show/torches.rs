@@ -172,10 +172,10 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     // It comes from where the fire flares.
     let [a, b, c] = [1, 2, 3].map(|k| flicker(4 * number + k, spec.time, -1.0));
     let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
-    // The bass of the score has a note every two seconds, which fires answer within a tenth.
+    // The bass of the score has a note every two seconds, which fires answer within a fifth.
     let since = (spec.time * 0.5).rem_euclid(1.0) as f32;
     let left = (1.0 - since) * (1.0 - since);
-    let flare = 1.0 + spec.get(&BEAT) as f32 * (since * 20.0).min(1.0) * left * left;
+    let flare = 1.0 + spec.get(&BEAT) as f32 * (since * 10.0).min(1.0) * left * left;
     let color = vec3(12.0, 4.0, 0.75) * (root * flare * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
     let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
