@@ -1,7 +1,7 @@
 //! Detail below a voxel: billows from a small table of noise, which a cloud has where one is close by.
 //!
 //! Voxels of some metres are soft from close by. What is finer comes from one table for all clouds, three octaves of
-//! turbulence `[Perlin02]` on a lattice of half voxels, so that a lookup costs what one of a cloud's own voxels does,
+//! turbulence `[Perlin02]` on a lattice of less than half a voxel, so that a lookup costs what one of a cloud's own voxels does,
 //! whatever the octaves. Beyond its faces the table is mirrored.
 
 use super::voxels::Voxels;
