@@ -100,8 +100,8 @@ impl RasterLayer {
                         _ => cell([pass % grid, pass / grid], grid),
                     };
                     visible.clear(&tile.hidden);
-                    fill(simd, &raster.meshes, ids, tile.x as i32, tile.y as i32, *place, visible);
                 }
+                fill(simd, &raster.meshes, ids, tile.x as i32, tile.y as i32, planes);
                 fragments += collect(simd, &context, planes, queues, tile);
             }
             for (texture, queue) in queues.iter_mut().enumerate() {

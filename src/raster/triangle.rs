@@ -59,7 +59,7 @@ pub struct SetupMesh {
     pub triangles: Vec<Triangle>,
 }
 
-/// Number of the first plane, in [`Corner::distances`], that triangles must be clipped at.
+/// Number of the first plane, in [`TriangleSetup::distances`], that triangles must be clipped at.
 const CLIP: usize = 4;
 
 /// A corner of a triangle.
@@ -71,10 +71,7 @@ struct Corner {
     place: Vec3A,
     /// Normal in the world, of any length.
     normal: Vec3A,
-    /// Signed distances, in homogeneous pixels and positive inside, from the four sides of the raster, then from the
-    /// planes that must be clipped at: near, and the four sides of the guard band.
-    distances: [f32; 9],
-    /// For each of these planes a bit, set where the corner does not lie inside.
+    /// For each plane of [`TriangleSetup::distances`] a bit, set where the corner does not lie inside.
     outside: u32,
     /// Place on the raster, in steps of 1 / [`SUB`] pixel.
     x: i32,
@@ -131,12 +128,6 @@ impl TriangleSetup {
                 continue;
             }
             let outside = a.outside | b.outside | c.outside;
-            // Where a point of the smooth surface is the mean, by barycentric weights, of its places on the planes of the
-            // corners' normals `[Hanika21]`, its height in the mean is this sum over the edges.
-            let mut bulges = 0.0;
-            for [a, b] in [[a, b], [b, c], [c, a]] {
-                bulges += (b.place - a.place).dot(b.normal - a.normal).max(0.0);
-            }
             polygon.clear();
             polygon.extend_from_slice(&index);
             if outside >> CLIP != 0 {
@@ -155,6 +146,13 @@ impl TriangleSetup {
                         let [a, b, c] = index.map(|i| Vec3::from(corners[i].place));
                         normals = [Vec3A::from((b - a).cross(c - a)).normalize_or_zero(); 3];
                     }
+                    // Where a point of the smooth surface is the mean, by barycentric weights, of its places on the planes of
+                    // the corners' normals `[Hanika21]`, its height in the mean is this sum over the edges.
+                    let [a, b, c] = index.map(|i| &corners[i]);
+                    let mut bulges = 0.0;
+                    for [a, b] in [[a, b], [b, c], [c, a]] {
+                        bulges += (b.place - a.place).dot(b.normal - a.normal).max(0.0);
+                    }
                     let paint = &mesh.paints[face.paint as usize];
                     self.push(&mut out, fan, normals, twice, Skin { paint, bulge: bulges / 12.0, face: number as u32 });
                 }
@@ -163,13 +161,19 @@ impl TriangleSetup {
         out
     }
 
-    /// A corner at homogeneous pixels `h`.
-    fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
+    /// Signed distances of homogeneous pixels, positive inside, from the four sides of the raster, then from the planes that
+    /// must be clipped at: near, and the four sides of the guard band.
+    #[inline(always)]
+    fn distances(&self, h: Vec4) -> [f32; 9] {
         let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
         let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
-        let distances = [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
+        [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y]
+    }
+
+    /// A corner at homogeneous pixels `h`.
+    fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
         let mut outside = 0;
-        for (k, distance) in distances.into_iter().enumerate() {
+        for (k, distance) in self.distances(h).into_iter().enumerate() {
             // Written so that NaN lies outside of every plane.
             #[allow(clippy::neg_cmp_op_on_partial_ord)]
             let beyond = !(distance >= 0.0);
@@ -178,7 +182,7 @@ impl TriangleSetup {
         let inverse = 1.0 / h.w;
         let sub = |x: f32| (x * inverse * SUB as f32).round() as i32;
         let (x, y) = (sub(h.x), sub(h.y));
-        Corner { h, place: Vec3A::ZERO, normal, distances, outside, x, y }
+        Corner { h, place: Vec3A::ZERO, normal, outside, x, y }
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
@@ -188,7 +192,7 @@ impl TriangleSetup {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
                 let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
-                let (d0, d1) = (corners[this].distances[plane], corners[next].distances[plane]);
+                let [d0, d1] = [this, next].map(|i| self.distances(corners[i].h)[plane]);
                 if d0 >= 0.0 {
                     rest.push(this);
                 }
@@ -196,8 +200,8 @@ impl TriangleSetup {
                     // Interpolated from the corner nearer to the plane, since the digits of a far one do not reach here.
                     // Both faces of an edge then get the same point. Of two equally near corners, from the one inside.
                     let nearer = (d0 + d1 > 0.0) != (d0 >= 0.0);
-                    let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
-                    let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
+                    let ([a, b], [d0, d1]) = if nearer { ([this, next], [d0, d1]) } else { ([next, this], [d1, d0]) };
+                    let ([a, b], k) = ([a, b].map(|i| &corners[i]), d0 / (d0 - d1));
                     rest.push(corners.len());
                     corners.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
                 }
@@ -206,7 +210,8 @@ impl TriangleSetup {
         }
         // A corner that is NaN, or has lost all its digits beside another, may be anywhere: such a polygon is dropped.
         let sound = |&i: &usize| {
-            let Corner { h, distances: [.., near, a, b, c, d], .. } = corners[i];
+            let h = corners[i].h;
+            let [.., near, a, b, c, d] = self.distances(h);
             near >= -0.5 * NEAR && [a, b, c, d].into_iter().all(|side| side >= -SLACK * h.w)
         };
         if !polygon.iter().all(sound) {

@@ -55,22 +55,22 @@ pub struct Shown(
 /// Draws pieces as a frame does: by the tiles' lists.
 pub fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: SubPixel) -> Shown {
     #[inline(always)]
-    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], sample: SubPixel, out: &mut Visible) {
-        fill(simd, pieces, ids, at[0] as i32, at[1] as i32, sample, out);
+    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], ids: &[u32], at: [usize; 2], out: &mut [(Visible, SubPixel)]) {
+        fill(simd, pieces, ids, at[0] as i32, at[1] as i32, out);
     }
     let [width, height] = size.map(|n| n as usize);
     let bins = Bins::new(pieces, size);
     let mut shown = vec![(0.0, None); width * height];
-    let mut out = Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
+    let mut planes = [(Visible::default(), sample)];
     for y in (0..height).step_by(Tile::SIZE) {
         for x in (0..width).step_by(Tile::SIZE) {
             let ids = bins.of(x / Tile::SIZE, y / Tile::SIZE);
             if ids.is_empty() {
                 continue;
             }
-            out.inv_depth.fill(0.0);
-            out.id.fill(NOTHING);
-            dispatch!(level, simd => tile(simd, pieces, ids, [x, y], sample, &mut out));
+            planes[0].0.clear(&[0.0; Tile::AREA]);
+            dispatch!(level, simd => tile(simd, pieces, ids, [x, y], &mut planes));
+            let out = &planes[0].0;
             for row in 0..Tile::SIZE.min(height - y) {
                 for column in 0..Tile::SIZE.min(width - x) {
                     let at = row * Tile::SIZE + column;

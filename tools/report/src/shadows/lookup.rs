@@ -8,7 +8,6 @@ use paprsek::frame::Tile;
 use paprsek::raster::bins::Bins;
 use paprsek::raster::depth_map::EMPTY;
 use paprsek::raster::fill::{CENTER, Visible, fill};
-use paprsek::raster::id::NOTHING;
 use paprsek::raster::triangle::{SetupMesh, TriangleSetup};
 use paprsek::raster::{Bias, Projection};
 
@@ -32,12 +31,12 @@ impl Map {
         let pieces: Vec<SetupMesh> = set.meshes.iter().map(|mesh| setup.set_up(mesh, &Affine3A::IDENTITY)).collect();
         let bins = Bins::new(&pieces, projection.size);
         let (size, edge, level) = (self.size, Tile::SIZE, Level::new());
-        let mut visible = Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([NOTHING; Tile::AREA]) };
+        let mut planes = [(Visible::default(), CENTER)];
         for (y, x) in (0..size / edge).flat_map(|y| (0..size / edge).map(move |x| (y, x))) {
-            visible.inv_depth.fill(EMPTY);
+            planes[0].0.clear(&[EMPTY; Tile::AREA]);
             let (ids, left, top) = (bins.of(x, y), (x * edge) as i32, (y * edge) as i32);
-            dispatch!(level, simd => fill(simd, &pieces, ids, left, top, CENTER, &mut visible));
-            for (row, from) in visible.inv_depth.chunks(edge).enumerate() {
+            dispatch!(level, simd => fill(simd, &pieces, ids, left, top, &mut planes));
+            for (row, from) in planes[0].0.inv_depth.chunks(edge).enumerate() {
                 self.texels[(y * edge + row) * size + x * edge..][..edge].copy_from_slice(from);
             }
         }
