@@ -9,8 +9,8 @@
 //! scatter    add the light to the tile's pixels by coverage
 //! ```
 //!
-//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, above a dark shore, by Schlick's Fresnel term
-//! `[Schlick94]`. As the texture of water moves, so do its mirrored lights: waves.
+//! Surfaces are Lambertian; gloss adds the sky, which a gradient stands for, above a hazy shore, by Schlick's Fresnel term
+//! `[Schlick94]`. The texture of water is the tilt of its waves.
 
 use super::context::{ShadeContext, ShadowLookup};
 use super::exact_shadow::lifted;
@@ -31,7 +31,7 @@ use crate::simd::math;
 use crate::texture::{self, Texture};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::{Vec3, vec3};
 
 /// Least `inv_depth` of a surface, 1 / metres: squares of greater distances are infinite.
 const FARTHEST: f32 = 1e-18;
@@ -40,11 +40,19 @@ const FARTHEST: f32 = 1e-18;
 /// 1 / `RISE`.
 const RISE: f32 = 4.0;
 
-/// How fast what is mirrored goes from a shore, as dark as the surface itself, to that sky: from 12 degrees on it is all sky,
-/// as between mountains.
-const SHORE: f32 = 2.5;
+/// The sine of the height up to which a shore is mirrored, as between mountains, and how fast the sky follows above.
+const SHORE: [f32; 2] = [0.1, 8.0];
 
-/// A glossy surface mirrors in proportion to its albedo's green, fully where that is 1 / `MIRRORED`.
+/// The light of the shore, for water whose own light has a green of 1.
+const LAND: Vec3 = vec3(1.0, 1.3, 0.5);
+
+/// How much of the horizon's light is before the mirrored shore, as haze.
+const HAZY: f32 = 0.2;
+
+/// How far a wave tilts the surface to the eye, radians for a texture of 2.
+const WAVE: f32 = 0.12;
+
+/// A glossy surface whose albedo's green is 1 / `MIRRORED` is level.
 const MIRRORED: f32 = 20.0;
 
 /// Shades the first block of a queue and adds its light to the pixels of the tile. `texture` is the index of the queue's
@@ -236,7 +244,7 @@ fn finish<S: Simd>(simd: S, context: &ShadeContext, queue: &mut FragmentQueue) {
         let way = way * Lane(one / distance);
         let gloss: F<S> = load(simd, &queue.gloss, i);
         if gloss.simd_gt(zero).any_true() {
-            color = glossy(simd, world, color, gloss * (albedo.y * MIRRORED), way, n);
+            color = glossy(simd, world, color, gloss, albedo.y * MIRRORED - 1.0, way, n);
         }
         if world.film || !cuts::LIGHT_WITHOUT_FILM {
             color = V3 { x: film(simd, color.x), y: film(simd, color.y), z: film(simd, color.z) };
@@ -253,14 +261,16 @@ fn finish<S: Simd>(simd: S, context: &ShadeContext, queue: &mut FragmentQueue) {
 
 /// Light of surfaces with the mirrored sky over it, seen along the unit direction `way`.
 #[inline(always)]
-fn glossy<S: Simd>(simd: S, world: &World, color: V3<S>, gloss: F<S>, way: V3<S>, n: V3<S>) -> V3<S> {
+fn glossy<S: Simd>(simd: S, world: &World, color: V3<S>, gloss: F<S>, wave: F<S>, way: V3<S>, n: V3<S>) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let cosine = way.dot(n);
+    let cosine = way.dot(n) + wave * WAVE;
     let mirrored = way - n * Lane(cosine + cosine);
     let horizon = world.haze.at(simd, mirrored);
     let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
     let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height);
-    let sky = color + (sky - color) * Lane((height * SHORE).min(one)) + world.haze.image_at(simd, mirrored);
+    let shore = V3::splat(simd, LAND) * Lane(color.y) + horizon * Lane(one * HAZY);
+    let open = ((mirrored.y - SHORE[0]) * SHORE[1]).max(zero).min(one);
+    let sky = shore + (sky - shore) * Lane(open) + world.haze.image_at(simd, mirrored);
     // Schlick's approximation of the Fresnel term.
     let rest = one - cosine.abs().min(one);
     let grazing = rest * rest;

@@ -12,7 +12,7 @@ use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
 use crate::texture::{Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
-use glam::{Vec3, vec3};
+use glam::{Vec2, Vec3, vec3};
 
 /// Snow on all surfaces that keep it.
 #[derive(Clone, Debug)]
@@ -23,7 +23,18 @@ pub struct SnowCover {
     pub fall: Light,
     /// Light that comes the same way, as from an overcast sky, on a surface that faces it; linear.
     pub sky: Vec3,
+    /// Someone has walked from here to there, straight on: x and z, metres. Nobody has where both are one place.
+    pub track: [Vec2; 2],
 }
+
+/// The length of a step, metres.
+pub const STEP: f32 = 0.7;
+/// How far left and right prints lie beside the track, metres.
+pub const STANCE: f32 = 0.14;
+/// Half the length and half the width of a print, metres.
+pub const PRINT: [f32; 2] = [0.17, 0.075];
+/// The depth that a foot takes.
+pub const SINKS: f32 = 0.4;
 
 /// Albedo of snow where [`GRAIN`] is 0.
 pub const WHITE: Vec3 = vec3(0.8, 0.83, 0.88);
@@ -51,15 +62,36 @@ impl SnowCover {
             let (open, grain): (F<S>, F<S>) = (load(simd, &open[0], i), load(simd, &grain[0], i));
             let albedo = V3::load(simd, &queue.albedo, i);
             let gloss: F<S> = load(simd, &queue.gloss, i);
-            let depth =
-                math::smooth(simd, (open - KEEPS[0]) * (1.0 / (KEEPS[1] - KEEPS[0]))) * (self.amount * (1.0 + EDGE));
+            let print = self.print(simd, V3::load(simd, &queue.point, i));
+            let depth = math::smooth(simd, (open - KEEPS[0]) * (1.0 / (KEEPS[1] - KEEPS[0])))
+                * (self.amount * (1.0 + EDGE))
+                - print * SINKS;
             let rough = (albedo.y * ROUGH + grain).max(zero).min(one);
             let cover = math::smooth(simd, (depth - rough) * (1.0 / EDGE)) * (one - gloss);
-            let white = V3::splat(simd, WHITE) * Lane(grain * RELIEF + 1.0);
+            let white = V3::splat(simd, WHITE) * Lane(grain * RELIEF + 1.0 - print * RELIEF);
             (albedo + (white - albedo) * Lane(cover)).store(&mut queue.albedo, i);
             (V3::load(simd, &queue.light, i) + V3::splat(simd, self.sky) * Lane(open)).store(&mut queue.light, i);
             store(gloss * (one - cover), &mut queue.gloss, i);
             i += 1;
         }
+    }
+
+    /// How far a place lies in a footprint: 1 in the middle, 0 outside.
+    #[inline(always)]
+    fn print<S: Simd>(&self, simd: S, p: V3<S>) -> F<S> {
+        let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
+        let [from, to] = self.track;
+        let length = from.distance(to);
+        let way = (to - from) / length.max(1e-9);
+        let (x, z) = (p.x - from.x, p.z - from.y);
+        let (along, across) = (x * way.x + z * way.y, z * way.x - x * way.y);
+        let steps = along * (1.0 / STEP);
+        let step = steps.floor();
+        let half = step * 0.5;
+        // Right and left in turn.
+        let side = (half - half.floor()) * (4.0 * STANCE) - STANCE;
+        let (u, v) = ((steps - step - 0.5) * (STEP / PRINT[0]), (across - side) * (1.0 / PRINT[1]));
+        let print = (one - u * u - v * v).max(zero).min(one);
+        (along.simd_ge(zero) & along.simd_le(length)).select(print, zero)
     }
 }

@@ -59,7 +59,7 @@ pub struct SetupMesh {
     pub triangles: Vec<Triangle>,
 }
 
-/// Number of the first plane, in [`TriangleSetup::distances`], that triangles must be clipped at.
+/// Number of the first plane, in [`Corner::distances`], that triangles must be clipped at.
 const CLIP: usize = 4;
 
 /// A corner of a triangle.
@@ -71,7 +71,10 @@ struct Corner {
     place: Vec3A,
     /// Normal in the world, of any length.
     normal: Vec3A,
-    /// For each plane of [`TriangleSetup::distances`] a bit, set where the corner does not lie inside.
+    /// Signed distances, in homogeneous pixels and positive inside, from the four sides of the raster, then from the
+    /// planes that must be clipped at: near, and the four sides of the guard band.
+    distances: [f32; 9],
+    /// For each of these planes a bit, set where the corner does not lie inside.
     outside: u32,
     /// Place on the raster, in steps of 1 / [`SUB`] pixel.
     x: i32,
@@ -161,19 +164,13 @@ impl TriangleSetup {
         out
     }
 
-    /// Signed distances of homogeneous pixels, positive inside, from the four sides of the raster, then from the planes that
-    /// must be clipped at: near, and the four sides of the guard band.
-    #[inline(always)]
-    fn distances(&self, h: Vec4) -> [f32; 9] {
-        let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
-        let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
-        [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y]
-    }
-
     /// A corner at homogeneous pixels `h`.
     fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
+        let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
+        let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
+        let distances = [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
         let mut outside = 0;
-        for (k, distance) in self.distances(h).into_iter().enumerate() {
+        for (k, distance) in distances.into_iter().enumerate() {
             // Written so that NaN lies outside of every plane.
             #[allow(clippy::neg_cmp_op_on_partial_ord)]
             let beyond = !(distance >= 0.0);
@@ -182,7 +179,7 @@ impl TriangleSetup {
         let inverse = 1.0 / h.w;
         let sub = |x: f32| (x * inverse * SUB as f32).round() as i32;
         let (x, y) = (sub(h.x), sub(h.y));
-        Corner { h, place: Vec3A::ZERO, normal, outside, x, y }
+        Corner { h, place: Vec3A::ZERO, normal, distances, outside, x, y }
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
@@ -192,7 +189,7 @@ impl TriangleSetup {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
                 let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
-                let [d0, d1] = [this, next].map(|i| self.distances(corners[i].h)[plane]);
+                let (d0, d1) = (corners[this].distances[plane], corners[next].distances[plane]);
                 if d0 >= 0.0 {
                     rest.push(this);
                 }
@@ -200,8 +197,8 @@ impl TriangleSetup {
                     // Interpolated from the corner nearer to the plane, since the digits of a far one do not reach here.
                     // Both faces of an edge then get the same point. Of two equally near corners, from the one inside.
                     let nearer = (d0 + d1 > 0.0) != (d0 >= 0.0);
-                    let ([a, b], [d0, d1]) = if nearer { ([this, next], [d0, d1]) } else { ([next, this], [d1, d0]) };
-                    let ([a, b], k) = ([a, b].map(|i| &corners[i]), d0 / (d0 - d1));
+                    let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
+                    let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
                     rest.push(corners.len());
                     corners.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
                 }
@@ -210,8 +207,7 @@ impl TriangleSetup {
         }
         // A corner that is NaN, or has lost all its digits beside another, may be anywhere: such a polygon is dropped.
         let sound = |&i: &usize| {
-            let h = corners[i].h;
-            let [.., near, a, b, c, d] = self.distances(h);
+            let Corner { h, distances: [.., near, a, b, c, d], .. } = corners[i];
             near >= -0.5 * NEAR && [a, b, c, d].into_iter().all(|side| side >= -SLACK * h.w)
         };
         if !polygon.iter().all(sound) {

@@ -1,9 +1,9 @@
 //! Snow that settles, against its formula in f64 and what stands above a point.
 
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec2, Vec3, Vec3Swizzles as _, vec2, vec3};
 use paprsek::frame::Cache;
 use paprsek::noise::noise;
-use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, RELIEF, ROUGH, WHITE};
+use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, PRINT, RELIEF, ROUGH, SINKS, STANCE, STEP, WHITE};
 use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
@@ -23,7 +23,7 @@ fn shadow_views(width: f32, texels: u32) -> ShadowViews {
 
 fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
     let fall = Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) };
-    Some(SnowCover { amount, fall, sky: Vec3::ZERO })
+    Some(SnowCover { amount, fall, sky: Vec3::ZERO, track: [Vec2::ZERO; 2] })
 }
 
 /// Light from all around, so that a picture has the albedo of what it shows.
@@ -125,13 +125,14 @@ fn open_slopes_are_covered_by_their_formula() {
                     let lit = 1.0 + light.as_dvec3() * normal.y;
                     let seen = albedo.as_dvec3().lerp(white(grain), cover);
                     let color = seen * lit;
-                    // What is left of its gloss mirrors a black sky above a shore like itself, by the green that is seen.
-                    let cosine = ray.normalize().dot(normal);
-                    let up = (ray.normalize() - 2.0 * cosine * normal).y.max(0.0);
-                    let open = (2.5 * (1.0 - (-4.0 * up).exp2())).min(1.0);
-                    let grazing = (1.0 + cosine).powi(5);
-                    let mirrored = gloss as f64 * (1.0 - cover) * 20.0 * seen.y * (0.05 + 0.95 * grazing) * open;
-                    let gap = (found.as_dvec3() - color * (1.0 - mirrored)).abs().max_element();
+                    // What is left of its gloss mirrors a black sky above a shore, tilted by the green that is seen.
+                    let cosine = ray.normalize().dot(normal) + 0.12 * (20.0 * seen.y - 1.0);
+                    let up = (ray.normalize() - 2.0 * cosine * normal).y;
+                    let open = ((up - 0.1) * 8.0).clamp(0.0, 1.0);
+                    let shore = DVec3::new(1.0, 1.3, 0.5) * color.y * (1.0 - open);
+                    let grazing = (1.0 - cosine.abs().min(1.0)).powi(5);
+                    let mirrored = gloss as f64 * (1.0 - cover) * (0.05 + 0.95 * grazing);
+                    let gap = (found.as_dvec3() - color.lerp(shore, mirrored)).abs().max_element();
                     worst = worst.max(gap);
                     assert!(gap <= EXACT, "{degrees} degrees, {amount}: off by {gap} at {pixel}");
                 }
@@ -169,6 +170,41 @@ fn what_mirrors_as_water_does_keeps_none() {
     let world = even(vec![body(paint(ground(9.0, 0.0, 3), GROUND, 1.0))]);
     let bare = picture(&world, from_above());
     assert_eq!(picture(&World { snow: snow(1.0, None), ..world }, from_above()).differs(&bare), None);
+}
+
+/// Along a walk from corner to corner, and nowhere else.
+#[test]
+fn footprints_are_where_feet_have_trodden() {
+    let track = [vec2(-3.0, 2.5), vec2(3.5, -2.0)];
+    let [from, to] = track.map(|p| p.as_dvec2());
+    let (way, length) = ((to - from).normalize(), from.distance(to));
+    let camera = Camera::look_at(vec3(0.5, 3.5, 4.0), Vec3::ZERO, 0.9, 0.0);
+    let world = even(vec![body(paint(ground(9.0, 0.0, 3), GROUND, 0.0))]);
+    for amount in [0.5, 0.8, 1.0] {
+        let settled = snow(amount, None).map(|snow| SnowCover { track, ..snow });
+        let planes = picture(&World { snow: settled, ..world.clone() }, camera);
+        let mut trodden = 0;
+        for pixel in (0..planes.color.len()).filter(|pixel| planes.coverage[*pixel] > 0.0) {
+            let Spot { point, grain, .. } = spot(&camera, pixel, DVec3::Y);
+            let place = point.xz() - from;
+            let (along, across) = (place.dot(way), way.perp().dot(place));
+            // The n-th foot comes down in the middle of the n-th step, the left one first.
+            let foot = (along / STEP as f64).floor();
+            let side = if foot.rem_euclid(2.0) == 0.0 { -1.0 } else { 1.0 } * STANCE as f64;
+            let u = (along - (foot + 0.5) * STEP as f64) / PRINT[0] as f64;
+            let v = (across - side) / PRINT[1] as f64;
+            let on_the_way = (0.0..=length).contains(&along);
+            let print = if on_the_way { (1.0 - u * u - v * v).clamp(0.0, 1.0) } else { 0.0 };
+            let depth = amount as f64 * (1.0 + EDGE as f64) - print * SINKS as f64;
+            let rough = (ROUGH as f64 * GROUND.y as f64 + grain).clamp(0.0, 1.0);
+            let cover = smooth((depth - rough) / EDGE as f64);
+            let snow = WHITE.as_dvec3() * (1.0 + RELIEF as f64 * (grain - print));
+            let gap = (planes.color[pixel].as_dvec3() - GROUND.as_dvec3().lerp(snow, cover)).abs().max_element();
+            assert!(gap <= 2.0 * EXACT, "{amount}: off by {gap} at {pixel}");
+            trodden += usize::from(print > 0.5);
+        }
+        assert!(trodden > 20, "{trodden} pixels in footprints");
+    }
 }
 
 /// A map cannot know an edge better than its 3x3 texels reach.

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`land`] | a valley with a lake, mountains around it | a height field of noise on rings around the middle |
 //! | [`tree`] | firs and broadleaves, and where they stand | bodies of rings, moved by noise |
+//! | [`tuft`] | grass around the middle | blades of two faces |
 //! | [`chapel`] | half a ruin on the hill | boxes, a gable, a spire, pillars |
 //! | [`mustang`] | a P-51D | cross sections along fuselage, wing and tail, mirrored |
 //!
@@ -16,5 +17,6 @@ pub mod land;
 pub mod mustang;
 pub mod paint;
 pub mod tree;
+pub mod tuft;
 
 pub use paint::PAINTS;

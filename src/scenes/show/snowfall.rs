@@ -17,7 +17,7 @@ use crate::scenes::models::land;
 use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
-use glam::{DVec3, Mat3, Vec2, Vec3, dvec3, vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3, dvec3, vec2, vec3};
 
 /// The scene.
 pub const SNOWFALL: Scene = Scene {
@@ -142,9 +142,12 @@ fn picture(spec: &FrameSpec) -> Picture {
     // Flakes come from where the wind blows. What stands above shelters the ground softly, so a coarse map will do.
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let fall = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, Bias::SHOW));
+    let shelter = ShadowViews { first_caster: valley::FIRST_CASTER as usize, ..ShadowViews::new(views, Bias::SHOW) };
+    let fall = Light::sun(towards, Vec3::ONE).with_shadow(shelter);
     if !cfg!(without = "snow-cover") {
-        world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6 });
+        // Whoever has lit the lamp came this way.
+        let track = [vec2(-36.0, 58.0), vec2(-4.0, 9.0)];
+        world.snow = Some(SnowCover { amount, fall, sky: sky * 0.6, track });
     }
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];

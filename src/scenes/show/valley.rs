@@ -10,7 +10,7 @@ use crate::cuts;
 use crate::frame::encode::Transfer;
 use crate::frame::{FrameSpec, Layer, Parameter, Picture};
 use crate::raster::{Bias, Body, Haze, Light, RasterLayer, ShadowViews, World, fit};
-use crate::scenes::models::{chapel, land, mustang, tree};
+use crate::scenes::models::{chapel, land, mustang, tree, tuft};
 use crate::scenes::script::kind::{self, CLOUDS, LAYERS};
 use crate::scenes::script::{
     Script, VARIABLES, Word, assign_all, operations, pattern, script, texture, variable, words,
@@ -102,9 +102,9 @@ const SEASONS: &[u8] = script! {
     FAR_BARE = (FAR_SNOW * -1.0 + 1.0);
     FAR_SNOW = (FAR_SNOW * 0.6);
     // 0, grass.
-    ..near(-0.2, MEADOW_RED); ..near(0.2, MEADOW_GREEN); ..near(0.3, MEADOW_BLUE);
-    ..near(2.2, MEADOW_RED); ..near(1.8, MEADOW_GREEN); ..near(1.7, MEADOW_BLUE);
-    texture(0.7, 5.0, CLOUDS);
+    ..near(-0.7, MEADOW_RED); ..near(-0.3, MEADOW_GREEN); ..near(-0.2, MEADOW_BLUE);
+    ..near(2.7, MEADOW_RED); ..near(2.3, MEADOW_GREEN); ..near(2.2, MEADOW_BLUE);
+    texture(2.0, 4.0, CLOUDS);
     // 1, the land by height, from -50 m to 1250 m: grass, woods, rock, snow.
     push(MEADOW_RED * 0.115, MEADOW_GREEN * 0.165, MEADOW_BLUE * 0.035);
     ..far(0.045); ..far(0.075); ..far(0.025);
@@ -145,13 +145,17 @@ const fn far(color: Word) -> [Word; 5] {
     words!(color * FAR_BARE + FAR_SNOW)
 }
 
-/// The bodies, made at the first call: the land, the woods, the lake, the chapel; last the aeroplane and its propeller,
+/// The number of the first body that casts a shadow: none of the tufts before it does.
+pub const FIRST_CASTER: u32 = tuft::COUNT;
+
+/// The bodies, made at the first call: tufts, the land, the woods, the lake, the chapel; last the aeroplane and its propeller,
 /// which [`world`] moves.
 fn bodies() -> Vec<Body> {
     static BODIES: Mutex<Vec<Body>> = Mutex::new(Vec::new());
     let mut bodies = BODIES.lock().unwrap();
     if bodies.is_empty() {
-        let mut meshes = land::ground();
+        let mut meshes = tuft::tufts();
+        meshes.append(&mut land::ground());
         meshes.append(&mut tree::woods(&tree::trees()));
         meshes.extend([land::lake(), chapel::chapel()]);
         if !cfg!(without = "aeroplane") {
@@ -246,7 +250,7 @@ fn level(d: Vec3) -> Vec3 {
 pub fn lamp(world: &mut World, dark: f32) {
     if dark > 0.0 {
         let color = vec3(3.2, 1.5, 0.5) * dark;
-        world.lights.push(point(vec3(0.0, 14.5, 1.0), color, Vec2::new(0.05, 0.06), 30.0, [512, 0], false));
+        world.lights.push(point(vec3(0.0, 14.5, 1.0), color, Vec2::new(0.05, 0.06), 30.0, [512, FIRST_CASTER], false));
     }
 }
 
@@ -267,5 +271,5 @@ pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) 
     let shadow_map = spec.quality.raster.built().shadow_map;
     let size = if shadow_map == 0 { 1024 } else { shadow_map };
     let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), Bias::SHOW);
-    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, ..shadow })
+    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, first_caster: FIRST_CASTER as usize, ..shadow })
 }
