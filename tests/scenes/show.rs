@@ -4,6 +4,7 @@ use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
 use paprsek::scenes::show::intro::{DARK, FADE, INTRO, PARTS, READ, WRITING, brightness};
+use paprsek::settings::Quality;
 use paprsek::view::Stereo;
 
 const SIZE: (usize, usize) = (96, 54);
@@ -99,4 +100,35 @@ fn light_fades_at_dark_cuts_and_at_the_end_alone() {
         }
         assert!(light(40.0 - a) <= light(40.0 - b));
     }
+}
+
+/// Whether nine tenths of a frame's pixels are within 12 codes of its median colour.
+fn is_one_color(frame: &Frame) -> bool {
+    let channels = |pixel: u32| [16, 8, 0].map(|shift| (pixel >> shift & 255) as i32);
+    let median = [0, 1, 2].map(|channel| {
+        let mut codes: Vec<i32> = frame.pixels.iter().map(|pixel| channels(*pixel)[channel]).collect();
+        let middle = codes.len() / 2;
+        *codes.select_nth_unstable(middle).1
+    });
+    let like = |pixel: &&u32| channels(**pixel).iter().zip(median).all(|(code, median)| (code - median).abs() <= 12);
+    frame.pixels.iter().filter(like).count() * 10 > frame.pixels.len() * 9
+}
+
+/// Into a cloud and out of it again: ten frames a second of the flight, of which no five in a row are of one colour.
+#[test]
+fn the_flight_is_never_one_color_for_half_a_second() {
+    let mut renderer = Renderer::new(2).unwrap();
+    let mut frame = Frame::new(160, 90);
+    let mut longest = 0;
+    let mut run = 0;
+    // From after its fade to before the next.
+    for step in 354..688 {
+        renderer.render(&INTRO, step as f64 / 10.0, &Quality::FAST, &mut frame);
+        run = if is_one_color(&frame) { run + 1 } else { 0 };
+        longest = longest.max(run);
+    }
+    println!("longest run of frames of one colour: {longest}");
+    assert!(longest < 5, "{longest} frames in a row");
+    frame.pixels.fill(0x40_50_60);
+    assert!(is_one_color(&frame));
 }
