@@ -50,7 +50,7 @@ const LAND: Vec3 = vec3(1.0, 1.3, 0.5);
 const HAZY: f32 = 0.2;
 
 /// How far a wave tilts the surface to the eye, radians for a texture of 2.
-const WAVE: f32 = 0.12;
+const WAVE: f32 = 0.09;
 
 /// A glossy surface whose albedo's green is 1 / `MIRRORED` is level.
 const MIRRORED: f32 = 20.0;

@@ -13,7 +13,7 @@ use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene};
 use crate::particles::{Calm, Emitter, Flakes, Lens, ParticleLayer, Snow};
 use crate::raster::{Bias, Haze, Light, Projection, RasterLayer, ShadowViews, SnowCover};
 use crate::scenes::flakes;
-use crate::scenes::models::land;
+use crate::scenes::models::{land, tuft};
 use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
 use crate::view::Camera;
@@ -131,6 +131,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let dome = valley::sky(spec, days(2026, 11, 28));
     let textures = valley::season(1).1;
     let mut world = valley::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    tuft::sink(&mut world.bodies, view.camera().eye);
     // Without the aeroplane and its propeller.
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
@@ -142,7 +143,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     // Flakes come from where the wind blows. What stands above shelters the ground softly, so a coarse map will do.
     let towards = vec3(-0.3, 1.0, 0.15).normalize();
     let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
-    let shelter = ShadowViews { first_caster: valley::FIRST_CASTER as usize, ..ShadowViews::new(views, Bias::SHOW) };
+    let shelter = ShadowViews { first_caster: valley::FIRST_CASTER, ..ShadowViews::new(views, Bias::SHOW) };
     let fall = Light::sun(towards, Vec3::ONE).with_shadow(shelter);
     if !cfg!(without = "snow-cover") {
         // Whoever has lit the lamp came this way.

@@ -102,9 +102,9 @@ const SEASONS: &[u8] = script! {
     FAR_BARE = (FAR_SNOW * -1.0 + 1.0);
     FAR_SNOW = (FAR_SNOW * 0.6);
     // 0, grass.
-    ..near(-0.7, MEADOW_RED); ..near(-0.3, MEADOW_GREEN); ..near(-0.2, MEADOW_BLUE);
-    ..near(2.7, MEADOW_RED); ..near(2.3, MEADOW_GREEN); ..near(2.2, MEADOW_BLUE);
-    texture(2.0, 4.0, CLOUDS);
+    ..near(-0.4, MEADOW_RED); ..near(0.0, MEADOW_GREEN); ..near(0.1, MEADOW_BLUE);
+    ..near(2.4, MEADOW_RED); ..near(2.0, MEADOW_GREEN); ..near(1.9, MEADOW_BLUE);
+    texture(1.8, 4.0, CLOUDS);
     // 1, the land by height, from -50 m to 1250 m: grass, woods, rock, snow.
     push(MEADOW_RED * 0.115, MEADOW_GREEN * 0.165, MEADOW_BLUE * 0.035);
     ..far(0.045); ..far(0.075); ..far(0.025);
@@ -146,7 +146,7 @@ const fn far(color: Word) -> [Word; 5] {
 }
 
 /// The number of the first body that casts a shadow: none of the tufts before it does.
-pub const FIRST_CASTER: u32 = tuft::COUNT;
+pub const FIRST_CASTER: usize = tuft::COUNT;
 
 /// The bodies, made at the first call: tufts, the land, the woods, the lake, the chapel; last the aeroplane and its propeller,
 /// which [`world`] moves.
@@ -193,7 +193,8 @@ pub fn sky(spec: &FrameSpec, time: f64) -> Dome {
 
 /// The picture of a world under a sky, with a layer that lies between them, such as clouds.
 #[inline(never)]
-pub fn show(spec: &FrameSpec, dome: Dome, world: World, view: View, between: Option<Box<dyn Layer>>) -> Picture {
+pub fn show(spec: &FrameSpec, dome: Dome, mut world: World, view: View, between: Option<Box<dyn Layer>>) -> Picture {
+    tuft::sink(&mut world.bodies, view.camera().eye);
     let sky = SkyLayer::new(dome.with_shimmer(spec.time), &view, &spec.quality.sky).behind();
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(RasterLayer::new(world, &view, &spec.quality.raster))];
     layers.extend(between);
@@ -250,7 +251,14 @@ fn level(d: Vec3) -> Vec3 {
 pub fn lamp(world: &mut World, dark: f32) {
     if dark > 0.0 {
         let color = vec3(3.2, 1.5, 0.5) * dark;
-        world.lights.push(point(vec3(0.0, 14.5, 1.0), color, Vec2::new(0.05, 0.06), 30.0, [512, FIRST_CASTER], false));
+        world.lights.push(point(
+            vec3(0.0, 14.5, 1.0),
+            color,
+            Vec2::new(0.05, 0.06),
+            30.0,
+            [512, FIRST_CASTER as u32],
+            false,
+        ));
     }
 }
 
@@ -271,5 +279,5 @@ pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) 
     let shadow_map = spec.quality.raster.built().shadow_map;
     let size = if shadow_map == 0 { 1024 } else { shadow_map };
     let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), Bias::SHOW);
-    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, first_caster: FIRST_CASTER as usize, ..shadow })
+    Some(ShadowViews { traced: cuts::TRACED_SHADOWS && shadow_map == 0, first_caster: FIRST_CASTER, ..shadow })
 }

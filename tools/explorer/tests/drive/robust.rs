@@ -109,7 +109,7 @@ fn a_program_that_stops_reading_ends_the_recording() {
 
 #[test]
 fn a_program_that_reads_nothing_hangs_nothing() {
-    let words = [&SMALL[..], &["--pipe", "exec sleep 60"]].concat();
+    let words = [&SMALL[..], &["--pipe", "exec sleep 20"]].concat();
     let Some(mut explorer) = Explorer::start(&words) else { return };
     explorer.xdotool("key F9 sleep 0.3 key space");
     // Time waits with it, but keys are heard.
