@@ -9,8 +9,8 @@ pub struct Paint {
     pub albedo: Vec3,
     /// Index of the texture of the world that multiplies the albedo, 0 to 14; `None` for a plain colour.
     pub texture: Option<u8>,
-    /// Share of the sky that is mirrored at grazing incidence, 0 to 1, for an albedo whose green is 1/20, and in proportion
-    /// to that green: so a texture makes waves. A twentieth of it is mirrored at normal incidence.
+    /// Share of the sky that is mirrored at grazing incidence, 0 to 1. A twentieth of it is mirrored at normal incidence. The
+    /// surface is level where the albedo's green is 1/20, and tilted by what is more or less: so a texture makes waves.
     pub gloss: f32,
 }
 
