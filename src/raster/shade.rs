@@ -265,6 +265,7 @@ fn glossy<S: Simd>(simd: S, world: &World, color: V3<S>, gloss: F<S>, wave: F<S>
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let cosine = way.dot(n) + wave * WAVE;
     let mirrored = way - n * Lane(cosine + cosine);
+    let mirrored = mirrored * Lane(one / mirrored.dot(mirrored).sqrt());
     let horizon = world.haze.at(simd, mirrored);
     let height = one - math::exp2(simd, mirrored.y.max(zero) * -RISE);
     let sky = horizon + (V3::splat(simd, world.zenith) - horizon) * Lane(height);

@@ -127,7 +127,7 @@ fn open_slopes_are_covered_by_their_formula() {
                     let color = seen * lit;
                     // What is left of its gloss mirrors a black sky above a shore, tilted by the green that is seen.
                     let cosine = ray.normalize().dot(normal) + 0.09 * (20.0 * seen.y - 1.0);
-                    let up = (ray.normalize() - 2.0 * cosine * normal).y;
+                    let up = (ray.normalize() - 2.0 * cosine * normal).normalize().y;
                     let open = ((up - 0.1) * 8.0).clamp(0.0, 1.0);
                     let shore = DVec3::new(1.0, 1.3, 0.5) * color.y * (1.0 - open);
                     let grazing = (1.0 - cosine.abs().min(1.0)).powi(5);
