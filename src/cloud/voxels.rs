@@ -185,20 +185,20 @@ impl Voxels {
     #[inline(always)]
     fn pairs<S: Simd>(&self, simd: S, at: U<S>, further: usize) -> [U<S>; 2] {
         let cells = &self.cells[further..];
-        let [low, high] = [0, S::u64s::LEN].map(
-            #[inline(always)]
-            |first| {
-                let pairs = S::u64s::from_fn(
-                    simd,
-                    #[inline(always)]
-                    |lane| {
-                        let at = at[first + lane] as usize;
-                        cells[at] as u64 | (cells[at + 1] as u64) << 32
-                    },
-                );
-                pairs.bitcast::<U<S>>()
-            },
-        );
+        // A loop: `map` is not inlined.
+        let mut halves = [U::<S>::splat(simd, 0); 2];
+        for (k, half) in halves.iter_mut().enumerate() {
+            let pairs = S::u64s::from_fn(
+                simd,
+                #[inline(always)]
+                |lane| {
+                    let at = at[k * S::u64s::LEN + lane] as usize;
+                    cells[at] as u64 | (cells[at + 1] as u64) << 32
+                },
+            );
+            *half = pairs.bitcast();
+        }
+        let [low, high] = halves;
         [low.unzip_low(high), low.unzip_high(high)]
     }
 }
