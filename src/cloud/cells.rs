@@ -31,6 +31,9 @@ const ROW: usize = Tile::SIZE + 16;
 /// darkest. Were they drawn, they would show beside nearer ones in the same pixel, which has one depth.
 const NOTHING: f32 = 1.0 / 65536.0;
 
+/// Edge of the cells that the threshold is said for, pixels.
+const SQUARE: f32 = 8.0;
+
 /// A plane of a lattice.
 type Plane = [f32; ROW * SIDE];
 
@@ -181,7 +184,9 @@ impl Lattice<'_> {
         }
     }
 
-    /// Interpolates a cell where its middle is off by at most `threshold`; cuts it into four otherwise.
+    /// Interpolates a cell where its middle is off by at most `threshold`, as it is said for a cell of [`SQUARE`]; cuts it
+    /// into four otherwise. An error of a larger cell shows in more pixels, and a smaller one costs as much: so the larger,
+    /// the less is allowed.
     #[inline(always)]
     fn fill_or_cut<S: Simd>(&mut self, simd: S, cell: Cell, threshold: f32) {
         let Cell { at, size } = cell;
@@ -191,7 +196,7 @@ impl Lattice<'_> {
             let [a, b, c, d] = corners.map(|corner| plane[corner]);
             error = error.max((plane[middle] - (a + b + c + d) * 0.25).abs());
         }
-        if error > threshold {
+        if error * to_f32(size) > threshold * SQUARE {
             for part in [at, at + size / 2, middle - size / 2, middle] {
                 self.sizes[part] = size as u8 / 2;
             }
