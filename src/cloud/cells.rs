@@ -14,6 +14,7 @@ use super::march::Passage;
 use super::seen::{SeenCloud, SeenClouds};
 use super::world::CloudLight;
 use crate::frame::Tile;
+use crate::settings::CloudSettings;
 use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{Bits, F, Lane, STEPS, U, V3, float};
 use crate::simd::math::to_f32;
@@ -142,7 +143,10 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
 /// Rays are cast for all cells of a size at once, so that vectors are full.
 #[simd]
 fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
-    let mut size = clouds.settings.built().cell;
+    let CloudSettings { cell: mut size, threshold, .. } = clouds.settings.built();
+    // An error of a larger cell shows in more pixels, and the rays of a smaller one cost as much: the larger, the less is
+    // allowed.
+    let mut allowed = threshold * SQUARE / to_f32(size);
     let points = planes[0].len();
     let (known, sizes) = (vec![false; points], vec![size as u8; points]);
     let mut lattice = Lattice { planes, known, sizes, wanted: Vec::new() };
@@ -162,7 +166,7 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
                             }
                         }
                         1 => lattice.want(cell.middle()),
-                        _ => lattice.fill_or_cut(simd, cell, clouds.settings.built().threshold),
+                        _ => lattice.fill_or_cut(simd, cell, allowed),
                     }
                 }
             }
@@ -173,6 +177,7 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
             }
         }
         size /= 2;
+        allowed *= 2.0;
     }
 }
 
@@ -184,11 +189,9 @@ impl Lattice<'_> {
         }
     }
 
-    /// Interpolates a cell where its middle is off by at most `threshold`, as it is said for a cell of [`SQUARE`]; cuts it
-    /// into four otherwise. An error of a larger cell shows in more pixels, and a smaller one costs as much: so the larger,
-    /// the less is allowed.
+    /// Interpolates a cell where its middle is off by at most `allowed`; cuts it into four otherwise.
     #[inline(always)]
-    fn fill_or_cut<S: Simd>(&mut self, simd: S, cell: Cell, threshold: f32) {
+    fn fill_or_cut<S: Simd>(&mut self, simd: S, cell: Cell, allowed: f32) {
         let Cell { at, size } = cell;
         let (corners, middle) = (cell.corners(), cell.middle());
         let mut error = 0.0f32;
@@ -196,7 +199,7 @@ impl Lattice<'_> {
             let [a, b, c, d] = corners.map(|corner| plane[corner]);
             error = error.max((plane[middle] - (a + b + c + d) * 0.25).abs());
         }
-        if error * to_f32(size) > threshold * SQUARE {
+        if error > allowed {
             for part in [at, at + size / 2, middle - size / 2, middle] {
                 self.sizes[part] = size as u8 / 2;
             }
