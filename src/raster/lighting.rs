@@ -160,11 +160,12 @@ pub(super) fn locate<S: Simd>(
     // depth, each point has its face, and there is no border.
     let (mut depth, mut face, mut margin) = (one, zero, MARGIN);
     // What bias leaves out of a sun's slope, over the cosine: 0 where it leaves out nothing.
-    let mut grazing = (one - upright * STEEP / sine).max(zero) / upright;
+    let mut grazing = zero;
     if let Source::Lamp { position, .. } = source {
         (depth, face) = face_of(simd, point.sub1(position));
         margin = f32::NEG_INFINITY;
-        grazing = zero;
+    } else {
+        grazing = (one - upright * STEEP / sine).max(zero) / upright;
     }
     let mut k = 0;
     while k < shadow.views.len() {
@@ -190,6 +191,9 @@ pub(super) fn locate<S: Simd>(
             slope = here.select(fall, slope);
             (inv_depth, view) = (here.select(z, inv_depth), here.select(number, view));
             inside |= here;
+            if !(wanted & !inside).any_true() {
+                break;
+            }
         }
         k += 1;
     }
