@@ -32,9 +32,6 @@ const ROW: usize = Tile::SIZE + 16;
 /// darkest. Were they drawn, they would show beside nearer ones in the same pixel, which has one depth.
 const NOTHING: f32 = 1.0 / 65536.0;
 
-/// Edge of the cells that the threshold is said for, pixels.
-const SQUARE: f32 = 8.0;
-
 /// A plane of a lattice.
 type Plane = [f32; ROW * SIDE];
 
@@ -144,9 +141,9 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
 #[simd]
 fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
     let CloudSettings { cell: mut size, threshold, .. } = clouds.settings.built();
-    // An error of a larger cell shows in more pixels, and the rays of a smaller one cost as much: the larger, the less is
-    // allowed.
-    let mut allowed = threshold * SQUARE / to_f32(size);
+    // The smallest cells to be interpolated, of two pixels, may be off by the threshold. An error of a larger cell shows in
+    // more pixels, and the rays of a smaller one cost as much: the larger, the less is allowed.
+    let mut allowed = threshold * 2.0 / to_f32(size);
     let points = planes[0].len();
     let (known, sizes) = (vec![false; points], vec![size as u8; points]);
     let mut lattice = Lattice { planes, known, sizes, wanted: Vec::new() };

@@ -126,7 +126,7 @@ pub(super) struct Facet<S: Simd> {
 /// Finds in which view of a light its shadow on a facet is looked up, where there, and at which depth.
 ///
 /// ```text
-/// for each view
+/// for each view, until every lane has one
 ///     here   = lanes that are wanted, found no finer view, and look through this face of a cube
 ///     p      = point moved along the normal by the normal bias
 ///     x, y   = p projected
@@ -160,13 +160,13 @@ pub(super) fn locate<S: Simd>(
     // depth, each point has its face, and there is no border.
     let (mut depth, mut face, mut margin) = (one, zero, MARGIN);
     // What bias leaves out of a sun's slope, over the cosine: 0 where it leaves out nothing.
-    let mut grazing = zero;
-    if let Source::Lamp { position, .. } = source {
+    let grazing = if let Source::Lamp { position, .. } = source {
         (depth, face) = face_of(simd, point.sub1(position));
         margin = f32::NEG_INFINITY;
+        zero
     } else {
-        grazing = (one - upright * STEEP / sine).max(zero) / upright;
-    }
+        (one - upright * STEEP / sine).max(zero) / upright
+    };
     let mut k = 0;
     while k < shadow.views.len() {
         let number = F::<S>::splat(simd, k as u32 as f32);
