@@ -22,7 +22,11 @@ pub fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     assert!(is_x86_feature_detected!("avx2"), "packing needs a processor with AVX2");
     let at = primer.len() as u32;
     // Instructions may be said to be beyond the end of what 32 bits count.
-    model.start(sets, primer, [at.saturating_add(code[0]), at.saturating_add(code[1]), code[2]]);
+    model.start(sets, primer.len(), [at.saturating_add(code[0]), at.saturating_add(code[1]), code[2]]);
+    while let Some(bit) = model.known(primer) {
+        model.predict();
+        model.update(bit);
+    }
     model
 }
 
@@ -44,9 +48,11 @@ pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<
 /// What [`compress`], with the same primer, coded as `packed`, a text of `length` bytes.
 pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code: [u32; 3]) -> Vec<u8> {
     let mut model = model(sets, primer, code);
-    let mut decoder = Decoder::new(packed);
+    let mut decoder = Decoder::START;
+    // Zeros follow the last bit, the lowest of each byte first.
+    let mut coded = packed.iter().flat_map(|&byte| (0..8).map(move |i| (byte >> i & 1) as u32));
     while model.position() < primer.len() + length {
-        let bit = decoder.decode(model.predict());
+        let bit = decoder.decode(model.predict(), |n| n << 1 | coded.next().unwrap_or(0));
         model.update(bit);
     }
     model.text()[primer.len()..][..length].to_vec()

@@ -7,6 +7,7 @@
 //! LZMA without a header, 10 % more; the full model, 14 % less, but its 4 kB would have to come first.
 
 use crate::encoder::Encoder;
+use crate::rewrite::search::Price;
 use pack_model::first::{CONTEXTS, MULTIPLIER, PRIOR, TABLE_BITS};
 
 /// The hash of the bits so far below a leading one and of those bytes before that `context` names, and their number.
@@ -17,29 +18,76 @@ fn hash(context: u8, partial: usize, before: &[u8]) -> (u32, u32) {
     (named.fold(step(context as u32, partial as u32), |h, i| step(h, byte(i))), context.count_ones() + 1)
 }
 
-/// Codes `text`.
-pub fn compress(text: &[u8]) -> Vec<u8> {
-    let mut counts = vec![[0u16; 2]; 1 << TABLE_BITS];
-    let mut encoder = Encoder::default();
-    for (at, byte) in text.iter().enumerate() {
+/// The model: counts of zeros and ones in each context, and what has been coded.
+pub struct Counts {
+    pairs: Vec<[u16; 2]>,
+    text: Vec<u8>,
+    /// Pairs as they were before each change since the mark, and the length of the text there.
+    undo: Vec<(usize, [u16; 2])>,
+    marked: usize,
+}
+
+impl Default for Counts {
+    fn default() -> Self {
+        Self { pairs: vec![[0; 2]; 1 << TABLE_BITS], text: Vec::new(), undo: Vec::new(), marked: 0 }
+    }
+}
+
+impl Counts {
+    /// Learns a byte; gives `each` bit with the odds of a zero against a one.
+    fn learn(&mut self, byte: u8, mut each: impl FnMut(bool, [u32; 2])) {
         let mut partial = 1;
         for i in (0..8).rev() {
             let bit = (byte >> i & 1) as usize;
-            let found = CONTEXTS.to_le_bytes().map(|context| hash(context, partial, &text[..at]));
+            let found = CONTEXTS.to_le_bytes().map(|context| hash(context, partial, &self.text));
             let mut sums = [PRIOR; 2];
             for (hash, weight) in found {
-                let pair = counts[(hash >> (32 - TABLE_BITS)) as usize];
+                let pair = self.pairs[(hash >> (32 - TABLE_BITS)) as usize];
                 sums = [0, 1].map(|i| sums[i] + ((pair[i] as u32) << weight));
             }
-            encoder.encode(bit == 1, sums);
+            each(bit == 1, sums);
             // As the decoder does, from the last context to the first, some of which may share a pair.
             for (hash, _) in found.into_iter().rev() {
-                let pair = &mut counts[(hash >> (32 - TABLE_BITS)) as usize];
+                let at = (hash >> (32 - TABLE_BITS)) as usize;
+                let pair = &mut self.pairs[at];
+                self.undo.push((at, *pair));
                 pair[bit] += 1;
                 pair[1 - bit] = pair[1 - bit].div_ceil(2);
             }
             partial = partial << 1 | bit;
         }
+        self.text.push(byte);
+    }
+}
+
+impl Price for Counts {
+    fn mark(&mut self) {
+        self.undo.clear();
+        self.marked = self.text.len();
+    }
+
+    fn back_to_mark(&mut self) {
+        for (at, pair) in self.undo.drain(..).rev() {
+            self.pairs[at] = pair;
+        }
+        self.text.truncate(self.marked);
+    }
+
+    fn price(&mut self, bytes: impl Iterator<Item = u8>) -> f64 {
+        let mut bits = 0.0;
+        for byte in bytes {
+            self.learn(byte, |bit, odds| bits -= (odds[bit as usize] as f64 / (odds[0] + odds[1]) as f64).log2());
+        }
+        bits
+    }
+}
+
+/// Codes `text`.
+pub fn compress(text: &[u8]) -> Vec<u8> {
+    let (mut counts, mut encoder) = (Counts::default(), Encoder::default());
+    for &byte in text {
+        counts.learn(byte, |bit, odds| encoder.encode(bit, odds));
+        counts.mark();
     }
     encoder.finish()
 }

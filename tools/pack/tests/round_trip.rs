@@ -1,7 +1,7 @@
 //! What is packed comes back, whatever it is.
 
 use pack::compress::{compress, costs, decompress, model};
-use pack::rewrite::search::price;
+use pack::rewrite::search::Price;
 use pack_model::address::{Way, convert};
 use pack_model::parse::Parser;
 use pack_model::tuned::SETS;
@@ -50,13 +50,13 @@ proptest! {
     fn going_back_undoes(start in instructions(), lost in instructions(), rest in instructions(), code in 0u32..700) {
         let bits = |lost: &[&[u8]]| {
             let mut model = model(&SETS, &[], [0, code, 0x40_0000]);
-            let before = price(&mut model, start.iter().copied());
+            let before = model.price(start.iter().copied());
             for text in lost {
                 model.mark();
-                price(&mut model, text.iter().copied());
+                model.price(text.iter().copied());
                 model.back_to_mark();
             }
-            (before, price(&mut model, rest.iter().copied()), model.position())
+            (before, model.price(rest.iter().copied()), model.position())
         };
         prop_assert_eq!(bits(&[]), bits(&[&lost, &rest, &lost]));
     }

@@ -1,29 +1,22 @@
 //! Binary arithmetic decoding; the packer has the encoder.
 
-/// Reads bits, the lowest of each byte first.
-pub struct Decoder<'a> {
+/// A number that is coded in bits, as far as it is known.
+pub struct Decoder {
     range: u32,
     /// How far into the range the coded number is.
     value: u32,
-    /// Number of the next coded bit.
-    at: usize,
-    bytes: &'a [u8],
 }
 
-impl<'a> Decoder<'a> {
-    /// Starts at the first byte of `bytes`; zeros follow the last.
-    pub fn new(bytes: &'a [u8]) -> Self {
-        // A range of one, so that the first bits are read as all others are.
-        Self { range: 1, value: 0, at: 0, bytes }
-    }
+impl Decoder {
+    /// Before the first bit: a range of one, so that the first coded bits are read as all others are.
+    pub const START: Self = Self { range: 1, value: 0 };
 
-    /// Decodes one bit, which is a one with this probability (65536ths).
-    pub fn decode(&mut self, probability: u32) -> u32 {
+    /// Decodes one bit, which is a one with this probability (65536ths). `append` gives a number with the
+    /// next coded bit behind its lowest one.
+    pub fn decode(&mut self, probability: u32, mut append: impl FnMut(u32) -> u32) -> u32 {
         while self.range >> 31 == 0 {
-            let byte = self.bytes.get(self.at >> 3).map_or(0, |&byte| byte as u32);
-            self.value = self.value << 1 | byte >> (self.at & 7) & 1;
+            self.value = append(self.value);
             self.range <<= 1;
-            self.at += 1;
         }
         let split = ((self.range as u64 * probability as u64) >> 16) as u32;
         let bit = self.value < split;

@@ -65,7 +65,9 @@ impl Features {
     pub fn push(&mut self, byte: u8, position: u32, code: bool, targets: &mut Targets) {
         let f = &mut self.f;
         let value = byte as u32;
-        f.copy_within(0..if code { 5 } else { 27 }, 1);
+        for i in (0..if code { 5 } else { 27 }).rev() {
+            f[i + 1] = f[i];
+        }
         f[0] = value;
         if !code {
             self.word = if byte >= b'A' { hash(self.word, value) } else { 0 };

@@ -55,6 +55,9 @@
 //! - 2^19 lines: 190 bytes more; 2^14, which fit the cache: 4 kB more and 0.12 s less, so that is what memory costs;
 //! - without the match's own slots: 0.6 kB more; without its second one for long matches: 52 bytes; further slots by the
 //!   last two bytes or opcodes, without a hash: no difference.
+//!
+//! Tried on the unpacker, of which 3,438 bytes are coded: slots read and written in loops instead of one by one, 128 bytes
+//! less before coding, none after it, and slower; a slot's count by a minimum: 4 bytes more.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "undo")]

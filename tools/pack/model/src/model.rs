@@ -49,6 +49,8 @@ pub struct Model {
     bit: u32,
     /// Bytes coded so far.
     position: u32,
+    /// Bytes of the primer.
+    primer: u32,
     code: [u32; 3],
     /// 0 while the current byte is an instruction's, 1 while it is not.
     class: u32,
@@ -61,7 +63,8 @@ pub struct Model {
     place: u32,
     /// The probability of the current bit.
     p: u32,
-    /// The slots of the current bit, and where they are.
+    /// The slots of the current bit, and where they are. What is not used of the last group is the first line's check, which
+    /// spoils that line: 7 bytes less than places of their own.
     slots: [Words; SLOTS],
     at: [Words; SLOTS],
     /// Hashes of the contexts: their top bits are the line, all of them the check.
@@ -87,6 +90,7 @@ impl Model {
         partial: 0,
         bit: 0,
         position: 0,
+        primer: 0,
         code: [0; 3],
         class: 0,
         node: 0,
@@ -113,30 +117,28 @@ impl Model {
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions, the first of them at the
     /// address `code[2]`. Once, after zeros, where the processor has AVX2 and FMA.
-    /// The text begins with `primer`, instructions that both sides have: they teach, and need not be coded.
-    pub fn start(&mut self, sets: &Sets, primer: &[u8], code: [u32; 3]) {
+    /// The text begins with so many bytes of a `primer`, instructions that both sides have: they teach, and need not be coded.
+    pub fn start(&mut self, sets: &Sets, primer: usize, code: [u32; 3]) {
         self.sets = *sets;
-        self.code = [0, !0, 0];
+        self.code = code;
+        self.primer = primer as u32;
+        self.features.origin = code[2].wrapping_sub(code[0]);
         self.partial = 1;
-        // Most of the last group's are not used: they are one slot.
-        self.at[2 * GROUPS].fill(OTHERS);
         for (i, base) in self.bases.as_flattened_mut().iter_mut().enumerate() {
             *base = HISTORIES + 256 * i as u32;
         }
         let (first, last) = (&mut self.first, &mut self.last);
-        for (i, weights) in first.weights.as_flattened_mut().as_flattened_mut().iter_mut().enumerate() {
-            weights.fill(WEIGHTS[i % VECTORS]);
+        let weights = first.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut();
+        for (i, weight) in weights.iter_mut().enumerate() {
+            *weight = WEIGHTS[(i as u32 / 8 % VECTORS as u32) as usize];
         }
         last.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(1.0 / MIXERS[0] as f32);
         self.contexts();
-        for &byte in primer {
-            for i in (0..8).rev() {
-                self.predict();
-                self.update(byte as u32 >> i & 1);
-            }
-        }
-        self.code = code;
-        self.features.origin = code[2].wrapping_sub(code[0]);
+    }
+
+    /// The next bit, if it is one of the `primer`.
+    pub fn known(&self, primer: &[u8]) -> Option<u32> {
+        primer.get(self.position as usize).map(|&byte| (byte as u32) << self.bit >> 7 & 1)
     }
 
     fn byte(&self, at: u32) -> u32 {
@@ -150,19 +152,20 @@ impl Model {
 
     /// Follows or looks up the match and hashes the contexts of the next byte.
     fn contexts(&mut self) {
-        self.class = !(self.position >= self.code[0] && self.position < self.code[1]) as u32;
-        let follows = self.match_length != 0 && self.byte(self.match_at) == self.back(1);
-        self.match_at += 1;
-        self.match_length += 1;
+        let (at, [start, end, _]) = (self.position, self.code);
+        self.class = !(at < self.primer || at >= start && at < end) as u32;
         let mut h = 0;
-        for i in 1..=MATCH_MIN {
+        for i in 1..MATCH_MIN + 1 {
             h = hash(h, self.back(i));
         }
         let head = &mut self.heads[(h >> 16) as usize];
         let found = *head;
         self.undo.head(h >> 16, found);
         *head = self.position;
-        if !follows {
+        if self.match_length != 0 && self.byte(self.match_at) == self.back(1) {
+            self.match_at += 1;
+            self.match_length += 1;
+        } else {
             self.match_at = found;
             self.match_length = 0;
             // Position 0 would match itself.
@@ -173,10 +176,7 @@ impl Model {
                 self.match_length += 1;
             }
         }
-        self.predicted = 0;
-        if self.match_length != 0 {
-            self.predicted = self.byte(self.match_at) | 256;
-        }
+        self.predicted = if self.match_length != 0 { self.byte(self.match_at) | 256 } else { 0 };
         self.features.f[30] = self.predicted;
         self.place = self.features.place(self.class == 0) | self.class << 5;
         for (i, (&set, h)) in self.sets[self.class as usize & 1].iter().zip(&mut self.hashes).enumerate() {

@@ -89,28 +89,12 @@ const HAS_IMM8: [u32; 16] = [
     0x0000_0074,
     0,
 ];
-/// Does it have an immediate or a distance of four bytes?
-const HAS_IMM32: [u32; 16] = [
-    0x2020_2020,
-    0x2020_2020,
-    0,
-    0x0000_0300,
-    0x0000_0002,
-    0xff00_0200,
-    0x0000_0080,
-    0x0000_0300,
-    0,
-    0,
-    0,
-    0,
-    0x0000_ffff,
-    0,
-    0,
-    0,
-];
+/// Does it have an immediate or a distance of four bytes? Of map 1 only jumps have, 80 to 8F.
+const HAS_IMM32: [u32; 8] =
+    [0x2020_2020, 0x2020_2020, 0, 0x0000_0300, 0x0000_0002, 0xff00_0200, 0x0000_0080, 0x0000_0300];
 
-fn has(table: &[u32; 16], index: u32) -> bool {
-    table[(index >> 5) as usize & 15] >> (index & 31) & 1 != 0
+fn has<const N: usize>(table: &[u32; N], index: u32) -> bool {
+    table[(index >> 5) as usize % N] >> (index & 31) & 1 != 0
 }
 
 impl Parser {
@@ -205,9 +189,10 @@ impl Parser {
                 self.relative = IMM8;
             }
         }
-        if self.map < 2 && has(&HAS_IMM32, index) {
+        let jump = index & 0x1f0 == 0x180;
+        if jump || self.map == 0 && has(&HAS_IMM32, index) {
             self.queue = self.wide();
-            if index & 0xfe == 0xe8 || index & 0x1f0 == 0x180 {
+            if jump || index & 0xfe == 0xe8 {
                 self.relative = IMM32;
                 self.queue = FOUR_OF_IMM;
             }

@@ -137,6 +137,11 @@ impl Op {
         self.instruction.ip()
     }
 
+    /// Keeps an instruction where it is that finds its memory from there.
+    pub fn stay_if_relative(&mut self) {
+        self.fixed |= self.instruction.is_ip_rel_memory_operand();
+    }
+
     /// Finds what is read and written. Writing to a part of a register leaves the rest, so that counts as reading too.
     fn find_uses(&mut self, factory: &mut InstructionInfoFactory) {
         let i = &self.instruction;

@@ -10,25 +10,44 @@ const ROUNDS: usize = 3;
 /// Bits that a change must save, so that rounding does not make one.
 const LEAST: f64 = 1e-6;
 
-/// Bits that the model codes `bytes` in, which it learns.
-pub fn price(model: &mut Model, bytes: impl Iterator<Item = u8>) -> f64 {
-    let mut bits = 0.0;
-    for byte in bytes {
-        let mut product = 1.0;
-        for i in (0..8).rev() {
-            let bit = byte as u32 >> i & 1;
-            let one = model.predict();
-            product *= f64::from(if bit != 0 { one } else { 65536 - one });
-            model.update(bit);
+/// A model that says what bytes cost, and can go back.
+pub trait Price {
+    /// Bits that `bytes` are coded in, which the model learns.
+    fn price(&mut self, bytes: impl Iterator<Item = u8>) -> f64;
+    /// Remembers this place.
+    fn mark(&mut self);
+    /// Goes back to the last place that was marked.
+    fn back_to_mark(&mut self);
+}
+
+impl Price for Model {
+    fn price(&mut self, bytes: impl Iterator<Item = u8>) -> f64 {
+        let mut bits = 0.0;
+        for byte in bytes {
+            let mut product = 1.0;
+            for i in (0..8).rev() {
+                let bit = byte as u32 >> i & 1;
+                let one = self.predict();
+                product *= f64::from(if bit != 0 { one } else { 65536 - one });
+                self.update(bit);
+            }
+            bits += 8.0 * 16.0 - product.log2();
         }
-        bits += 8.0 * 16.0 - product.log2();
+        bits
     }
-    bits
+
+    fn mark(&mut self) {
+        Model::mark(self);
+    }
+
+    fn back_to_mark(&mut self) {
+        Model::back_to_mark(self);
+    }
 }
 
 /// Codes all instructions with the model, in the order that costs least as far as it was found; appends their bytes to
 /// `code`.
-pub(super) fn search(model: &mut Model, mut ops: Vec<Op>, code: &mut Vec<u8>) {
+pub(super) fn search(model: &mut impl Price, mut ops: Vec<Op>, code: &mut Vec<u8>) {
     let mut factory = InstructionInfoFactory::new();
     let flags = live_flags(&ops);
     let stays = |op: &Op| op.fixed || op.starts_block;
@@ -48,7 +67,7 @@ pub(super) fn search(model: &mut Model, mut ops: Vec<Op>, code: &mut Vec<u8>) {
         }
         model.mark();
         for op in &ops[at..at + kept] {
-            price(model, op.bytes.iter().copied());
+            model.price(op.bytes.iter().copied());
             code.extend(&op.bytes);
         }
         at += kept;
@@ -78,7 +97,7 @@ fn live_flags(ops: &[Op]) -> Vec<bool> {
 
 /// The instructions of a window in an order, and as variants, that the model codes in fewer bits, with the one that follows.
 fn best(
-    model: &mut Model,
+    model: &mut impl Price,
     factory: &mut InstructionInfoFactory,
     ops: &[Op],
     flags_live: bool,
@@ -90,7 +109,7 @@ fn best(
     model.mark();
     let mut cost = |ops: &[Op], order: &[usize]| {
         let all = order.iter().map(|&k| &ops[k]).chain(next);
-        let bits = price(model, all.flat_map(|op| op.bytes.iter().copied()));
+        let bits = model.price(all.flat_map(|op| op.bytes.iter().copied()));
         model.back_to_mark();
         bits
     };

@@ -21,19 +21,18 @@ fn main(stack: &sys::Stack) -> ! {
     if !is_right(sys::image()) {
         sys::fail(b"paprsek: this file is damaged\n");
     }
-    let (head, packed) = sys::payload();
+    let (head, mut packed) = sys::payload();
     let (model, primer) = (sys::model(), sys::code());
-    model.start(&SETS, primer, head.code);
-    let mut decoder = Decoder::new(packed);
+    model.start(&SETS, primer.len(), head.code);
+    let mut decoder = Decoder::START;
     while model.position() < head.end as usize {
-        let bit = decoder.decode(model.predict());
+        let probability = model.predict();
+        let bit = model.known(primer).unwrap_or_else(|| decoder.decode(probability, |n| packed.append_to(n)));
         model.update(bit);
     }
-    let text = model.text();
-    if let Some(code) = text.get_mut(head.code[0] as usize..head.code[1] as usize) {
-        convert(code, head.code[2], Way::Relative);
-    }
-    run::run(text.get(primer.len()..head.end as usize).unwrap_or(&[]), stack)
+    let [start, end, address] = head.code;
+    convert(sys::part(model.text(), start, end), address, Way::Relative);
+    run::run(sys::part(model.text(), primer.len() as u32, head.end), stack)
 }
 
 /// Does the file have its checksum?
@@ -42,7 +41,7 @@ fn is_right((image, sum): (&[u8], u32)) -> bool {
 }
 
 /// What the payload begins with. The coded bytes follow, and the checksum of all before.
-#[repr(C)]
+#[repr(C, packed)]
 struct Head {
     /// Length of the primer, which is this code, and of the program behind it.
     end: u32,

@@ -76,14 +76,33 @@ pub fn image() -> (&'static [u8], u32) {
     }
 }
 
-/// The payload, to be asked for where the checksum is right: the head, and the coded bytes up to the end of the file.
-pub fn payload() -> (Head, &'static [u8]) {
-    let (length, at) = words();
-    // SAFETY: the packer has written it so, and nothing has changed since.
-    unsafe {
-        let coded = at + size_of::<Head>();
-        ((at as *const Head).read_unaligned(), core::slice::from_raw_parts(coded as *const u8, BASE + length - coded))
+/// The payload, to be asked for where the checksum is right: the head, and the coded bits.
+pub fn payload() -> (&'static Head, Bits) {
+    let at = words().1;
+    // SAFETY: the packer has written it so, at a multiple of no number, and nothing changes it.
+    unsafe { (&*(at as *const Head), Bits((at + size_of::<Head>()) as u32 * 8)) }
+}
+
+/// Bits in memory below 512 MB, the lowest of each byte first: the address of the next, in bits.
+pub struct Bits(u32);
+
+impl Bits {
+    /// Appends it to a number.
+    pub fn append_to(&mut self, mut number: u32) -> u32 {
+        // SAFETY: no more than 31 are asked for beyond those that were coded, and the checksum has 32.
+        unsafe {
+            asm!("bt dword ptr [{zero}], {at:e}", "adc {number:e}, {number:e}", zero = in(reg) 0usize, at = in(reg) self.0,
+                number = inout(reg) number, options(nostack, readonly));
+        }
+        self.0 += 1;
+        number
     }
+}
+
+/// A part of the text, between places of the head.
+pub fn part(text: &mut [u8], start: u32, end: u32) -> &mut [u8] {
+    // SAFETY: the packer has written places within the text, the earlier one first.
+    unsafe { text.get_unchecked_mut(start as usize..end as usize) }
 }
 
 /// The second stage, this code.
@@ -137,7 +156,7 @@ fn call_five(number: usize, a: usize, b: usize, c: usize, d: usize, e: usize) ->
 
 /// One line to stderr, and the end with the status of a shell's "found, but cannot be run".
 pub fn fail(line: &[u8]) -> ! {
-    write_all(2, line);
+    call(1, 2, line.as_ptr() as usize, line.len());
     loop {
         call(231, 126, 0, 0);
     }
@@ -180,13 +199,3 @@ pub fn execute(file: isize, stack: &Stack) {
     let (arguments, environment) = (stack.word(1) as usize, stack.environment() as usize);
     call_five(322, file as usize, c"".as_ptr() as usize, arguments, environment, 0x1000);
 }
-
-// What the compiler calls for loops over bytes. The string instructions are small, and fast enough.
-global_asm!(
-    ".globl memcpy, memmove, memset",
-    "memmove: mov rax, rdi; mov rcx, rdx; cmp rdi, rsi; jbe 2f",
-    "lea rdi, [rdi + rcx - 1]; lea rsi, [rsi + rcx - 1]; std; rep movsb; cld; ret",
-    "memcpy: mov rax, rdi; mov rcx, rdx",
-    "2: rep movsb; ret",
-    "memset: mov r8, rdi; mov eax, esi; mov rcx, rdx; rep stosb; mov rax, r8; ret",
-);
