@@ -383,6 +383,21 @@ fn a_range_ends_by_itself() {
 }
 
 #[test]
+fn the_show_ends_once_it_is_asked_to() {
+    let Some(display) = Display::open() else { return };
+    let began = Instant::now();
+    // The credits end at 154 s.
+    let child = display.play(&["--from", "152", "--once"]);
+    assert!(succeeds(ending(child, PATIENCE)).is_empty());
+    assert!(began.elapsed() >= Duration::from_secs(2));
+    // A still has no end.
+    let child = display.play(&["--once", "--at", "2"]);
+    display.picture();
+    display.xdotool(&["key", "Escape"]);
+    succeeds(ending(child, AT_ONCE));
+}
+
+#[test]
 fn a_still_stays_and_keys_move_it() {
     let Some(display) = Display::open() else { return };
     let child = display.play(&["--at", "2"]);

@@ -42,6 +42,7 @@ macro_rules! help {
   --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; DIR - is stdout
   --fullscreen                fill the screen
   --no-sound                  play in silence
+  --once                      end after the credits, not begin again
   --help                      print this help
 ",
             $own,
@@ -77,9 +78,9 @@ pub const HELP: &str = help!("paprsek [OPTION]...           play the intro", "",
 /// The column of [`HELP`] at which the text about an option begins.
 const ABOUT: usize = 30;
 /// The number of options where none is left out, but for `--pixel` and what follows it.
-const ALL_OPTIONS: usize = 21;
+const ALL_OPTIONS: usize = 22;
 /// The number of options in [`HELP`].
-const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 2 } else { 11 };
+const OPTIONS: usize = if cuts::ALL_OPTIONS { ALL_OPTIONS + 2 } else { 12 };
 
 // The places of options with a value in [`HELP`].
 const AT: usize = 0;
@@ -91,16 +92,16 @@ const SIZE: usize = 5;
 const QUALITY: usize = 6;
 const CAPTURE: usize = 7;
 #[cfg(feature = "full")]
-const EYE_DISTANCE: usize = 12;
+const EYE_DISTANCE: usize = 13;
 #[cfg(feature = "full")]
-const CONVERGENCE: usize = 13;
-const SET: usize = 19;
+const CONVERGENCE: usize = 14;
+const SET: usize = 20;
 #[cfg(feature = "full")]
-const SIMD: usize = 20;
+const SIMD: usize = 21;
 #[cfg(feature = "full")]
-const PIXEL: usize = 21;
+const PIXEL: usize = 22;
 #[cfg(feature = "full")]
-const SOUND: usize = 22;
+const SOUND: usize = 23;
 
 /// What contradicts what, in the order in which [`Args::read`] checks it.
 const CLASHES: &str = "\
@@ -282,6 +283,7 @@ impl Args {
             capture,
             fullscreen,
             silent,
+            once,
             help,
             version,
             apart,
@@ -318,7 +320,8 @@ impl Args {
             _ => None,
         };
         let start = (at || since || to).then_some(if at { instant } else { from });
-        let end = to.then_some(until);
+        // A still has no end.
+        let end = to.then_some(until).or((once && !at).then_some(scene.unwrap_or(&scenes::ALL[0]).duration));
         let (still, governed) = (at, !sized && !rated);
         #[cfg(feature = "full")]
         let changes = set_values(scene, settings)?;
