@@ -42,7 +42,7 @@ macro_rules! help {
   --capture DIR               write DIR/frame-N.ppm, N = seconds x fps; DIR - is stdout
   --fullscreen                fill the screen
   --no-sound                  play in silence
-  --once                      end after the credits, not begin again
+  --once                      end after the credits
   --help                      print this help
 ",
             $own,
@@ -189,6 +189,8 @@ pub struct Args {
     pub end: Option<f64>,
     /// Whether to show the first instant alone (`--at`).
     pub still: bool,
+    /// Whether to end with the scene instead of looping.
+    pub once: bool,
     /// Frames per second: of a capture, or to hold while playing.
     pub fps: f64,
     /// Whether the window fills the screen.
@@ -320,8 +322,7 @@ impl Args {
             _ => None,
         };
         let start = (at || since || to).then_some(if at { instant } else { from });
-        // A still has no end.
-        let end = to.then_some(until).or((once && !at).then_some(scene.unwrap_or(&scenes::ALL[0]).duration));
+        let end = to.then_some(until);
         let (still, governed) = (at, !sized && !rated);
         #[cfg(feature = "full")]
         let changes = set_values(scene, settings)?;
@@ -337,6 +338,7 @@ impl Args {
             start,
             end,
             still,
+            once,
             fps,
             fullscreen,
             #[cfg(feature = "full")]

@@ -35,21 +35,15 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock that starts now; for `--at`, one that rests at its instant.
-    pub fn new(args: &Args) -> Clock {
+    /// A clock that starts now and loops, or ends `once` the scene does; for `--at`, one that rests at its instant.
+    pub fn new(args: &Args, once: bool) -> Clock {
         let start = args.start.unwrap_or(0.0);
         let since = (!args.still).then(Instant::now);
         let Scene { name, duration, .. } = *args.scene();
         // Not zero, since the time is taken modulo the duration.
         let duration = duration.max(SHORTEST);
-        Clock { base: start, since, start, end: args.end, duration, show: name == INTRO.name }
-    }
-
-    /// The same clock, but it ends with the scene instead of looping.
-    #[cfg(all(unix, feature = "terminal"))]
-    pub fn once(self) -> Clock {
-        let still = self.since.is_none();
-        Clock { end: self.end.or((!still).then_some(self.duration)), ..self }
+        let end = args.end.or((once && !args.still).then_some(duration));
+        Clock { base: start, since, start, end, duration, show: name == INTRO.name }
     }
 
     /// The time, whatever ends or loops.

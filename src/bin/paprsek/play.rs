@@ -52,7 +52,7 @@ struct Shared {
 pub fn play(mut window: Window, args: &'static Args) -> Result<(), Vec<u8>> {
     let frame = capture::black_frame(args.size)?;
     let back = capture::black_frame(args.size)?;
-    let clock = Clock::new(args);
+    let clock = Clock::new(args, args.once);
     let shared =
         Shared { clock, frame: back, time: 0.0, fresh: false, still: None, saving: false, ended: None, failed: false };
     // Leaked: when the window goes, the process goes, in the middle of a frame if need be.

@@ -57,7 +57,7 @@ pub fn shows_colour() -> bool {
 pub fn play(args: &Args) -> Result<(), String> {
     let mut renderer = capture::renderer(args)?;
     // Leaked: the sound goes on until the process goes.
-    let clock: &Mutex<Clock> = Box::leak(Box::new(Mutex::new(Clock::new(args).once())));
+    let clock: &Mutex<Clock> = Box::leak(Box::new(Mutex::new(Clock::new(args, true))));
     let lock = move || clock.lock().unwrap_or_else(PoisonError::into_inner);
     #[cfg(target_os = "linux")]
     if args.sounds() {
