@@ -24,7 +24,7 @@ pub const TASTES: [Taste; 9] = {
     let mut all = [Taste { longest: 0, kept: 0.0 }; 9];
     let mut i = 0;
     while i < all.len() {
-        all[i] = Taste { longest: [3, 4, 5][i % 3], kept: [0.90, 0.93, 0.95][i / 3] };
+        all[i] = Taste { longest: [3, 4, 5][i % 3], kept: [0.84, 0.87, 0.90][i / 3] };
         i += 1;
     }
     all
