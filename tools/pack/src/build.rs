@@ -41,7 +41,8 @@ const SETTINGS: &[&str] = &[
 ];
 
 /// Flags of the renderer and the executable: kernels say themselves what is inlined.
-const OWN: &str = "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inlinedefault-threshold=10'";
+const OWN: &str = "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inlinedefault-threshold=10', \
+    '-Cllvm-args=-enable-newgvn'";
 
 /// Settings of LLVM where the whole program is compiled: fewer bytes once packed, a twentieth slower.
 const LLVM: &[&str] = &[
