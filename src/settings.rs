@@ -41,6 +41,9 @@ pub struct RasterSettings {
     pub shadow_map: u32,
     /// Samples along each axis of every pixel: 1, or 8 for the reference. Above 1 it replaces `coverage`.
     pub grid: usize,
+    /// The light of many lights is interpolated between pixels of a triangle's row where it differs by less than this, of
+    /// the sum of both; 0 for never.
+    pub threshold: f32,
 }
 
 /// Settings of the cloud renderer.
@@ -116,7 +119,7 @@ impl Quality {
             grid: 1,
             light_samples: [16, 4],
         },
-        raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1 },
+        raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.05 },
         cloud: CloudSettings {
             steps: 100,
             detail: 0.5,
@@ -153,7 +156,7 @@ impl Quality {
             grid: 1,
             light_samples: [64, 64],
         },
-        raster: RasterSettings { coverage: 1, shadow_map: 0, grid: 1 },
+        raster: RasterSettings { coverage: 1, shadow_map: 0, grid: 1, threshold: 0.0 },
         cloud: CloudSettings {
             steps: 800,
             detail: f32::INFINITY,

@@ -59,6 +59,7 @@ pub const KNOBS: &[Knob] = &[
     knob!(q, q.raster.coverage as f64, v, q.raster.coverage = power(v); "raster.coverage", "count", (1.0, 16.0), "coverage samples per pixel, a power of two"),
     knob!(q, q.raster.shadow_map as f64, v, q.raster.shadow_map = (v as u32).next_multiple_of(64); "raster.shadow_map", "count", (0.0, 4096.0), "texels along an edge of a shadow map, in sixty-fours; at 0 shadows are traced"),
     knob!(q, q.raster.grid as f64, v, q.raster.grid = v.round() as _; "raster.grid", "count", (1.0, 8.0), "samples along each axis of every pixel"),
+    knob!(q, q.raster.threshold as f64, v, q.raster.threshold = v as f32; "raster.threshold", "1", (0.0, 1.0), "the light of many lights is interpolated along a triangle's row between pixels where it differs by less, of their sum"),
     knob!(q, q.cloud.steps as f64, v, q.cloud.steps = v.round() as _; "cloud.steps", "count", (1.0, 1000.0), "steps through a cloud's cube of voxels"),
     knob!(q, q.cloud.detail as f64, v, q.cloud.detail = v as f32; "cloud.detail", "1", (0.01, 1000.0), "steps per pixel of the cube's edge, where that makes fewer"),
     knob!(q, q.cloud.opaque as f64, v, q.cloud.opaque = v as f32; "cloud.opaque", "1", (0.0, 1.0), "a ray ends inside a cloud where less light passes"),

@@ -21,4 +21,6 @@ pub struct ShadeContext<'a> {
     pub view: &'a View,
     /// Share of its pixel that a sample stands for.
     pub share: f32,
+    /// [`RasterSettings::threshold`](crate::settings::RasterSettings::threshold).
+    pub threshold: f32,
 }

@@ -5,6 +5,7 @@
 
 use super::context::ShadeContext;
 use super::id::parts;
+use super::lighting::POINTS;
 use super::queue::FragmentQueue;
 use super::rasters::LightView;
 use super::triangle::SUB;
@@ -32,7 +33,7 @@ pub fn hides(view: &LightView, x: f32, y: f32, inv_depth: f32) -> bool {
 /// Light falls off with the interpolated normal, and shadow with the flat face: where the two turn from the light at
 /// different places, whole faces of a coarse mesh would lie in their own shadow, cut off along their edges.
 pub fn lifted(context: &ShadeContext, queue: &FragmentQueue) -> Block3 {
-    let mut points = queue.point;
+    let mut points = queue.places[POINTS];
     for (i, &id) in queue.id[0].iter().enumerate() {
         let (number, triangle) = parts(id);
         let body = &context.world.bodies[number];
@@ -43,7 +44,7 @@ pub fn lifted(context: &ShadeContext, queue: &FragmentQueue) -> Block3 {
         let index = face.corners.map(usize::from);
         let corners = index.map(|i| body.place.transform_point3(body.mesh.points[i]));
         let normals = index.map(|i| body.place.transform_vector3(body.mesh.normals[i]).normalize_or_zero());
-        let point = Vec3::from_array([0, 1, 2].map(|axis| queue.point[axis][i]));
+        let point = Vec3::from_array([0, 1, 2].map(|axis| queue.places[POINTS][axis][i]));
         let up = above(point, corners, normals);
         for axis in 0..3 {
             points[axis][i] += up[axis];

@@ -90,7 +90,8 @@ impl RasterLayer {
         tile.coverage.fill(0.0);
         tile.inv_depth.fill(0.0);
         let share = 1.0 / (grid * grid * count as u32) as f32;
-        let context = ShadeContext { world, lookups, raster, view, share };
+        let threshold = settings.built().threshold;
+        let context = ShadeContext { world, lookups, raster, view, share, threshold };
         let mut fragments = 0;
         if !ids.is_empty() {
             for pass in 0..grid * grid {

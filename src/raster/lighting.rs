@@ -11,7 +11,7 @@ use super::light::{Light, Source};
 use super::project::Projection;
 use super::shadow_views::{Bias, ShadowViews};
 use crate::cuts;
-use crate::simd::block::{BLOCK, Block3};
+use crate::simd::block::{Block3, vectors};
 use crate::simd::lanes::{Bits, F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -26,32 +26,32 @@ const STEEP: f32 = 4.0;
 /// Share of the bias that is left where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
 
-/// Where light falls.
-pub struct Places<'a> {
-    /// Points, metres.
-    pub points: &'a Block3,
-    /// The same on the smooth surface that the normals describe, where shadows are looked up: Lambert's cosine falls off
-    /// with these normals, so faces of a coarse mesh must not lie in their own shadow `[Hanika21]`. A traced point is
-    /// hidden if both its places are.
-    pub lifted: &'a Block3,
-}
+/// Where light falls: [`POINTS`], [`LIFTED`] points and [`NORMALS`].
+pub type Places = [Block3; 3];
+/// Points, metres.
+pub const POINTS: usize = 0;
+/// The same on the smooth surface that the normals describe, where shadows are looked up: Lambert's cosine falls off with
+/// these normals, so faces of a coarse mesh must not lie in their own shadow `[Hanika21]`. A traced point is hidden if both
+/// its places are.
+pub const LIFTED: usize = 1;
+/// Unit normals.
+pub const NORMALS: usize = 2;
 
-/// Adds to `out` what a light gives to points with unit normals, without albedo.
+/// Adds to `out` what a light gives to the first `count` places, without albedo.
 #[simd]
 #[inline(never)] // Called per light and for snow: one copy.
 pub fn shine<S: Simd>(
     simd: S,
     context: &ShadeContext,
-    light: &Light,
-    lookup: &ShadowLookup,
-    places: &Places,
-    normals: &Block3,
+    (light, lookup): (&Light, &ShadowLookup),
+    [points, lifted, normals]: &Places,
+    count: usize,
     out: &mut Block3,
 ) {
     let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (V3::load(simd, places.points, i), V3::load(simd, normals, i));
-        let mut gives = light_at(simd, light, lookup, (p, V3::load(simd, places.lifted, i)), n);
+    while i < vectors(count, F::<S>::LEN) {
+        let (p, n) = (V3::load(simd, points, i), V3::load(simd, normals, i));
+        let mut gives = light_at(simd, light, lookup, (p, V3::load(simd, lifted, i)), n);
         if let (Source::Sun(_), Some(clouds)) = (light.source, &context.world.cloud_shadow)
             && !cfg!(without = "cloud-shadows")
         {

@@ -58,6 +58,7 @@ pub mod fit;
 pub mod form;
 pub mod haze;
 pub mod id;
+mod illuminate;
 #[cfg(feature = "full")]
 mod inspect;
 mod layer;

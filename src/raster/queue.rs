@@ -5,6 +5,7 @@
 
 use super::fill::SubPixel;
 use super::id::Id;
+use super::lighting::Places;
 use crate::simd::block::{BLOCK, Block3};
 
 /// Fragments of one texture, and the surfaces that they show once these are known.
@@ -17,12 +18,8 @@ pub struct FragmentQueue {
     /// The triangle that it shows.
     pub(super) id: [[Id; BLOCK]; 2],
     // The rest is filled while a block is shaded. Here, and not on the stack, it need not be cleared.
-    /// Position, metres.
-    pub(super) point: Block3,
-    /// The same on the smooth surface that the normals describe: where shadows are looked up.
-    pub(super) lifted: Block3,
-    /// Unit normal.
-    pub(super) normal: Block3,
+    /// Where light falls on it.
+    pub(super) places: Places,
     /// Diffuse reflectance, linear.
     pub(super) albedo: Block3,
     /// Light on the surface; finally light that reaches the pixel.
@@ -43,9 +40,7 @@ impl FragmentQueue {
         count: 0,
         place: [[0; BLOCK]; 2],
         id: [[0; BLOCK]; 2],
-        point: [[0.0; BLOCK]; 3],
-        lifted: [[0.0; BLOCK]; 3],
-        normal: [[0.0; BLOCK]; 3],
+        places: [[[0.0; BLOCK]; 3]; 3],
         albedo: [[0.0; BLOCK]; 3],
         light: [[0.0; BLOCK]; 3],
         footprint: [0.0; BLOCK],

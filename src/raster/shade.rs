@@ -15,8 +15,9 @@
 use super::context::{ShadeContext, ShadowLookup};
 use super::exact_shadow::lifted;
 use super::id::{Id, parts};
+use super::illuminate::illuminate;
 use super::light::Light;
-use super::lighting::{Places, shine};
+use super::lighting::{LIFTED, NORMALS, POINTS, shine};
 use super::queue::FragmentQueue;
 use super::snow_cover::{GRAIN, SnowCover};
 use super::triangle::{SUB, SetupMesh, Triangle};
@@ -25,7 +26,7 @@ use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::inspect::count_octaves;
-use crate::simd::block::{BLOCK, Block3, load, store};
+use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{F, Lane, STEPS, U, V3, float};
 use crate::simd::math;
 use crate::texture::{self, Texture};
@@ -79,17 +80,11 @@ pub fn flush<S: Simd>(simd: S, context: &ShadeContext, texture: usize, queue: &m
         count_noise(&GRAIN, count, queue, tile);
         settle(simd, context, snow, lookup, queue);
     }
-    let (low, high) = bounds(simd, &queue.point);
     let traced = |light: &Light| light.shadow_views().is_some_and(|views| views.traced);
     if cuts::TRACED_SHADOWS && world.lights.iter().any(traced) {
-        queue.lifted = lifted(context, queue);
+        queue.places[LIFTED] = lifted(context, queue);
     }
-    let places = Places { points: &queue.point, lifted: &queue.lifted };
-    for (light, lookup) in world.lights.iter().zip(lookups) {
-        if light.meets(simd, low, high) {
-            shine(simd, context, light, lookup, &places, &queue.normal, &mut queue.light);
-        }
-    }
+    illuminate(simd, context, queue);
     finish(simd, context, queue);
     scatter(simd, count, queue, tile);
     queue.place[0] = queue.place[1];
@@ -131,9 +126,9 @@ fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mu
         let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
         let ambient = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
         store(far * stretch * view.pixel(), &mut queue.footprint, i);
-        p.store(&mut queue.point, i);
-        (p + n * Lane(bulge)).store(&mut queue.lifted, i);
-        n.store(&mut queue.normal, i);
+        p.store(&mut queue.places[POINTS], i);
+        (p + n * Lane(bulge)).store(&mut queue.places[LIFTED], i);
+        n.store(&mut queue.places[NORMALS], i);
         albedo.store(&mut queue.albedo, i);
         ambient.store(&mut queue.light, i);
         store(inv_depth, &mut queue.inv_depth, i);
@@ -188,7 +183,7 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
 #[inline(always)]
 fn paint<S: Simd>(simd: S, texture: &Texture, queue: &mut FragmentQueue) {
     let mut painted = [[0.0; BLOCK]; 3];
-    texture::shade(simd, texture, &queue.point, BLOCK, Some(&queue.footprint), &mut painted);
+    texture::shade(simd, texture, &queue.places[POINTS], BLOCK, Some(&queue.footprint), &mut painted);
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         V3::load(simd, &queue.albedo, i).mulv(V3::load(simd, &painted, i)).store(&mut queue.albedo, i);
@@ -207,24 +202,9 @@ fn settle<S: Simd>(
     queue: &mut FragmentQueue,
 ) {
     let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-    let places = Places { points: &queue.point, lifted: &queue.lifted };
-    shine(simd, context, &snow.fall, lookup, &places, &queue.normal, &mut open);
-    texture::shade(simd, &GRAIN, &queue.point, BLOCK, Some(&queue.footprint), &mut grain);
+    shine(simd, context, (&snow.fall, lookup), &queue.places, BLOCK, &mut open);
+    texture::shade(simd, &GRAIN, &queue.places[POINTS], BLOCK, Some(&queue.footprint), &mut grain);
     snow.whiten(simd, &open, &grain, queue);
-}
-
-/// Boxes around the points of a block, one per lane.
-#[inline(always)]
-fn bounds<S: Simd>(simd: S, points: &Block3) -> (V3<S>, V3<S>) {
-    let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
-    let mut i = 0;
-    while i < BLOCK / F::<S>::LEN {
-        let p = V3::load(simd, points, i);
-        low = V3 { x: low.x.min(p.x), y: low.y.min(p.y), z: low.z.min(p.z) };
-        high = V3 { x: high.x.max(p.x), y: high.y.max(p.y), z: high.z.max(p.z) };
-        i += 1;
-    }
-    (low, high)
 }
 
 /// From light on surfaces to light that reaches the eye, weighted by coverage.
@@ -236,7 +216,7 @@ fn finish<S: Simd>(simd: S, context: &ShadeContext, queue: &mut FragmentQueue) {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
-        let (p, n) = (V3::load(simd, &queue.point, i), V3::load(simd, &queue.normal, i));
+        let (p, n) = (V3::load(simd, &queue.places[POINTS], i), V3::load(simd, &queue.places[NORMALS], i));
         let albedo = V3::load(simd, &queue.albedo, i);
         let mut color = albedo.mulv(V3::load(simd, &queue.light, i));
         let way = p.sub1(view.camera().eye);

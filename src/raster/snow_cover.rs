@@ -6,6 +6,7 @@
 //! checked in f64 by `tests/raster/snow_cover.rs`.
 
 use super::light::Light;
+use super::lighting::POINTS;
 use super::queue::FragmentQueue;
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
@@ -62,7 +63,7 @@ impl SnowCover {
             let (open, grain): (F<S>, F<S>) = (load(simd, &open[0], i), load(simd, &grain[0], i));
             let albedo = V3::load(simd, &queue.albedo, i);
             let gloss: F<S> = load(simd, &queue.gloss, i);
-            let print = self.print(simd, V3::load(simd, &queue.point, i));
+            let print = self.print(simd, V3::load(simd, &queue.places[POINTS], i));
             let depth = math::smooth(simd, (open - KEEPS[0]) * (1.0 / (KEEPS[1] - KEEPS[0])))
                 * (self.amount * (1.0 + EDGE))
                 - print * SINKS;

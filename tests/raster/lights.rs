@@ -105,11 +105,42 @@ fn stage() -> World {
     ])
 }
 
+/// Between fragments of a row the light of many lights is interpolated where both ends have nearly the same: no pixel is
+/// off by more than an eighth of what they may be apart.
+#[test]
+fn light_between_fragments_is_near_their_own() {
+    let (camera, size) = (camera(), [480, 320]);
+    let places = [vec3(-4.0, 2.0, -3.0), vec3(1.0, 3.0, 2.0), vec3(5.0, 2.0, -1.0), vec3(-2.0, 4.0, 4.0)];
+    let lights: Vec<Light> = places.map(|place| lamp(place, vec2(0.1, 0.3), f32::INFINITY, Vec3::ONE)).into();
+    let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
+    for (name, level) in testkit::levels() {
+        let exact = Quality { raster: RasterSettings { threshold: 0.0, ..ONE.raster }, ..ONE };
+        let [own, between] = [exact, ONE].map(|quality| draw(&world, camera, size, quality, level));
+        let mut differ = 0;
+        for pixel in (0..own.color.len()).filter(|&i| own.coverage[i] == 1.0) {
+            let d = ray(&camera, size, (pixel % size[0]) as f64 + 0.5, (pixel / size[0]) as f64 + 0.5);
+            let p = camera.eye.as_dvec3() - d * (camera.eye.y as f64 / d.y);
+            let light = |place: &Vec3| {
+                let d = p.distance(place.as_dvec3());
+                place.y as f64 / d / (1.0 + 0.1 * d + 0.3 * d * d)
+            };
+            let truth: f64 = places.iter().map(light).sum();
+            let off = |planes: &Planes| (planes.color[pixel].x as f64 / truth - 1.0).abs();
+            assert!(off(&own) < LIGHT, "{name}: {} of {truth} by itself", off(&own));
+            assert!(off(&between) < 0.0125, "{name}: {} of {truth} between", off(&between));
+            differ += (own.color[pixel] != between.color[pixel]) as usize;
+        }
+        assert!(differ > own.color.len() / 4, "{name}: only {differ} pixels are interpolated");
+    }
+}
+
 #[test]
 fn one_pass_is_the_sum_of_a_pass_for_each_light() {
     let mut random = Random(1);
     for (name, level) in testkit::levels() {
-        for quality in [Quality::FAST, Quality::DEFAULT] {
+        for mut quality in [Quality::FAST, Quality::DEFAULT] {
+            // Every fragment by itself.
+            quality.raster.threshold = 0.0;
             for count in [2, 5, 32] {
                 let lights = lights(&mut random, count);
                 let with = |lights: Vec<Light>| draw(&World { lights, ..stage() }, camera(), SIZE, quality, level);
@@ -208,7 +239,7 @@ fn shares_of_a_pixel_sum_up_to_one() {
                 &world,
                 camera,
                 [100, 70],
-                Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT },
+                Quality { raster: RasterSettings { coverage, grid, ..Quality::EXACT.raster }, ..Quality::EXACT },
                 level,
             );
             for (pixel, (share, color)) in planes.coverage.iter().zip(&planes.color).enumerate() {
@@ -263,7 +294,8 @@ fn coverage_nears_the_area_with_more_samples() {
         let drawn: Vec<Planes> = qualities
             .iter()
             .map(|&(coverage, grid)| {
-                let quality = Quality { raster: RasterSettings { coverage, grid, shadow_map: 0 }, ..Quality::EXACT };
+                let quality =
+                    Quality { raster: RasterSettings { coverage, grid, ..Quality::EXACT.raster }, ..Quality::EXACT };
                 draw(&world, camera, SIZE, quality, testkit::levels()[0].1)
             })
             .collect();
