@@ -173,7 +173,8 @@ fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
     grid.want(pixel.x + 1, pixel.y + 1);
     let trusted = trusts_ends(job, tile, pixel);
     for (middle, ends) in SIDES {
-        if !(trusted && grid.joined(pixel, ends)) {
+        let [a, b] = grid.pair(pixel, ends);
+        if !(trusted && a.path_signature == b.path_signature) {
             let (x, y) = pixel.point(middle);
             grid.want(x, y);
         }
@@ -188,8 +189,8 @@ fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, squ
     }
     for (middle, ends) in SIDES {
         let (x, y) = square.point(middle);
-        if !grid.has(x, y) && grid.joined(square, ends) {
-            let [a, b] = ends.map(|end| square.point(end)).map(|(x, y)| grid.at(x, y));
+        let [a, b] = grid.pair(square, ends);
+        if !grid.has(x, y) && a.path_signature == b.path_signature {
             grid.foretell(x, y, mean(simd, [a, b, a, b]));
         }
     }

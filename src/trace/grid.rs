@@ -126,11 +126,11 @@ impl Grid {
         &self.samples[self.lattice[y * LATTICE + x].1 as usize]
     }
 
-    /// Whether two places of a square have samples with the same path signature.
+    /// The samples at two places of a square.
     #[inline(always)]
-    pub fn joined(&self, square: Square, places: [Place; 2]) -> bool {
-        let [a, b] = places.map(|place| square.point(place)).map(|(x, y)| self.at(x, y).path_signature);
-        a == b
+    pub fn pair(&self, square: Square, [a, b]: [Place; 2]) -> [&Sample; 2] {
+        let ((ax, ay), (bx, by)) = (square.point(a), square.point(b));
+        [self.at(ax, ay), self.at(bx, by)]
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
