@@ -190,7 +190,7 @@ fn landing<S: Simd>(
     let ray = RayPacket { origin: start, direction: along, from: U::<S>::splat(simd, from), inward };
     let shaft = Shaft::new(simd, Start { origins: Extent::point(origin), leaves: from }, Extent::point(direction));
     let far = F::<S>::splat(simd, FAR);
-    let (object, t) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
+    let (object, t, _) = nearest(simd, world, bounds, &bounds.all, Some(&shaft), &ray, !inward, far, Search::Nearest);
     let body = world.objects.get(object[0] as usize)?;
     let point = ray.origin + ray.direction * Lane(t);
     Some((point.first(), body.shape.normal(simd, point).first()))

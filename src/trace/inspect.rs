@@ -124,12 +124,12 @@ fn state(world: &World, hit: &Hit, ray: &Ray, light: &super::world::Light) -> St
         return "behind the surface".into();
     }
     let seen = through(world, hit.index, hit.point, aim, reach);
-    if seen == 0.0 {
+    if seen == Vec3::ZERO {
         return format!("in shadow, cosine {cosine:.3}");
     }
     let glint = (aim - hit.normal * (2.0 * cosine)).dot(ray.direction);
     let shines = glint > 0.0 && world.objects[hit.index].material.specular > 0.0;
-    let glass = if seen == 1.0 { String::new() } else { format!(" {seen:.3} times through glass") };
+    let glass = if seen == Vec3::ONE { String::new() } else { format!(" {} times through glass", triple(seen)) };
     format!("lit{glass}{}, cosine {cosine:.3}", if shines { " with a highlight" } else { "" })
 }
 

@@ -9,6 +9,7 @@ use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
+use glam::Vec3;
 
 /// The way from points to a light.
 #[derive(Clone, Copy)]
@@ -35,7 +36,7 @@ pub fn aim<S: Simd>(simd: S, light: &Light, point: V3<S>) -> Aim<S> {
 }
 
 /// The share of a light that each lane sees: 0 or 1 for a point, the share of `samples` points for a light with a radius;
-/// through balls of glass any number, also above 1.
+/// through balls of glass any numbers of each colour, also above 1.
 ///
 /// Shadow rays leave the points `point` on the bodies `from`, which are what `start` says. Lanes that are not `wanted` have unspecified results.
 #[inline(always)]
@@ -51,7 +52,7 @@ pub fn visibility<S: Simd>(
     aim: Aim<S>,
     from: U<S>,
     wanted: M<S>,
-) -> F<S> {
+) -> V3<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let soft = cuts::SOFT_LIGHTS && light.radius > 0.0;
     let samples = if soft { samples } else { 1 };
@@ -67,7 +68,7 @@ pub fn visibility<S: Simd>(
         u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
         v = cross(aim.direction, u);
     }
-    let mut seen = zero;
+    let mut seen = V3::splat(simd, Vec3::ZERO);
     for k in 0..samples {
         if soft {
             let (a, b) = disc_point(k, samples);
@@ -84,11 +85,11 @@ pub fn visibility<S: Simd>(
             Emitter::Directional(towards) if !soft => Shaft::new(simd, start, Extent::point(towards)),
             _ => Shaft::new(simd, start, Extent::new(simd, direction, wanted)),
         };
-        let (_, share) =
+        let (_, share, tint) =
             nearest(simd, world, bounds, &bounds.casters, Some(&shaft), &ray, wanted, distance, Search::Shadow);
-        seen += share;
+        seen = seen + tint * Lane(share);
     }
-    seen * (1.0 / samples as f32)
+    seen * Lane(one * (1.0 / samples as f32))
 }
 
 /// Point `k` of `n` that are spread evenly over the unit disc along Vogel's spiral `[Vogel79]`.

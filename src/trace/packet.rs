@@ -265,11 +265,13 @@ fn meet<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>) -> (U<S>, F<S>
     let TraceContext { world, bounds, visible, .. } = *context;
     let Node { ray, active, .. } = node;
     if node.level == 1 && visible.iter().map(|word| word.count_ones()).sum::<u32>() <= FEW {
-        return nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
+        let (object, t, _) = nearest(simd, world, bounds, visible, None, ray, *active, far, Search::Nearest);
+        return (object, t);
     }
     let list = if node.level == 1 { visible } else { &bounds.all };
     let shaft = Shaft::new(simd, node.start, Extent::new(simd, ray.direction, *active));
-    nearest(simd, world, bounds, list, Some(&shaft), ray, *active, far, Search::Nearest)
+    let (object, t, _) = nearest(simd, world, bounds, list, Some(&shaft), ray, *active, far, Search::Nearest);
+    (object, t)
 }
 
 impl<S: Simd> Hit<S> {
@@ -322,7 +324,8 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
             object,
             front,
         );
-        let lit = front & seen.simd_gt(zero);
+        let most = seen.max_element();
+        let lit = front & most.simd_gt(zero);
         // The cosine between the mirrored ray and the light [Phong75].
         let glint = cos_light * cosine * 2.0 + direction.dot(node.ray.direction);
         let near = noticeable(simd, glint, hit.surface.numbers[EXPONENT]);
@@ -330,13 +333,14 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         let mut shine = zero;
         if shiny.any_true() {
             let power = math::exp2(simd, math::log2(simd, glint) * hit.surface.numbers[EXPONENT]);
-            shine = shiny.select(power * shininess * seen, zero);
+            shine = shiny.select(power * shininess, zero);
         }
-        let amount = lit.select(cos_light * seen, zero);
-        diffuse = diffuse + V3::splat(simd, source.color) * Lane(amount);
-        specular = specular + V3::splat(simd, source.color) * Lane(shine);
-        let bright = lit & (shine * node.weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
-        let partly = lit & seen.simd_ne(one);
+        // Lanes that are not lit may have anything, also what is not a number.
+        let color = V3::splat(simd, source.color).mulv(seen).masked(simd, lit);
+        diffuse = diffuse + color * Lane(lit.select(cos_light, zero));
+        specular = specular + color * Lane(shine);
+        let bright = lit & (shine * most * node.weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
+        let partly = lit & most.simd_ne(one);
         let state = |state| U::<S>::splat(simd, state);
         let code =
             partly.select(state(PARTLY_LIT), bright.select(state(HIGHLIT), lit.select(state(LIT), state(UNLIT))));

@@ -10,6 +10,7 @@ use crate::cuts;
 use crate::simd::lanes::{Bits, F, M, U, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+use glam::Vec3;
 
 /// One ray per lane, and the body whose surface it leaves.
 #[derive(Clone, Copy)]
@@ -30,7 +31,8 @@ pub enum Search {
     /// The first surface along the ray.
     Nearest,
     /// The bodies that cast shadows between the ray's origin and `reach`, until all active lanes are dark. Instead of a
-    /// distance the result has the light that they let through, in multiples of what there is without them.
+    /// distance the result has the light that they let through, in multiples of what there is without them, colours aside;
+    /// these are what glass leaves of each.
     Shadow,
 }
 
@@ -52,7 +54,7 @@ pub fn nearest<S: Simd>(
     active: M<S>,
     reach: F<S>,
     search: Search,
-) -> (U<S>, F<S>) {
+) -> (U<S>, F<S>, V3<S>) {
     if cuts::MANY_BODIES
         && let Some(shaft) = shaft
         && list.len() > MANY
@@ -63,6 +65,7 @@ pub fn nearest<S: Simd>(
     let shadow = search == Search::Shadow;
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (mut best, mut object) = (if shadow { one } else { reach }, U::<S>::splat(simd, NOWHERE));
+    let mut tint = V3::splat(simd, Vec3::ONE);
     let leaves = shaft.map_or(NOWHERE, |shaft| shaft.leaves);
     let rows = if cuts::MANY_BODIES { list.len().div_ceil(WORD) } else { 1 };
     let mut row = 0;
@@ -88,13 +91,16 @@ pub fn nearest<S: Simd>(
                 let id = U::<S>::splat(simd, index);
                 let other = !ray.from.simd_eq(id);
                 if shadow {
+                    let meets = hit & other & t1.simd_gt(zero) & t0.simd_lt(reach);
                     let mut through = zero;
                     if let Shape::Sphere { radius, .. } = body.shape
                         && body.material.is_glass()
                     {
-                        through = gathered::<S>(t0, t1, radius) * passes(&body.material);
+                        through = gathered::<S>(t0, t1, radius);
+                        let passes = V3::splat(simd, passes(&body.material));
+                        tint = V3::select(meets, tint.mulv(passes), tint);
                     }
-                    best = (hit & other & t1.simd_gt(zero) & t0.simd_lt(reach)).select(best * through, best);
+                    best = meets.select(best * through, best);
                     if !(active & best.simd_gt(zero)).any_true() {
                         break 'rows;
                     }
@@ -109,7 +115,7 @@ pub fn nearest<S: Simd>(
         }
         row += 1;
     }
-    (object, best)
+    (object, best, tint)
 }
 
 /// The light that a ball of glass gathers behind it, for points whose lines to the light are inside the ball from `t0` to
@@ -130,11 +136,11 @@ fn gathered<S: Simd>(t0: F<S>, t1: F<S>, radius: f32) -> F<S> {
 /// How much a ball of glass gathers light: K of [`gathered`], for an index of 1.5.
 pub(super) const GATHERS: f32 = 128.0;
 
-/// The share of light that gets through a ball of glass: what both surfaces let through of each colour, in the mean, and
-/// what they do not mirror, which for an index of 1.5 is 0.84 over the whole of the ball.
+/// The share of each colour that gets through a ball of glass: what both surfaces let through of it, and what they do not
+/// mirror, which for an index of 1.5 is 0.84 over the whole of the ball.
 #[inline(always)]
-pub(super) fn passes(material: &Material) -> f32 {
-    material.filter.length_squared() * (0.84375 / 3.0)
+pub(super) fn passes(material: &Material) -> Vec3 {
+    material.filter * material.filter * 0.84375
 }
 
 /// Words of bodies beyond which the rays of a packet are taken one by one: they lead to all sides, as off balls that are
@@ -165,14 +171,15 @@ fn apart<S: Simd>(
     active: M<S>,
     reach: F<S>,
     search: Search,
-) -> (U<S>, F<S>) {
+) -> (U<S>, F<S>, V3<S>) {
     let (mut object, mut best) = (U::<S>::splat(simd, NOWHERE), reach);
+    let mut tint = V3::splat(simd, Vec3::ONE);
     for lane in Bits(active.to_bitmask()) {
         let one = M::<S>::from_bitmask(simd, 1 << lane);
         let start = Start { origins: Extent::new(simd, ray.origin, one), leaves: shaft.leaves };
         let alone = Shaft::new(simd, start, Extent::new(simd, ray.direction, one)).within(reach[lane]);
-        let (found, t) = nearest(simd, world, bounds, list, Some(&alone), ray, one, reach, search);
-        (object, best) = (one.select(found, object), one.select(t, best));
+        let (found, t, left) = nearest(simd, world, bounds, list, Some(&alone), ray, one, reach, search);
+        (object, best, tint) = (one.select(found, object), one.select(t, best), V3::select(one, left, tint));
     }
-    (object, best)
+    (object, best, tint)
 }

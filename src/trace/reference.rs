@@ -229,14 +229,14 @@ pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, dire
         let (aim, reach) = toward(light, point);
         let cosine = normal.dot(aim);
         let seen = through(world, index, point, aim, reach);
-        if cosine <= 0.0 || seen <= 0.0 {
+        if cosine <= 0.0 || seen == Vec3::ZERO {
             continue;
         }
         let glint = (aim - normal * (2.0 * cosine)).dot(direction);
-        diffuse += light.color * (cosine * seen);
+        diffuse += light.color * seen * cosine;
         if glint > 0.0 {
             let power = f64::from(glint).powf(material.exponent.into()) as f32;
-            specular += light.color * (material.specular * power * seen);
+            specular += light.color * seen * (material.specular * power);
         }
     }
     (diffuse, specular)
@@ -250,10 +250,10 @@ pub(super) fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
     }
 }
 
-/// The light that bodies other than `from` let through between a point and a light, in multiples of what there is without
-/// them: 0 in the shadow of anything but a ball of glass.
-pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> f32 {
-    let mut light = 1.0;
+/// The light that bodies other than `from` let through between a point and a light, in multiples of what there is of each
+/// colour without them: 0 in the shadow of anything but a ball of glass.
+pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> Vec3 {
+    let mut light = Vec3::ONE;
     for (index, body) in world.objects.iter().enumerate() {
         if !body.casts_shadow || index == from {
             continue;
@@ -263,9 +263,9 @@ pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach:
         };
         light *= match body.shape {
             Shape::Sphere { radius, .. } if body.material.is_glass() => {
-                gathered((t0 + t1) / (2.0 * radius), (t1 - t0) / (2.0 * radius)) * passes(&body.material)
+                passes(&body.material) * gathered((t0 + t1) / (2.0 * radius), (t1 - t0) / (2.0 * radius))
             }
-            _ => 0.0,
+            _ => Vec3::ZERO,
         };
     }
     light

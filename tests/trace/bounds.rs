@@ -132,8 +132,8 @@ fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES];
     let far = F::<S>::splat(simd, 1e30);
     let list = &bounds.all;
     for search in [Search::Nearest, Search::Shadow] {
-        let (culled, t) = nearest(simd, world, bounds, list, Some(&along), &ray, active, far, search);
-        let (all, u) = nearest(simd, world, bounds, list, None, &ray, active, far, search);
+        let (culled, t, _) = nearest(simd, world, bounds, list, Some(&along), &ray, active, far, search);
+        let (all, u, _) = nearest(simd, world, bounds, list, None, &ray, active, far, search);
         for lane in 0..F::<S>::LEN - 1 {
             match search {
                 Search::Nearest => assert_eq!((culled[lane], t[lane]), (all[lane], u[lane])),

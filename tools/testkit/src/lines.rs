@@ -52,7 +52,7 @@ pub fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let ray = RayPacket { origin: o, direction: d, from, inward };
     let bounds = Bounds::new(&world);
     let (reach, list) = (F::<S>::splat(simd, reach), &bounds.casters);
-    let (_, light) = nearest(simd, &world, &bounds, list, None, &ray, !inward, reach, Search::Shadow);
+    let (_, light, _) = nearest(simd, &world, &bounds, list, None, &ray, !inward, reach, Search::Shadow);
     light[0] == 0.0
 }
 
