@@ -59,6 +59,7 @@ fn any_quality(random: &mut Random) -> Quality {
             coverage: pick(random, &cells),
             shadow_map: pick(random, &[0, 64, 192, 256, 1024]),
             grid: 1,
+            threshold: share(random),
         },
         cloud: CloudSettings {
             steps: random.log(1.0, 800.0) as u32,
