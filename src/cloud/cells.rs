@@ -27,6 +27,10 @@ const SIDE: usize = Tile::SIZE + 1;
 
 /// Points from one row of a lattice to the next: a vector may begin at each point of a row.
 const ROW: usize = Tile::SIZE + 16;
+/// Edge of cells that are coarse enough for no picture, pixels.
+const LEAST: usize = 4;
+/// Coarser cells are at most as high as the picture's height divided by this.
+const CELLS: usize = 45;
 
 /// Solids of which no more than this comes through clouds are never drawn: it is a thirtieth of a code where codes are
 /// darkest. Were they drawn, they would show beside nearer ones in the same pixel, which has one depth.
@@ -141,6 +145,10 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
 #[simd]
 fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, planes: &mut Planes) {
     let CloudSettings { cell: mut size, threshold, .. } = clouds.settings.built();
+    // In a small picture as many pixels are a larger part of a cloud, and what lies between their rays is missed.
+    while size > LEAST && size * CELLS > clouds.view.height() {
+        size /= 2;
+    }
     // The smallest cells to be interpolated, of two pixels, may be off by the threshold. An error of a larger cell shows in
     // more pixels, and the rays of a smaller one cost as much: the larger, the less is allowed.
     let mut allowed = threshold * 2.0 / to_f32(size);

@@ -8,7 +8,7 @@
 //!                 bins       triangles sorted into tiles of 64x64 pixels
 //! per tile        fill       which triangle each sample shows
 //!                 collect    fragments: the part of a pixel that shows one triangle, gathered by texture
-//!                 shade      surfaces, textures, snow, haze; `lighting` adds what each light in reach gives
+//!                 shade      surfaces, textures, snow, haze; `illuminate` adds what each light in reach gives
 //! when met        depth_map  a tile of a shadow map, for which `rasters` sets up the bodies that it may show;
 //!                            `shadow_maps` keeps the maps of lights that stay the same
 //! ```
