@@ -18,8 +18,9 @@ const RUN: usize = 5;
 /// The fragments within the run that begins at fragment 0.
 const WITHIN: u64 = (1 << RUN) - 2;
 
-/// Lights that meet a block: the light of fewer is computed sooner than runs are found.
-const MANY: usize = 2;
+/// The light of fewer lights is computed sooner than runs are found. All of the world's count, not those that meet a block:
+/// these depend on how many lanes a vector has, and a frame must not.
+const MANY: usize = 3;
 
 /// Adds what the world's lights give to a queue's fragments, without albedo.
 ///
@@ -35,11 +36,10 @@ pub fn illuminate<S: Simd>(simd: S, context: &ShadeContext, queue: &mut Fragment
     let (low, high) = bounds(simd, &queue.places[POINTS]);
     let (pixels, ids) = (&queue.place[0], &queue.id[0]);
     let (mut runs, mut wanted) = (0, u64::MAX);
-    let many = world.lights.iter().filter(|light| light.meets(simd, low, high)).count() >= MANY;
     for a in (0..BLOCK - RUN).step_by(RUN) {
         let b = a + RUN;
         let row = pixels[b].wrapping_sub(pixels[a]) == RUN as u32 && pixels[a] as usize % Tile::SIZE + RUN < Tile::SIZE;
-        if many && row && ids[a..=b].iter().all(|id| *id == ids[a]) {
+        if world.lights.len() >= MANY && row && ids[a..=b].iter().all(|id| *id == ids[a]) {
             runs |= 1 << a;
             wanted &= !(WITHIN << a);
         }
