@@ -5,8 +5,7 @@
 
 use super::context::ShadeContext;
 use super::id::parts;
-use super::lighting::POINTS;
-use super::queue::FragmentQueue;
+use super::queue::{FragmentQueue, POINTS};
 use super::rasters::LightView;
 use super::triangle::SUB;
 use crate::frame::Tile;

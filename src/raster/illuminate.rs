@@ -5,8 +5,8 @@
 //! these disagree. The reference is a [`threshold`](crate::settings::RasterSettings::threshold) of 0.
 
 use super::context::ShadeContext;
-use super::lighting::{POINTS, shine};
-use super::queue::FragmentQueue;
+use super::lighting::shine;
+use super::queue::{FragmentQueue, POINTS};
 use crate::frame::Tile;
 use crate::simd::block::{BLOCK, Block3};
 use crate::simd::lanes::{Bits, F, V3};

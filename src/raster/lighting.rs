@@ -9,6 +9,7 @@ use super::depth_map::MapPoints;
 use super::exact_shadow::hides;
 use super::light::{Light, Source};
 use super::project::Projection;
+use super::queue::Places;
 use super::shadow_views::{Bias, ShadowViews};
 use crate::cuts;
 use crate::simd::block::{Block3, vectors};
@@ -25,17 +26,6 @@ const STEEP: f32 = 4.0;
 
 /// Share of the bias that is left where shadows are traced: enough for the snapping of corners and for rounding.
 const TRACED_BIAS: f32 = 1.0 / 32.0;
-
-/// Where light falls: [`POINTS`], [`LIFTED`] points and [`NORMALS`].
-pub type Places = [Block3; 3];
-/// Points, metres.
-pub const POINTS: usize = 0;
-/// The same on the smooth surface that the normals describe, where shadows are looked up: Lambert's cosine falls off with
-/// these normals, so faces of a coarse mesh must not lie in their own shadow `[Hanika21]`. A traced point is hidden if both
-/// its places are.
-pub const LIFTED: usize = 1;
-/// Unit normals.
-pub const NORMALS: usize = 2;
 
 /// Adds to `out` what a light gives to the first `count` places, without albedo.
 #[simd]

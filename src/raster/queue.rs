@@ -5,8 +5,18 @@
 
 use super::fill::SubPixel;
 use super::id::Id;
-use super::lighting::Places;
 use crate::simd::block::{BLOCK, Block3};
+
+/// Where light falls: [`POINTS`], [`LIFTED`] points and [`NORMALS`].
+pub type Places = [Block3; 3];
+/// Points, metres.
+pub const POINTS: usize = 0;
+/// The same on the smooth surface that the normals describe, where shadows are looked up: Lambert's cosine falls off with
+/// these normals, so faces of a coarse mesh must not lie in their own shadow `[Hanika21]`. A traced point is hidden if both
+/// its places are.
+pub const LIFTED: usize = 1;
+/// Unit normals.
+pub const NORMALS: usize = 2;
 
 /// Fragments of one texture, and the surfaces that they show once these are known.
 #[derive(Clone)]

@@ -6,8 +6,7 @@
 //! checked in f64 by `tests/raster/snow_cover.rs`.
 
 use super::light::Light;
-use super::lighting::POINTS;
-use super::queue::FragmentQueue;
+use super::queue::{FragmentQueue, POINTS};
 use crate::simd::block::{BLOCK, Block3, load, store};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
