@@ -41,8 +41,8 @@ pub struct RasterSettings {
     pub shadow_map: u32,
     /// Samples along each axis of every pixel: 1, or 8 for the reference. Above 1 it replaces `coverage`.
     pub grid: usize,
-    /// The light of many lights is interpolated between pixels of a triangle's row where it differs by less than this, of
-    /// the sum of both; 0 for never.
+    /// The light of three lights or more is interpolated between pixels of a triangle's row where it differs by less than
+    /// this, of the sum of both; 0 for never.
     pub threshold: f32,
 }
 

@@ -155,6 +155,7 @@ impl Model {
         let (at, [start, end, _]) = (self.position, self.code);
         self.class = !(at < self.primer || at >= start && at < end) as u32;
         let mut h = 0;
+        // Here and below in the forms that take the fewest bytes: an inclusive range asks twice whether it is at its end.
         for i in 1..MATCH_MIN + 1 {
             h = hash(h, self.back(i));
         }
@@ -255,7 +256,7 @@ impl Model {
                 put_words(at, &mut self.at[i]);
             }
             // SAFETY: all are within: `look_up` has taken the lines' numbers from LINE_BITS bits, `node` is below 16, the
-            // place below 64, a history is of eight bits, and the last group is just above.
+            // place below 64, a history is of eight bits, and the last group is just above, or 0 where it is not used.
             let slots = unsafe { gather(&self.cells, &self.at[i]) };
             let p = slot::centred(slots);
             put_words(slots, &mut self.slots[i]);
