@@ -119,7 +119,7 @@ impl Quality {
             grid: 1,
             light_samples: [16, 4],
         },
-        raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.1 },
+        raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.05 },
         cloud: CloudSettings {
             steps: 100,
             detail: 0.5,
