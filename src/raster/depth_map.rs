@@ -14,7 +14,7 @@ use crate::frame::Workers;
 use crate::simd::lanes::{Bits, F, M, U};
 use crate::simd::level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f32x4};
+use fearless_simd::{Simd, dispatch, f32x4, f32x8};
 use fearless_simd_macros::simd;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
@@ -156,18 +156,19 @@ impl DepthMap {
         tile.store_slice(&mut index[..lanes]);
         ((inner_top << 6) + inner_left).store_slice(&mut places[..lanes]);
         points.inv_depth.store_slice(&mut depths[..lanes]);
+        let mut window = [0.0; 16];
         for lane in Bits(points.inside.to_bitmask()) {
             let lane = lane & 15;
             let (tile, at) = (index[lane] as usize, places[lane] as usize);
             let plane = [planes[lane], slopes[lane]];
-            let mut window = [0.0; 16];
-            let (texels, stride) = if apart >> lane & 1 == 0 {
-                (&self.tile(simd, tile)[at..], Tile::SIZE)
+            let rows = if apart >> lane & 1 == 0 {
+                let texels = &self.tile(simd, tile)[at..][..3 * Tile::SIZE + 4];
+                pairs(simd, texels, Tile::SIZE)
             } else {
                 gather(simd, self, tile, at, &mut window);
-                (&window[..], 4)
+                pairs(simd, &window, 4)
             };
-            windows[lane] = passed(simd, texels, stride, depths[lane], plane);
+            windows[lane] = passed(simd, rows, depths[lane], plane);
         }
         let sums = if smooth {
             let windows = U::<S>::from_slice(simd, &windows[..lanes]);
@@ -203,32 +204,33 @@ fn draw<S: Simd>(simd: S, map: &DepthMap, index: usize) -> &[f32; Tile::AREA] {
 #[inline(never)]
 fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut [f32; 16]) {
     let (left, top) = (at % Tile::SIZE, at / Tile::SIZE);
+    let met = |x: usize, y: usize| {
+        let below = (top + y) / Tile::SIZE * (map.size / Tile::SIZE);
+        map.tile(simd, (tile + below + (left + x) / Tile::SIZE).min(map.tiles.len() - 1))
+    };
+    let tiles = [met(0, 0), met(3, 0), met(0, 3), met(3, 3)];
     for (i, texel) in window.iter_mut().enumerate() {
         let (x, y) = (left + i % 4, top + i / 4);
-        let below = if y < Tile::SIZE { 0 } else { map.size / Tile::SIZE };
-        let tile = (tile + below + x / Tile::SIZE).min(map.tiles.len() - 1);
-        *texel = map.tile(simd, tile)[y % Tile::SIZE * Tile::SIZE + x % Tile::SIZE];
+        let tile = tiles[(y / Tile::SIZE * 2 + x / Tile::SIZE) & 3];
+        *texel = tile[y % Tile::SIZE * Tile::SIZE + x % Tile::SIZE];
     }
 }
 
-/// Which texels of a window of 4x4 are not nearer than a point, or than a plane: a bit for each, from the lowest on row by
-/// row. Rows of `texels` are `stride` apart. The plane is given by its depth at the first row, and by what it grows by from
-/// row to row.
+/// The rows of a window of 4x4 texels in pairs; in `texels` they are `stride` apart.
 #[inline(always)]
-fn passed<S: Simd>(simd: S, texels: &[f32], stride: usize, inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
-    let mut plane = f32x4::splat(simd, first).combine(f32x4::splat(simd, first + below));
-    // Cut to what is read, so that its length is looked at once.
-    let texels = &texels[..3 * stride + 4];
-    let mut lit = 0;
-    let mut k = 0;
-    while k < 4 {
-        let row = f32x4::from_slice(simd, &texels[k * stride..][..4]);
-        let rows = row.combine(f32x4::from_slice(simd, &texels[(k + 1) * stride..][..4]));
-        lit |= (rows.simd_le(plane.max(inv_depth)).to_bitmask() as u32) << (4 * k);
-        plane += below + below;
-        k += 2;
-    }
-    lit
+fn pairs<S: Simd>(simd: S, texels: &[f32], stride: usize) -> [f32x8<S>; 2] {
+    let row = |k: usize| f32x4::from_slice(simd, &texels[k * stride..][..4]);
+    [row(0).combine(row(1)), row(2).combine(row(3))]
+}
+
+/// Which texels of a window of 4x4 are not nearer than a point, or than a plane: a bit for each, from the lowest on row by
+/// row. The plane is given by its depth at the first row, and by what it grows by from row to row.
+#[inline(always)]
+fn passed<S: Simd>(simd: S, [upper, lower]: [f32x8<S>; 2], inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
+    let plane = f32x4::splat(simd, first).combine(f32x4::splat(simd, first + below));
+    let upper = upper.simd_le(plane.max(inv_depth)).to_bitmask() as u32;
+    let lower = lower.simd_le((plane + (below + below)).max(inv_depth)).to_bitmask() as u32;
+    lower << 8 | upper
 }
 
 /// Areas of lit texels in windows of 3x3 that begin at (`fx`, `fy`) in the first of 4x4 texels, of which a bit tells

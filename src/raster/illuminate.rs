@@ -47,10 +47,11 @@ pub fn illuminate<S: Simd>(simd: S, context: &ShadeContext, queue: &mut Fragment
     }
     while wanted != 0 {
         let all = wanted == u64::MAX;
-        let (mut places, mut light) = ([[[0.0; BLOCK]; 3]; 3], [[0.0; BLOCK]; 3]);
+        let (places, light) = &mut queue.some;
         let mut count = BLOCK;
         if !all {
             count = 0;
+            *light = [[0.0; BLOCK]; 3];
             for i in Bits(wanted) {
                 for (some, all) in places.as_flattened_mut().iter_mut().zip(queue.places.as_flattened()) {
                     some[count] = all[i];
@@ -60,7 +61,7 @@ pub fn illuminate<S: Simd>(simd: S, context: &ShadeContext, queue: &mut Fragment
         }
         for lit in world.lights.iter().zip(lookups) {
             if lit.0.meets(simd, low, high) {
-                let (places, out) = if all { (&queue.places, &mut queue.light) } else { (&places, &mut light) };
+                let (places, out) = if all { (&queue.places, &mut queue.light) } else { (&*places, &mut *light) };
                 shine(simd, context, lit, places, count, out);
             }
         }

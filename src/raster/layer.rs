@@ -86,9 +86,9 @@ impl RasterLayer {
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
         let ids = raster.bins.of(tile.x / Tile::SIZE, tile.y / Tile::SIZE);
+        // Fragments are added to both planes, whether or not layers follow.
+        tile.solids_matter = true;
         tile.clear();
-        tile.coverage.fill(0.0);
-        tile.inv_depth.fill(0.0);
         let share = 1.0 / (grid * grid * count as u32) as f32;
         let threshold = settings.built().threshold;
         let context = ShadeContext { world, lookups, raster, view, share, threshold };

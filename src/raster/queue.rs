@@ -42,6 +42,8 @@ pub struct FragmentQueue {
     pub(super) inv_depth: [f32; BLOCK],
     /// Share of the pixel that the fragment covers.
     pub(super) weight: [f32; BLOCK],
+    /// Where light falls on some of the fragments, and the light there.
+    pub(super) some: (Places, Block3),
 }
 
 impl FragmentQueue {
@@ -57,6 +59,7 @@ impl FragmentQueue {
         gloss: [0.0; BLOCK],
         inv_depth: [0.0; BLOCK],
         weight: [0.0; BLOCK],
+        some: ([[[0.0; BLOCK]; 3]; 3], [[0.0; BLOCK]; 3]),
     };
 }
 
