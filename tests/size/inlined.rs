@@ -18,8 +18,11 @@ const KERNEL: &[u8] = b"__FearlessDispatch";
 #[ignore = "long: run by .ci/run"]
 fn no_lane_operation_of_the_plain_build_is_a_call() {
     // The release build with its names, beside it.
-    let profile = ["--config", "profile.symbols.inherits=\"release\"", "--config", "profile.symbols.strip=false"];
-    let built = cargo(&[&["build", "--bin", "paprsek", "--profile", "symbols"], &profile[..]].concat());
+    let mut words = vec!["build", "--bin", "paprsek", "--profile", "symbols"];
+    let settings = ["inherits=\"release\"", "strip=false", "package.paprsek.strip=false"];
+    let settings = settings.map(|setting| format!("profile.symbols.{setting}"));
+    words.extend(settings.iter().flat_map(|setting| ["--config", setting]));
+    let built = cargo(&words);
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     let program = fs::read(target().join("symbols/paprsek")).unwrap();
     let count = |name: &[u8]| program.windows(name.len()).filter(|bytes| *bytes == name).count();
