@@ -14,6 +14,7 @@ mod imposters;
 mod levels;
 mod lights;
 mod likeness;
+mod limits;
 mod machine;
 mod metrics;
 mod not_modelled;
@@ -24,6 +25,7 @@ mod plot;
 mod program;
 mod proof;
 mod quality;
+mod roofline;
 mod samples;
 mod shadows;
 mod show;
@@ -34,7 +36,7 @@ mod worst;
 
 use clap::{Parser, Subcommand};
 use options::{Common, Quick, Result};
-use program::{intro_speed, opt_level, pace, start};
+use program::{beside, intro_speed, opt_level, pace, start};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -61,6 +63,8 @@ enum Measurement {
     Lights(Common),
     /// Frames per second against flakes and fires, and the limits of memory and arithmetic.
     Particles(Common),
+    /// What kernels and parts of the show reach of the machine's arithmetic and memory.
+    Roofline(roofline::Options),
     /// Clouds as pictures that are kept, against rays in every frame.
     Imposters(imposters::Options),
     /// The computed sky: contact sheets, and error against milliseconds.
@@ -76,6 +80,8 @@ enum Measurement {
     Stills(stills::Options),
     /// What the release profile costs: speed beside a build at `opt-level = 3` throughout.
     OptLevel(opt_level::Options),
+    /// This commit beside the executable of another one: speed and error of the show and of the bench scenes.
+    Beside(beside::Options),
     /// What packing costs: the intro's speed beside the plain build's, and its time to unpack.
     IntroSpeed(intro_speed::Options),
     /// Frames per second of the packed intro as it plays in a window.
@@ -117,6 +123,7 @@ fn run(measurement: Measurement) -> Result {
         Measurement::Shadows(options) => shadows::run(&options),
         Measurement::Lights(options) => lights::run(&options),
         Measurement::Particles(options) => particles::run(&options),
+        Measurement::Roofline(options) => roofline::run(&options),
         Measurement::Imposters(options) => imposters::run(&options),
         Measurement::Dome(what) => dome::run(&what),
         Measurement::CloudLight(options) => cloud_light::run(&options),
@@ -124,6 +131,7 @@ fn run(measurement: Measurement) -> Result {
         Measurement::Samples(options) => samples::run(&options),
         Measurement::Stills(options) => stills::run(&options),
         Measurement::OptLevel(options) => opt_level::run(&options),
+        Measurement::Beside(options) => beside::run(&options),
         Measurement::IntroSpeed(options) => intro_speed::run(&options),
         Measurement::Pace(options) => pace::run(&options),
         Measurement::Start(options) => start::run(&options),

@@ -4,7 +4,6 @@
 
 mod detail;
 mod fire;
-mod limits;
 mod motion;
 mod snow;
 

@@ -1,7 +1,7 @@
 //! Particles per second of motion alone, beside what memory and arithmetic allow.
 
-use super::limits::{self, NUMBERS};
 use super::{SIZE, START, STEP, THREADS, camera};
+use crate::limits::{self, NUMBERS};
 use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{Vec3, vec3};

@@ -3,6 +3,7 @@
 //! These measurements build programs with cargo and time them as processes, so they see what a user sees. They need a
 //! checkout with cargo in the path; those with a window need `Xvfb` as well.
 
+pub mod beside;
 pub mod intro_speed;
 pub mod opt_level;
 pub mod pace;

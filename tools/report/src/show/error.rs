@@ -20,7 +20,7 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
         likeness::head(),
     );
     for part in parts {
-        let instants = instants(part, effort.piece);
+        let instants: Vec<_> = part.instants(effort.piece).collect();
         let mut compare = |at: &f64| {
             let [ours, truth] =
                 [Quality::DEFAULT, Quality::REFERENCE].map(|quality| render(renderer, effort.compared, *at, &quality));
@@ -34,15 +34,4 @@ pub fn report(renderer: &mut Renderer, parts: &[Part], effort: &Effort) -> Strin
         eprintln!("{}: compared", part.name());
     }
     text
-}
-
-/// The middles of a part's shots, seconds. Longer shots are cut into equal pieces of at most `piece` seconds.
-fn instants(part: &Part, piece: f64) -> Vec<f64> {
-    let mut instants = Vec::new();
-    for shot in part.shots() {
-        let length = shot.end - shot.start;
-        let pieces = (length / piece).ceil();
-        instants.extend((0..pieces as usize).map(|k| shot.start + length * (k as f64 + 0.5) / pieces));
-    }
-    instants
 }

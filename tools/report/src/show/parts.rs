@@ -65,6 +65,15 @@ impl Part {
         let edges: Vec<_> = [self.seconds.start].into_iter().chain(inside).chain([self.seconds.end]).collect();
         edges.windows(2).map(|pair| pair[0]..pair[1]).collect()
     }
+
+    /// The middles of its shots, seconds. Longer shots are cut into equal pieces of at most `piece` seconds.
+    pub fn instants(&self, piece: f64) -> impl Iterator<Item = f64> {
+        self.shots().into_iter().flat_map(move |shot| {
+            let length = shot.end - shot.start;
+            let pieces = (length / piece).ceil();
+            (0..pieces as usize).map(move |k| shot.start + length * (k as f64 + 0.5) / pieces)
+        })
+    }
 }
 
 /// Whether the show has its full light, and does not fade to a cut or from it.

@@ -16,6 +16,10 @@ const CHAINS: usize = 6;
 /// The number of steps of each chain in a job, and the number of jobs.
 const STEPS: usize = 1 << 18;
 const JOBS: usize = 64;
+/// Bytes that are read of a cache in one round.
+const READ: usize = 1 << 29;
+/// Turns of a word in one measurement of the clock.
+const TURNS: usize = 1 << 26;
 
 /// The sum of a piece, which reads it once.
 #[inline(always)]
@@ -96,4 +100,25 @@ pub fn arithmetic(renderer: &Renderer, level: Level, rounds: usize) -> f64 {
         });
     });
     (JOBS * STEPS * 2 * CHAINS) as f64 / seconds
+}
+
+/// Bytes per second that one thread reads of a piece of memory of so many bytes, again and again.
+pub fn bandwidth(level: Level, bytes: usize, rounds: usize) -> f64 {
+    let numbers = vec![1.0f32; bytes / size_of::<f32>()];
+    let times = READ / bytes;
+    let seconds = best(rounds, || {
+        for _ in 0..times {
+            black_box(dispatch!(level, simd => sum(simd, black_box(&numbers))));
+        }
+    });
+    (bytes * times) as f64 / seconds
+}
+
+/// Cycles per second: a turn of a word and what is added to it take one each, and each waits for the one before.
+pub fn clock(rounds: usize) -> f64 {
+    let step = black_box(0x9e37_79b9_u64);
+    let seconds = best(rounds, || {
+        black_box((0..TURNS).fold(black_box(1_u64), |word, _| word.rotate_left(5).wrapping_add(step)));
+    });
+    (2 * TURNS) as f64 / seconds
 }
