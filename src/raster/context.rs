@@ -21,6 +21,8 @@ pub struct ShadeContext<'a> {
     pub view: &'a View,
     /// Share of its pixel that a sample stands for.
     pub share: f32,
+    /// The angle that textures are averaged over, radians: of a pixel, or of a cell of the grid in it.
+    pub pixel: f32,
     /// [`RasterSettings::threshold`](crate::settings::RasterSettings::threshold).
     pub threshold: f32,
 }

@@ -91,7 +91,8 @@ impl RasterLayer {
         tile.clear();
         let share = 1.0 / (grid * grid * count as u32) as f32;
         let threshold = settings.built().threshold;
-        let context = ShadeContext { world, lookups, raster, view, share, threshold };
+        let pixel = view.pixel() / grid as f32;
+        let context = ShadeContext { world, lookups, raster, view, share, pixel, threshold };
         let mut fragments = 0;
         if !ids.is_empty() {
             for pass in 0..grid * grid {

@@ -105,7 +105,7 @@ fn count_noise(texture: &Texture, count: usize, queue: &FragmentQueue, tile: &mu
 #[simd]
 #[inline(never)] // Apart, the stages have fewer numbers to keep in registers at a time.
 fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mut FragmentQueue) {
-    let ShadeContext { world, raster, view, .. } = *context;
+    let ShadeContext { world, raster, view, pixel, .. } = *context;
     let one = F::<S>::splat(simd, 1.0);
     let eye = view.camera().eye;
     let mut i = 0;
@@ -125,7 +125,7 @@ fn find<S: Simd>(simd: S, context: &ShadeContext, corner: [usize; 2], queue: &mu
         // The pixel on the surface is longer than wide by 1 / cosine: the geometric mean of both.
         let stretch = one / cosine.max(F::<S>::splat(simd, 0.04)).sqrt();
         let ambient = V3::splat(simd, world.ambient[0]) + V3::splat(simd, world.ambient[1]) * Lane(n.y);
-        store(far * stretch * view.pixel(), &mut queue.footprint, i);
+        store(far * stretch * pixel, &mut queue.footprint, i);
         p.store(&mut queue.places[POINTS], i);
         (p + n * Lane(bulge)).store(&mut queue.places[LIFTED], i);
         n.store(&mut queue.places[NORMALS], i);

@@ -67,7 +67,8 @@ fn spot(camera: &Camera, pixel: usize, normal: DVec3) -> Spot {
     let sum: f64 = (0..octaves)
         .map(|k| {
             let zoom = GRAIN.turn.x_axis.x as f64 * 2f64.powi(k as i32);
-            let fade = 1.0 / (1.0 + 0.3 * (footprint * zoom).powi(2));
+            let square = (footprint * zoom).powi(2);
+            let fade = 1.0 / (1.0 + 0.4 * square + 0.1 * square * square);
             0.5f64.powi(k as i32 + 1) * noise((point * zoom).as_vec3()) as f64 * fade
         })
         .sum();

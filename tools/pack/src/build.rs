@@ -38,6 +38,7 @@ const SETTINGS: &[&str] = &[
     "profile.release.debug='line-tables-only'",
     // As fast as 3 for half of its bytes, see ARCHITECTURE.md.
     "profile.release.package.paprsek.opt-level=2",
+    "profile.release.package.paprsek.strip=false",
 ];
 
 /// Flags of the renderer and the executable: kernels say themselves what is inlined.

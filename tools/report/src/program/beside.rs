@@ -1,5 +1,5 @@
-//! This commit beside another one, whose executable was kept: frames per second of every second of the show and of the bench
-//! scenes, timed in turn, and the error of both, each against its own reference. Writes `beside.md`.
+//! This commit beside another one, whose executable was kept: frames per second of the show, second by second, and of the
+//! bench scenes, timed in turn, and the error of both, each against its own reference. Writes `beside.md`.
 
 use super::{build, target};
 use crate::likeness;
@@ -54,7 +54,7 @@ pub fn run(options: &Options) -> Result {
     let pair = if *quick {
         Pair { programs, levels, timed: "160x90", compared: (64, 36), every: 15, rounds: 1, piece: 60.0 }
     } else {
-        Pair { programs, levels, timed: "1280x720", compared: (640, 360), every: 1, rounds: 3, piece: 10.0 }
+        Pair { programs, levels, timed: "1280x720", compared: (640, 360), every: 2, rounds: 3, piece: 10.0 }
     };
     let heads = pair.levels.iter().flat_map(|level| {
         [format!("fps at {level}, {}", options.name), "now".into(), "times as fast".into(), "slowest, times".into()]
@@ -74,8 +74,8 @@ pub fn run(options: &Options) -> Result {
          Written by `{} EXECUTABLE`; not edited by hand.\n\n\
          {}; {}, 2 threads. {} and this commit in turn, each by its own `--bench`.\n\n\
          ## The show\n\n\
-         At `default`. Of each second of a part the median of its frames per second, and of these the median; in brackets \
-         the slowest hundredth of the slowest second. Ratios are those of the medians, and of the slowest. Error: of \
+         At `default`. Every {} s a second of a part is timed: medians of their medians of frames per second, and in \
+         brackets the slowest hundredth of the slowest. Ratios are those of the medians, and of the slowest. Error: of \
          `default` to `reference`, each build's own, at {}x{}, in the middle of each shot; shots longer than {} s are cut \
          into equal pieces.\n\n{}",
         options.name,
@@ -83,6 +83,7 @@ pub fn run(options: &Options) -> Result {
         machine::machine(),
         pair.timed,
         options.name,
+        pair.every,
         pair.compared.0,
         pair.compared.1,
         pair.piece,

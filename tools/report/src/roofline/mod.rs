@@ -36,6 +36,8 @@ const SMALL: (usize, usize) = (160, 90);
 const LEVEL: &str = "avx2";
 /// Frames that are timed, after the first.
 const TIMES: usize = 4;
+/// The most operations per byte that the figure shows.
+const MOST: f64 = 1000.0;
 /// Bytes of the pieces that are read again and again: within the first cache and within the second.
 const PIECES: [usize; 2] = [1 << 14, 1 << 18];
 
@@ -168,11 +170,13 @@ fn draw(path: &Path, peak: &Peak, rows: &[Row]) -> Result {
         let point = |intensity: f64| (intensity, (intensity * bytes).min(8.0 * peak.arithmetic) / 1e9, String::new());
         // The line bends where bandwidth is enough for all arithmetic.
         let bend = 8.0 * peak.arithmetic / bytes;
-        Curve { name: name.into(), points: [0.25, bend, 1000.0].map(point).into() }
+        Curve { name: name.into(), points: [0.25, bend, MOST].map(point).into() }
     };
     let mut curves = vec![roof("second cache", peak.bytes[1]), roof("memory", peak.bytes[2])];
     curves.extend(rows.iter().map(|Row { work, count, seconds }| {
-        let point = (count.operations / count.beyond[0], count.operations / seconds / 1e9, work.name.into());
+        // Nothing comes from beyond for noise, of whose points a block is in use at a time.
+        let intensity = (count.operations / count.beyond[0].max(1.0)).min(MOST);
+        let point = (intensity, count.operations / seconds / 1e9, work.name.into());
         Curve { name: work.name.into(), points: vec![point] }
     }));
     let axes = [
