@@ -11,7 +11,7 @@ use std::path::Path;
 const STYLE: &str = include_str!("report.css");
 
 /// The pages in reading order, by their files in the report's folder, with their titles in the table of contents.
-const PAGES: [(&str, &str); 12] = [
+const PAGES: [(&str, &str); 14] = [
     ("unseen.md", "Default quality, instants not tuned on"),
     ("fronts.md", "Fronts, with peers"),
     ("report.md", "Every knob"),
@@ -19,6 +19,8 @@ const PAGES: [(&str, &str); 12] = [
     ("not-modelled.md", "What is not modelled"),
     ("levels.md", "Every SIMD level"),
     ("show.md", "The show, part by part"),
+    ("beside.md", "Beside an earlier commit"),
+    ("roofline.md", "Roofline"),
     ("shadows.md", "Shadow maps"),
     ("lights.md", "Objects and lights"),
     ("particles.md", "Particles"),

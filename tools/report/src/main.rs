@@ -100,7 +100,7 @@ enum Measurement {
     NotModelled(Common),
     /// One report: knobs, fronts, instants not tuned on, films and what is not modelled, and one HTML file of all pages.
     Proof(proof::Options),
-    /// Everything that draws by itself: all but the four that build and play programs.
+    /// Everything that draws by itself: all but what builds, plays or counts programs.
     All(Common),
 }
 
