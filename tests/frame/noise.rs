@@ -2,7 +2,7 @@
 
 use fearless_simd::dispatch;
 use glam::Vec3;
-use paprsek::noise::{fbm, noise, noise_block, octaves_block, turbulence};
+use paprsek::noise::{Footprint, fbm, noise, noise_block, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
 use proptest::prelude::*;
 use testkit::perlin::{exact, exact_at};
@@ -240,5 +240,57 @@ proptest! {
     #[test]
     fn any_bits_are_survived(bits: [[u32; 3]; BLOCK]) {
         check_levels(&bits.map(|p| Vec3::from_array(p.map(f32::from_bits))));
+    }
+}
+
+/// A unit vector of any direction.
+fn direction(random: &mut Random) -> Vec3 {
+    loop {
+        let v = random.within(1.0);
+        if v.length_squared() > 0.01 && v.length_squared() < 1.0 {
+            return v.normalize();
+        }
+    }
+}
+
+#[test]
+fn an_octave_fades_as_its_mean_over_the_footprint_does() {
+    const SQUARES: usize = 40 * BLOCK;
+    let mut random = Random(7);
+    for length in [0.25f32, 0.5, 1.0, 1.5, 2.0, 3.0, 3.9] {
+        let (mut together, mut alone, mut ours) = (0.0, 0.0, 0.0);
+        for _ in 0..SQUARES / BLOCK {
+            let mut points = [[0.0; BLOCK]; 3];
+            let mut means = [0.0; BLOCK];
+            for (i, mean) in means.iter_mut().enumerate() {
+                let (middle, a) = (random.within(100.0), direction(&mut random));
+                let b = a.cross(direction(&mut random)).normalize();
+                let count = 8.max((4.0 * length) as usize);
+                let place = |k: usize| ((k as f32 + 0.5) / count as f32 - 0.5) * length;
+                for k in 0..count * count {
+                    *mean +=
+                        noise(middle + a * place(k % count) + b * place(k / count)) as f64 / (count * count) as f64;
+                }
+                for axis in 0..3 {
+                    points[axis][i] = middle[axis];
+                }
+            }
+            let (mut lost, mut out) = ([0.0; BLOCK], [0.0; BLOCK]);
+            let lengths = [length; BLOCK];
+            let mut footprint = Some(Footprint { length: &lengths, lost: &mut lost });
+            let [x, y, z] = &points;
+            dispatch!(testkit::levels()[0].1, simd => octaves_block(simd, [x, y, z], 1, false, BLOCK, footprint.take(), &mut out));
+            for i in 0..BLOCK {
+                let here = noise(Vec3::from_array([0, 1, 2].map(|axis| points[axis][i]))) as f64;
+                together += here * means[i];
+                alone += here * here;
+                // The first octave has an amplitude of a half.
+                ours += here * 2.0 * out[i] as f64;
+            }
+        }
+        // The best linear predictor of the mean keeps this of the noise in the middle.
+        let (best, keeps) = (together / alone, ours / alone);
+        println!("{length}: keeps {keeps:.3}, the best predictor {best:.3}");
+        assert!((-0.03..0.13).contains(&(keeps - best)), "{length}: {keeps} instead of {best}");
     }
 }
