@@ -29,7 +29,7 @@ fn told(layer: &dyn Layer, aspect: Aspect, renderer: &Renderer, (width, height):
 }
 
 /// Seen straight from above, every pixel of a level ground is as long as the next: octaves of cells that are less than a
-/// tenth of it are not evaluated, and without a filter all are.
+/// quarter of it are not evaluated, and without a filter all are.
 #[test]
 fn octaves_are_those_that_the_pixel_is_worth() {
     const OCTAVES: u32 = 6;
@@ -37,12 +37,12 @@ fn octaves_are_those_that_the_pixel_is_worth() {
     let pattern = Pattern::Clouds { octaves: OCTAVES };
     let texture = Texture::new(pattern, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
     let mut renderer = Renderer::new(1).unwrap();
-    for (height, worth) in [(10.0, 6), (100.0, 5), (200.0, 4), (800.0, 2), (1500.0, 1), (5000.0, 0)] {
+    for (height, worth) in [(10.0, 6), (40.0, 5), (80.0, 4), (200.0, 2), (600.0, 1), (5000.0, 0)] {
         let camera = Camera::look_at(vec3(0.0, height, 0.0), Vec3::ZERO, 0.5, 0.0);
         let view = View::new(camera, size.0, size.1);
         // A pixel is 2 tan(fov / 2) / rows of the height long.
         let length = f64::from(height) * 2.0 * 0.25f64.tan() / size.1 as f64;
-        assert_eq!((0..OCTAVES).filter(|k| length * 2f64.powi(*k as i32) < 10.0).count(), worth);
+        assert_eq!((0..OCTAVES).filter(|k| length * 2f64.powi(*k as i32) < 4.0).count(), worth);
         let ground = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
         let world = World { ambient: Vec3::ONE, ..World::new(vec![Object::new(ground, Material::matte(texture))]) };
         let far = 3.0 * height;
