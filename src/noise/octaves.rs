@@ -4,8 +4,8 @@
 //! at one point, or it shimmers. So each octave may fade with the length `L` of the footprint, in the octave's own
 //! cells, by `1 / (1 + 0.4 L^2 + 0.1 L^4)`.
 //!
-//! The best linear predictor of the mean over a square of side `L` keeps 0.87, 0.58, 0.32, 0.16 and 0.07 at 0.5, 1, 1.5, 2
-//! and 3 (1,500 squares in random planes), within 0.02 of `1 / (1 + 0.5 L^2 + 0.2 L^4)`. This keeps up to 0.1 more, as
+//! The best linear predictor of the mean over a square of side `L` keeps 0.87, 0.59, 0.32, 0.16 and 0.05 at 0.5, 1, 1.5, 2
+//! and 3 (`tests/frame/noise.rs`), within 0.02 of `1 / (1 + 0.5 L^2 + 0.2 L^4)`. This keeps up to 0.1 more, as
 //! waves of marble and wood follow the noise, and their own damping fades them once more.
 
 use super::wide;

@@ -1,7 +1,7 @@
 //! This commit beside another one, whose executable was kept: frames per second of the show, second by second, and of the
 //! bench scenes, timed in turn, and the error of both, each against its own reference. Writes `beside.md`.
 
-use super::{build, target};
+use super::{build, output, target};
 use crate::likeness;
 use crate::machine;
 use crate::options::{Common, Result};
@@ -195,10 +195,4 @@ fn row(text: &mut String, name: &str, levels: &[Speeds], errors: [Vec<Difference
         write!(text, " | {}", likeness::columns(&error))?;
     }
     Ok(writeln!(text, " |")?)
-}
-
-/// What a command prints.
-fn output(command: &mut Command) -> Result<Vec<u8>> {
-    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
-    if output.status.success() { Ok(output.stdout) } else { Err(format!("{command:?}: {}", output.status).into()) }
 }

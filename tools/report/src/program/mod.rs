@@ -25,6 +25,15 @@ fn run(command: &mut Command) -> Result {
     if status.success() { Ok(()) } else { Err(format!("{command:?}: {status}").into()) }
 }
 
+/// What a command prints.
+pub fn output(command: &mut Command) -> Result<Vec<u8>> {
+    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+    if output.status.success() {
+        return Ok(output.stdout);
+    }
+    Err(format!("{command:?}: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr)).into())
+}
+
 /// The release build of the executable, in cargo's own folder or another with other settings.
 fn build(folder: &Path, settings: &[(&str, &str)]) -> Result<PathBuf> {
     let mut cargo = Command::new("cargo");

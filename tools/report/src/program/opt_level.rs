@@ -1,7 +1,7 @@
 //! What the release profile costs in speed: it optimises all but the renderer for size. Frames per second of the release
 //! build over those of a build with `opt-level = 3` throughout, timed in turn.
 
-use super::{build, target};
+use super::{build, output, target};
 use crate::options::Result;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -20,12 +20,8 @@ pub struct Options {
 /// The benchmark's frames per second by scene and quality.
 fn bench(program: &Path, quality: &str) -> Result<Vec<((String, String), f64)>> {
     let words = ["--bench", "--json", "--threads", "2", "--quality", quality, "--from", "2", "--to", "4"];
-    let output = Command::new(program).args(words).output()?;
-    if !output.status.success() {
-        return Err(format!("{}: {}", program.display(), output.status).into());
-    }
     let mut rows = Vec::new();
-    for line in String::from_utf8(output.stdout)?.lines() {
+    for line in String::from_utf8(output(Command::new(program).args(words))?)?.lines() {
         let row: Value = serde_json::from_str(line)?;
         let text = |name: &str| row[name].as_str().map(String::from).ok_or(format!("a row without {name}"));
         rows.push(((text("scene")?, text("quality")?), row["fps_median"].as_f64().ok_or("a row without fps_median")?));

@@ -5,6 +5,7 @@
 //! twice, with fewer and with more repetitions, and their difference counts.
 
 use crate::options::Result;
+use crate::program::output;
 use std::collections::HashMap;
 use std::ops::{AddAssign, Sub};
 use std::path::Path;
@@ -74,6 +75,7 @@ pub type Listing = HashMap<u64, Count>;
 /// The instructions of a program's file.
 pub fn listing(program: &Path) -> Result<Listing> {
     let text = output(Command::new("objdump").args(["-d", "-M", "intel", "--no-show-raw-insn"]).arg(program))?;
+    let text = String::from_utf8(text)?;
     let line = |line: &str| {
         let (address, instruction) = line.split_once(":\t")?;
         Some((u64::from_str_radix(address.trim(), 16).ok()?, classify(instruction)))
@@ -162,13 +164,4 @@ pub fn count(program: &Path, words: &[&str], listing: &Listing) -> Result<Count>
         }
     }
     if met { Ok(sum) } else { Err(format!("none of the instructions is one of {own}: has it no symbols?").into()) }
-}
-
-/// What a command prints.
-fn output(command: &mut Command) -> Result<String> {
-    let output = command.output().map_err(|error| format!("{:?}: {error}", command.get_program()))?;
-    if !output.status.success() {
-        return Err(format!("{command:?}: {}\n{}", output.status, String::from_utf8_lossy(&output.stderr)).into());
-    }
-    Ok(String::from_utf8(output.stdout)?)
 }
