@@ -16,9 +16,9 @@ use super::world::CloudLight;
 use crate::frame::Tile;
 use crate::settings::CloudSettings;
 use crate::simd::block::{BLOCK, load, store};
-use crate::simd::lanes::{Bits, F, Lane, STEPS, U, V3, float};
+use crate::simd::lanes::{Bits, F, Lane, V3};
 use crate::simd::math::to_f32;
-use fearless_simd::{Level, dispatch, prelude::*};
+use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use fearless_simd_macros::simd;
 use glam::Vec3;
 
@@ -52,8 +52,8 @@ struct Lattice<'a> {
     planes: &'a mut Planes,
     /// Whether a ray has been cast through the point, or is to be.
     known: Vec<bool>,
-    /// Edge of the cell whose top left corner the point is, pixels.
-    sizes: Vec<u8>,
+    /// The top left corners of all cells of the size that is next.
+    cells: Vec<usize>,
     /// Points through which rays are to be cast.
     wanted: Vec<usize>,
 }
@@ -152,27 +152,27 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
     // The smallest cells to be interpolated, of two pixels, may be off by the threshold. An error of a larger cell shows in
     // more pixels, and the rays of a smaller one cost as much: the larger, the less is allowed.
     let mut allowed = threshold * 2.0 / to_f32(size);
-    let points = planes[0].len();
-    let (known, sizes) = (vec![false; points], vec![size as u8; points]);
-    let mut lattice = Lattice { planes, known, sizes, wanted: Vec::new() };
+    let known = vec![false; planes[0].len()];
+    let mut lattice = Lattice { planes, known, cells: Vec::new(), wanted: Vec::new() };
+    for y in (0..tile.height).step_by(size) {
+        for x in (0..tile.width).step_by(size) {
+            lattice.cells.push(x + y * ROW);
+        }
+    }
     loop {
+        let cells = std::mem::take(&mut lattice.cells);
         for pass in 0..3 {
-            for y in (0..tile.height).step_by(size) {
-                for x in (0..tile.width).step_by(size) {
-                    let cell = Cell { at: x + y * ROW, size };
-                    if lattice.sizes[cell.at] as usize != size {
-                        continue;
-                    }
-                    match pass {
-                        0 if size == 1 => lattice.want(cell.at),
-                        0 => {
-                            for corner in cell.corners() {
-                                lattice.want(corner);
-                            }
+            for &at in &cells {
+                let cell = Cell { at, size };
+                match pass {
+                    0 if size == 1 => lattice.want(at),
+                    0 => {
+                        for corner in cell.corners() {
+                            lattice.want(corner);
                         }
-                        1 => lattice.want(cell.middle()),
-                        _ => lattice.fill_or_cut(simd, cell, allowed),
                     }
+                    1 => lattice.want(cell.middle()),
+                    _ => lattice.fill_or_cut(simd, tile, cell, allowed),
                 }
             }
             cast(simd, clouds, near, tile, &lattice.wanted, false, lattice.planes);
@@ -196,7 +196,7 @@ impl Lattice<'_> {
 
     /// Interpolates a cell where its middle is off by at most `allowed`; cuts it into four otherwise.
     #[inline(always)]
-    fn fill_or_cut<S: Simd>(&mut self, simd: S, cell: Cell, allowed: f32) {
+    fn fill_or_cut<S: Simd>(&mut self, simd: S, tile: &Tile, cell: Cell, allowed: f32) {
         let Cell { at, size } = cell;
         let (corners, middle) = (cell.corners(), cell.middle());
         let mut error = 0.0f32;
@@ -206,7 +206,10 @@ impl Lattice<'_> {
         }
         if error > allowed {
             for part in [at, at + size / 2, middle - size / 2, middle] {
-                self.sizes[part] = size as u8 / 2;
+                // Not those beyond the picture's end.
+                if part % ROW < tile.width && part / ROW < tile.height {
+                    self.cells.push(part);
+                }
             }
         } else {
             self.fill(simd, cell);
@@ -217,23 +220,38 @@ impl Lattice<'_> {
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, cell: Cell) {
         let Cell { at, size } = cell;
-        let lanes = F::<S>::LEN;
         let share = 1.0 / to_f32(size);
-        let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
         let far = cell.corners().map(|corner| self.planes[END][corner]).into_iter().fold(0.0, f32::max);
         for (k, plane) in self.planes.iter_mut().enumerate() {
-            let [a, b, c, d] = if k == END { [far; 4] } else { cell.corners().map(|corner| plane[corner]) };
-            for x in (0..size).step_by(lanes) {
-                let place = steps + to_f32(x);
-                let (u, inside) = (place * share, place.simd_lt(to_f32(size)));
-                let (above, below) = (u * (b - a) + a, u * (d - c) + c);
-                for y in 0..size {
-                    let points = &mut plane[at + x + y * ROW..][..lanes];
-                    let value = above + (below - above) * (to_f32(y) * share);
-                    inside.select(value, F::<S>::from_slice(simd, points)).store_slice(points);
+            let corners = if k == END { [far; 4] } else { cell.corners().map(|corner| plane[corner]) };
+            for y in 0..size {
+                let row = &mut plane[at + y * ROW..][..size];
+                let down = to_f32(y) * share;
+                // What is written is a cell's width and no more: vectors that hang over would have to read what the cell
+                // before has just written, and wait for it.
+                if size >= 4 {
+                    between(simd, corners, share, down, row);
+                } else {
+                    let [a, b, c, d] = corners;
+                    let (above, below) = ((b - a) * share + a, (d - c) * share + c);
+                    row[0] = a + (c - a) * down;
+                    row[1] = above + (below - above) * down;
                 }
             }
         }
+    }
+}
+
+/// Fills a row of a cell, some way `down` from its upper to its lower edge, by bilinear interpolation between its corners.
+/// Its points are a `share` of its edge apart, and fill whole vectors.
+#[inline(always)]
+fn between<S: Simd>(simd: S, [a, b, c, d]: [f32; 4], share: f32, down: f32, row: &mut [f32]) {
+    let mut place = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]);
+    for row in row.as_chunks_mut::<4>().0 {
+        let u = place * share;
+        let (above, below) = (u * (b - a) + a, u * (d - c) + c);
+        (above + (below - above) * down).store_slice(row);
+        place += 4.0;
     }
 }
 

@@ -8,6 +8,7 @@ use super::voxels::Voxels;
 use super::world::Cloud;
 use crate::angle;
 use crate::simd::hash::rnd;
+use crate::simd::math::to_f32;
 use glam::{Vec2, Vec3, vec3};
 use std::sync::Arc;
 
@@ -63,7 +64,7 @@ impl CloudField {
                 let away = Vec2::new(centre.x - eye.x, centre.z - eye.z).length() / self.range;
                 let extinction = self.extinction * (5.0 - 5.0 * away).clamp(0.0, 1.0);
                 if extinction > 0.0 {
-                    let shape = (r(4) * shapes.len() as f32) as usize;
+                    let shape = (r(4) * to_f32(shapes.len())) as i32 as usize;
                     clouds.push(Cloud { voxels: shapes[shape].clone(), centre, size, extinction });
                 }
             }

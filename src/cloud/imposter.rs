@@ -144,7 +144,7 @@ impl Imposter {
         let mut values = [F::<S>::splat(simd, 0.0); 3];
         let mut k = 0;
         while k < 3 {
-            values[k] = bilinear::<S>(U::<S>::from_slice(simd, &words[k][..lanes]), fx, fy);
+            values[k] = bilinear(simd, U::<S>::from_slice(simd, &words[k][..lanes]), fx, fy);
             k += 1;
         }
         values

@@ -2,7 +2,7 @@
 //! that every machine has, for one ray at a time, so that the executable has it once: every level gives the same bits.
 
 use super::imposter::Imposter;
-use super::march::{closest, cube};
+use super::march::{CUBE, closest, within};
 use super::seen::{SeenCloud, SeenClouds};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
@@ -29,9 +29,11 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let first = |lanes: F<S>| lanes.as_slice()[0];
     let ways = V3::splat(simd, d);
     let (q, way) = closest::<S>((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, ways);
-    let [entry, exit] = cube(simd, q, ways);
-    let (way, q) = (first(way), Vec3::new(first(q.x), first(q.y), first(q.z)));
-    let (entry, exit) = (first(entry).max(-way), first(exit).min(limit / cloud.size - way));
+    let way = first(way);
+    let clip = |(entry, exit)| (first(entry).max(-way), first(exit).min(limit / cloud.size - way));
+    let (met, left) = clip(within(simd, q, ways, cloud.voxels.bounds()));
+    let (entry, exit) = clip(within(simd, q, ways, CUBE));
+    let q = Vec3::new(first(q.x), first(q.y), first(q.z));
     let length = (exit - entry) / seen.steps;
     // Written so that a NaN takes no steps.
     if length.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
@@ -40,8 +42,8 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let (most, half) = (to_f32(cloud.voxels.edge() - 1), to_f32(cloud.voxels.edge()) * 0.5);
     let reach = 0.9999 / (length * half * d.abs().max_element());
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
-    let (mut step, mut taken, mut depth) = (0.0, 0, 0.0);
-    while step < seen.steps {
+    let (mut step, mut taken, mut depth) = (((met - entry) / length).floor().max(0.0), 0, 0.0);
+    while step < ((left - entry) / length).min(seen.steps) {
         taken += 1;
         let p = q + d * (entry + (step + 0.5) * length);
         let u = (p * half + (half - 0.5)).max(Vec3::ZERO).min(Vec3::splat(most));

@@ -63,7 +63,7 @@ impl<S: Simd> Passage<S> {
 /// ```text
 /// start at the point that is closest to the centre, so that far clouds lose no digits
 /// entry, exit = the ray against the three slabs of the cube, ended by eye and limit
-/// for each step, as long as a lane of the vector has one left:
+/// for each step in the box around all that is in the voxels, as long as a lane of the vector has one left:
 ///     u = the middle of the step, in voxels
 ///     where something may be at u in any lane:
 ///         depth += density(u) * extinction * length            for lanes that are not through
@@ -85,15 +85,16 @@ pub fn march<S: Simd>(
 ) -> Passage<S> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);
-    let [entry, exit] = cube(simd, q, d);
-    let (entry, exit) = (entry.max(-way), exit.min(limit * (1.0 / cloud.size) - way));
-    let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let clip = |(entry, exit): (F<S>, F<S>)| (entry.max(-way), exit.min(limit * (1.0 / cloud.size) - way));
+    let (first, beyond) = clip(within(simd, q, d, cloud.voxels.bounds()));
     let mut end = F::<S>::splat(simd, f32::INFINITY);
-    let length = (exit - entry) * (1.0 / steps);
-    let missed = length.simd_le(zero);
-    if missed.all_true() {
+    if !first.simd_lt(beyond).any_true() {
         return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end };
     }
+    let (entry, exit) = clip(within(simd, q, d, CUBE));
+    let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let length = (exit - entry) * (1.0 / steps);
+    let missed = length.simd_le(zero);
     let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
     let most = to_f32(cloud.voxels.edge() - 1);
     let half = to_f32(cloud.voxels.edge()) * 0.5;
@@ -102,9 +103,16 @@ pub fn march<S: Simd>(
     let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
     let reach = F::<S>::splat(simd, 0.9999) / missed.select(one, stride);
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
-    // What ends a lane is kept apart from its step, so that the next place does not wait for this one's light.
-    let (mut step, mut goes) = (zero, length.simd_gt(zero));
-    while goes.any_true() {
+    // From the step in which the ray enters the box, up to the one in which it leaves it. What ends a lane is kept apart from
+    // its step, so that the next place does not wait for this one's light.
+    let number = |place: F<S>| (place - entry) / missed.select(one, length);
+    let mut step = number(first).floor().max(zero);
+    let mut last = missed.select(zero, number(beyond).min(steps));
+    loop {
+        let goes = step.simd_lt(last);
+        if !goes.any_true() {
+            break;
+        }
         let along = entry + (step + 0.5) * length;
         let p = q + d * Lane(along);
         let voxel = |p: F<S>| (p * half + (half - 0.5)).max(0.0).min(most);
@@ -132,13 +140,12 @@ pub fn march<S: Simd>(
             lit += hides * sunlit;
             transmittance = passes;
             let through = transmittance.simd_ge(opaque);
-            end = (goes & !through).select((way + along + length * 0.5) * cloud.size, end);
-            goes &= through;
+            end = (goes & !through).select(along, end);
+            last = through.select(last, zero);
         }
         step += (leap.max(zero) * reach).floor() + one;
-        goes &= step.simd_lt(steps);
     }
-    let upper = (height + hidden) * 0.5;
+    let (upper, end) = ((height + hidden) * 0.5, (way + end + length * 0.5) * cloud.size);
     Passage { hidden, upper, lit, transmittance, end }
 }
 
@@ -161,24 +168,26 @@ pub(super) fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
     (near + d * Lane(more), way + more)
 }
 
-/// Where rays from `q` along `d` enter and leave the cube from -1 to 1.
+/// The cube that a cloud is in: least and largest coordinates.
+pub(super) const CUBE: [Vec3; 2] = [Vec3::NEG_ONE, Vec3::ONE];
+
+/// Where rays from `q` along `d` enter and leave a box.
 #[inline(always)]
-pub(super) fn cube<S: Simd>(simd: S, q: V3<S>, d: V3<S>) -> [F<S>; 2] {
-    let [x0, x1] = slab(simd, q.x, d.x);
-    let [y0, y1] = slab(simd, q.y, d.y);
-    let [z0, z1] = slab(simd, q.z, d.z);
-    [x0.max(y0).max(z0), x1.min(y1).min(z1)]
+pub(super) fn within<S: Simd>(simd: S, q: V3<S>, d: V3<S>, [low, high]: [Vec3; 2]) -> (F<S>, F<S>) {
+    let [x0, x1] = slab(simd, q.x, d.x, low.x, high.x);
+    let [y0, y1] = slab(simd, q.y, d.y, low.y, high.y);
+    let [z0, z1] = slab(simd, q.z, d.z, low.z, high.z);
+    (x0.max(y0).max(z0), x1.min(y1).min(z1))
 }
 
-/// Where rays enter and leave the space between -1 and 1 along an axis.
+/// Where rays enter and leave the space between two numbers along an axis.
 #[inline(always)]
-fn slab<S: Simd>(simd: S, q: F<S>, d: F<S>) -> [F<S>; 2] {
-    let one = F::<S>::splat(simd, 1.0);
-    let inverse = one / d;
-    let (a, b) = (inverse * (-q - 1.0), inverse * (-q + 1.0));
+fn slab<S: Simd>(simd: S, q: F<S>, d: F<S>, low: f32, high: f32) -> [F<S>; 2] {
+    let inverse = F::<S>::splat(simd, 1.0) / d;
+    let (a, b) = (inverse * (-q + low), inverse * (-q + high));
     // A ray along the slab is in it or is not; on the very face it would be 0 / 0, or 0 times infinity.
     let along = d.abs().simd_lt(1e-20);
     let never = F::<S>::splat(simd, f32::INFINITY);
-    let entry = q.abs().simd_gt(one).select(never, -never);
+    let entry = (q.simd_lt(low) | q.simd_gt(high)).select(never, -never);
     [along.select(entry, a.min(b)), along.select(never, a.max(b))]
 }

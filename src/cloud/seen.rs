@@ -132,7 +132,7 @@ impl SeenClouds {
         const HALF: f32 = 0.5 * Tile::SIZE as f32;
         let cone = Cone::new(&self.view, (to_f32(tile.x) + HALF, to_f32(tile.y) + HALF), HALF);
         let eye = self.view.camera().eye;
-        let meets = |seen: &&SeenCloud| cone.may_meet(seen.cloud.centre - eye, ROOT * seen.cloud.size);
+        let meets = |seen: &&SeenCloud| cone.may_meet(seen.cloud.centre - eye, seen.radius());
         self.clouds.iter().filter(meets).collect()
     }
 }
@@ -141,6 +141,12 @@ impl SeenCloud {
     /// Distance from the eye beyond which it hides nothing more, metres.
     pub fn end(&self) -> f32 {
         self.distance + ROOT * self.cloud.size
+    }
+
+    /// Radius of the ball around all that rays may meet of it, metres.
+    fn radius(&self) -> f32 {
+        let whole = cuts::IMPOSTERS && !self.imposters.is_empty();
+        self.cloud.size * if whole { ROOT } else { self.cloud.voxels.reach() }
     }
 
     /// What rays from `eye` along unit directions `d` meet of it, up to `limit` metres from the eye: of the cloud

@@ -39,7 +39,7 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     let mut between = before.clone();
     let mut densities = vec![0.0; width];
     let mut lights = densities.clone();
-    let (column, row) = ((du.floor() + 1.0) as usize, (dv.floor() + 1.0) as usize);
+    let [column, row] = [du, dv].map(|step| (step.floor() + 1.0) as i32 as usize);
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
     let (density, light) = voxels.density_and_light();
     for step in 0..n {

@@ -4,7 +4,7 @@
 //! into one word, and two words lie side by side. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how
 //! far around it nothing is, so that rays can leap over emptiness.
 
-use crate::simd::lanes::{F, U, V3};
+use crate::simd::lanes::{F, U, V3, float};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3;
@@ -35,13 +35,16 @@ pub struct Voxels {
     leaps: Vec<u8>,
     /// See [`Voxels::reach`].
     reach: f32,
+    /// See [`Voxels::bounds`].
+    bounds: [Vec3; 2],
 }
 
 impl Voxels {
     /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
-        let mut voxels = Voxels { edge, density, light, cells: Vec::new(), leaps: Vec::new(), reach: 0.0 };
+        let (cells, leaps) = (Vec::new(), Vec::new());
+        let mut voxels = Voxels { edge, density, light, cells, leaps, reach: 0.0, bounds: [Vec3::ZERO; 2] };
         voxels.measure();
         voxels.pack();
         voxels
@@ -88,6 +91,12 @@ impl Voxels {
         self.reach
     }
 
+    /// Least and largest coordinates of the box that holds every point where the density is not 0, halves of the cube's edge
+    /// from its centre. Infinite, the least above the largest, where there is none.
+    pub fn bounds(&self) -> [Vec3; 2] {
+        self.bounds
+    }
+
     /// Makes the words that lookups read, after density or light have changed.
     pub(super) fn pack(&mut self) {
         let n = self.edge;
@@ -131,7 +140,7 @@ impl Voxels {
         let n = self.edge / LEAP;
         let half = to_f32(self.edge) * 0.5;
         let mut full = vec![false; n * n * n];
-        self.reach = 0.0;
+        (self.reach, self.bounds) = (0.0, [Vec3::INFINITY, Vec3::NEG_INFINITY]);
         let mut density = self.density.iter();
         for z in 0..self.edge {
             for y in 0..self.edge {
@@ -139,7 +148,9 @@ impl Voxels {
                     let place = [x, y, z];
                     // Density falls to 0 only at the next point: hence one more.
                     let at = Vec3::from(place.map(|i| to_f32(i) + 0.5 - half));
-                    self.reach = self.reach.max((at.length() + 1.0) / half);
+                    self.reach = self.reach.max((at.abs() + 1.0).length() / half);
+                    let [low, high] = self.bounds;
+                    self.bounds = [low.min((at - 1.0) / half), high.max((at + 1.0) / half)];
                     // A point belongs to the cells on both of its sides along each axis.
                     for corner in 0..8 {
                         let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
@@ -157,8 +168,8 @@ impl Voxels {
     pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
         let n = to_f32(self.edge / LEAP);
         let block = |u: F<S>| (u * (1.0 / LEAP as f32)).floor();
-        let index = (block(u.x) + (block(u.y) + block(u.z) * n) * n).to_int::<U<S>>();
-        U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32).to_float::<F<S>>() - 1.0
+        let index = (block(u.x) + (block(u.y) + block(u.z) * n) * n).to_int::<S::i32s>();
+        float(simd, U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32)) - 1.0
     }
 
     /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
@@ -167,14 +178,14 @@ impl Voxels {
         let n = to_f32(self.edge);
         let base = V3::<S> { x: u.x.floor(), y: u.y.floor(), z: u.z.floor() };
         let f = u - base;
-        let at = (base.x + (base.y + base.z * n) * n).to_int::<U<S>>();
+        let at = (base.x + (base.y + base.z * n) * n).to_int::<S::i32s>().bitcast();
         let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
         // A loop: what `map` calls is not always inlined, and then no lane operation in it is.
         let mut found = [F::<S>::splat(simd, 0.0); 2];
         let mut k = 0;
         while k < 2 {
             let shift = 8 * k as u32;
-            let (a, b) = (square(near, shift, &f), square(far, shift, &f));
+            let (a, b) = (square(simd, near, shift, &f), square(simd, far, shift, &f));
             found[k] = a + (b - a) * f.z;
             k += 1;
         }
@@ -193,7 +204,8 @@ impl Voxels {
                 #[inline(always)]
                 |lane| {
                     let at = at[k * S::u64s::LEN + lane] as usize;
-                    cells[at] as u64 | (cells[at + 1] as u64) << 32
+                    let pair = &cells[at..at + 2];
+                    pair[0] as u64 | (pair[1] as u64) << 32
                 },
             );
             *half = pairs.bitcast();
@@ -206,21 +218,21 @@ impl Voxels {
 /// Bilinear interpolation of a square's four corners: the bytes at `shift` and `shift + 16` of two words, along y, and
 /// the words along x.
 #[inline(always)]
-fn square<S: Simd>([left, right]: [U<S>; 2], shift: u32, f: &V3<S>) -> F<S> {
-    let (a, b) = ((left >> shift & 255).to_float::<F<S>>(), (right >> shift & 255).to_float::<F<S>>());
+fn square<S: Simd>(simd: S, [left, right]: [U<S>; 2], shift: u32, f: &V3<S>) -> F<S> {
+    let (a, b) = (float(simd, left >> shift & 255), float(simd, right >> shift & 255));
     let (left, right) = (left >> (shift + 16), right >> (shift + 16));
-    let (c, d) = ((left & 255).to_float::<F<S>>(), (right & 255).to_float::<F<S>>());
+    let (c, d) = (float(simd, left & 255), float(simd, right & 255));
     let (a, c) = (a + (b - a) * f.x, c + (d - c) * f.x);
     a + (c - a) * f.y
 }
 
 /// Bilinear interpolation of a square's four corners, which are the bytes of a word: x fastest.
 #[inline(always)]
-pub(super) fn bilinear<S: Simd>(word: U<S>, x: F<S>, y: F<S>) -> F<S> {
-    let a = (word & 255).to_float::<F<S>>();
-    let b = (word >> 8 & 255).to_float::<F<S>>();
-    let c = (word >> 16 & 255).to_float::<F<S>>();
-    let d = (word >> 24).to_float::<F<S>>();
+pub(super) fn bilinear<S: Simd>(simd: S, word: U<S>, x: F<S>, y: F<S>) -> F<S> {
+    let a = float(simd, word & 255);
+    let b = float(simd, word >> 8 & 255);
+    let c = float(simd, word >> 16 & 255);
+    let d = float(simd, word >> 24);
     let (a, c) = (a + (b - a) * x, c + (d - c) * x);
     a + (c - a) * y
 }

@@ -293,13 +293,29 @@ fn what_is_written_later_is_seen() {
     let (early, late) = (needle(3), needle(25));
     let mut written = early.clone();
     written.set_density(late.density().to_vec());
-    assert_eq!(written.reach(), late.reach());
+    // Density falls from 1 at the voxel's middle to 0 at those of its neighbours, along each axis.
+    let bounds = |at: f32| [at - 0.5, at + 1.5].map(|at| Vec3::splat(at / 16.0 - 1.0));
+    assert_eq!((early.bounds(), late.bounds()), (bounds(3.0), bounds(25.0)));
+    assert_eq!((written.reach(), written.bounds()), (late.reach(), late.bounds()));
+    assert_eq!(late.reach(), late.bounds()[1].length());
     let target = Vec3::splat(25.5 / 16.0 - 1.0);
     let (eye, d) = (target + Vec3::Y * 4.0, Vec3::NEG_Y);
     let [early, late, written] = [early, late, written].map(|voxels| cloud(voxels, 50.0));
     let [early, late, written] = [&early, &late, &written].map(|cloud| ray(cloud, &FURNACE, eye, d, FOREVER, 100.0));
     assert!(early.1 == 1.0 && late.1 < 0.9, "{early:?} {late:?}");
     assert_eq!(written, late);
+}
+
+/// A cloud that has none: its box is empty, and rays from anywhere go on as they were.
+#[test]
+fn emptiness_hides_nothing() {
+    let empty = cloud(filled(32, |_| 0), 50.0);
+    let [low, high] = empty.voxels.bounds();
+    assert!(low.cmpgt(high).all(), "{low} {high}");
+    for k in 0..100 {
+        let (eye, d) = aim(k);
+        assert_eq!(ray(&empty, &DAY, eye, d, FOREVER, 100.0), (Vec3::ZERO, 1.0));
+    }
 }
 
 #[test]
