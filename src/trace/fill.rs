@@ -3,9 +3,7 @@
 use super::deferred::Deferred;
 use super::grid::{Grid, Square};
 use super::job::Job;
-use super::sample::{
-    self, GAIN, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits,
-};
+use super::sample::{self, HIT, HIT_INV_DEPTH, INV_DEPTH, NUMBERS, PLAIN, POINT, REMEMBERED, Sample, hit_point, hits};
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::inspect::count_octaves;
@@ -82,11 +80,16 @@ struct Ramp {
     step: f32,
 }
 
+/// The numbers of a sample for each of a block of pixels.
+type Rows = [[f32; BLOCK]; NUMBERS];
+
 /// The ramps of squares of 1, 2, 4, 8 and 16 pixels, in blocks of whole rows.
 #[derive(Default)]
 pub struct Ramps {
     centred: Option<bool>,
     by_size: [Vec<Ramp>; 5],
+    /// Memory for what lies between the corners of a square; no value in it survives the square.
+    rows: Option<Box<Rows>>,
 }
 
 impl Ramps {
@@ -142,10 +145,10 @@ impl Patch {
         patch
     }
 
-    /// The numbers from `first` on at the points of a ramp, one row of `out` per number.
-    #[simd]
-    fn values<S: Simd>(&self, simd: S, first: usize, ramp: &Ramp, out: &mut [[f32; BLOCK]]) {
-        for (k, row) in (first..).zip(out) {
+    /// The numbers at the points of a ramp, one row of `out` per number.
+    #[inline(always)]
+    fn values<S: Simd>(&self, simd: S, ramp: &Ramp, out: &mut [[f32; BLOCK]]) {
+        for (k, row) in out.iter_mut().enumerate() {
             let (start, down) = (F::<S>::splat(simd, self.start[k]), F::<S>::splat(simd, self.down[k]));
             let mut i = 0;
             while i * F::<S>::LEN < ramp.count {
@@ -214,7 +217,7 @@ pub fn interpolate<S: Simd>(
     job: &Job,
     tile: &mut Tile,
     deferred: &mut Deferred,
-    ramps: &Ramps,
+    ramps: &mut Ramps,
     grid: &Grid,
     square: Square,
 ) {
@@ -224,17 +227,16 @@ pub fn interpolate<S: Simd>(
     let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
     let filter = job.settings.antialias;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
+    let mut footprint = [0.0; BLOCK];
+    let rows = ramps.rows.get_or_insert_with(|| Box::new([[0.0; BLOCK]; NUMBERS]));
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
-        let mut plain = [[0.0; BLOCK]; PLAIN];
-        patch.values(simd, 0, ramp, &mut plain);
-        for n in 0..corners[0].count as usize {
-            let at = PLAIN + HIT * n;
-            let [mut gain, mut points] = [[[0.0; BLOCK]; 3]; 2];
-            let [mut inv_depth, mut footprint] = [[0.0; BLOCK]; 2];
-            patch.values(simd, at + GAIN, ramp, &mut gain);
-            patch.values(simd, at + POINT, ramp, &mut points);
-            patch.values(simd, at + HIT_INV_DEPTH, ramp, std::slice::from_mut(&mut inv_depth));
-            patch.project(simd, at, ramp, &inv_depth, &mut points, filter, &mut footprint);
+        patch.values(simd, ramp, &mut rows[..corners[0].used()]);
+        let (plain, numbers) = rows.split_first_chunk_mut::<PLAIN>().expect("numbers of hits are more");
+        for (n, numbers) in numbers.as_chunks_mut::<HIT>().0[..corners[0].count as usize].iter_mut().enumerate() {
+            let ([gain, points], [inv_depth]) = numbers.as_chunks_mut::<3>() else {
+                unreachable!("a hit is two vectors and a number");
+            };
+            patch.project(simd, PLAIN + HIT * n, ramp, inv_depth, points, filter, &mut footprint);
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
@@ -248,17 +250,17 @@ pub fn interpolate<S: Simd>(
                         &mut ramp.pixel.iter().map(|offset| first + *offset as usize),
                     );
                 }
-                add_texture(simd, albedo, &gain, &points, footprint, &mut plain);
+                add_texture(simd, albedo, gain, points, footprint, plain);
             } else {
                 let mut pixels = [0; BLOCK];
                 for (pixel, offset) in pixels.iter_mut().zip(&ramp.pixel) {
                     *pixel = first as u16 + offset;
                 }
                 let pixels = &pixels[..ramp.count];
-                deferred.push_run(simd, job.context.world, tile, object, pixels, &gain, &points, &footprint);
+                deferred.push_run(simd, job.context.world, tile, object, pixels, gain, points, &footprint);
             }
         }
-        deposit(simd, tile, ramp, first, size >= ROW, &plain);
+        deposit(simd, tile, ramp, first, size >= ROW, plain);
         if tile.solids_matter {
             for (offset, value) in ramp.pixel[..ramp.count].iter().zip(&plain[INV_DEPTH]) {
                 tile.inv_depth[first + *offset as usize] = *value;
