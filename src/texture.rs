@@ -118,10 +118,10 @@ impl Texture {
         let field = match self.pattern {
             Pattern::Plain => 0.0,
             Pattern::Checker => 1.0,
-            Pattern::Clouds { octaves } => 0.25 * octaves as f32,
-            Pattern::Turbulence { octaves } => 0.5 * octaves as f32,
-            Pattern::Marble { warp, scale, octaves } => 0.5 + 0.25 * warp * octaves as f32 / scale,
-            Pattern::Wood { warp, octaves } => 1.0 + 0.5 * warp * octaves as f32,
+            Pattern::Clouds { octaves } => 0.25 * math::to_f32(octaves as usize),
+            Pattern::Turbulence { octaves } => 0.5 * math::to_f32(octaves as usize),
+            Pattern::Marble { warp, scale, octaves } => 0.5 + 0.25 * warp * math::to_f32(octaves as usize) / scale,
+            Pattern::Wood { warp, octaves } => 1.0 + 0.5 * warp * math::to_f32(octaves as usize),
         };
         let contrast = match self.palette {
             Palette::Mix(a, b) => (b - a).abs().max_element(),

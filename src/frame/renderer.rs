@@ -14,6 +14,7 @@ use super::workers::Workers;
 use crate::cuts;
 use crate::settings::Quality;
 use crate::simd::level;
+use crate::simd::math::to_f32;
 use crate::view::{Eye, Stereo};
 use fearless_simd::{Level, Simd, dispatch};
 
@@ -122,7 +123,7 @@ impl Renderer {
         }
         let mut samples = 0;
         for number in 0..eyes {
-            let eye = pair.eye(number as u32 as f32 - 0.5);
+            let eye = pair.eye(to_f32(number) - 0.5);
             let (workers, cache) = (&self.workers, &self.cache);
             let picture = (scene.picture)(&FrameSpec { time, width, height, quality, eye, values, workers, cache });
             samples += self.draw_at(picture, number * width, width, frame).samples;

@@ -4,6 +4,7 @@
 //! the map knows what casts the shadows. The rasterizer does not.
 
 use crate::simd::lanes::{F, V3};
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec2;
 
@@ -27,7 +28,7 @@ impl CloudShadow {
     /// The share of the sunlight that reaches points: interpolated between texels; beyond the map, that of its edge.
     #[inline(always)]
     pub fn at<S: Simd>(&self, simd: S, p: V3<S>) -> F<S> {
-        let (zero, most) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, CloudShadow::SIDE as u32 as f32 - 1.01));
+        let (zero, most) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, to_f32(CloudShadow::SIDE) - 1.01));
         let x = ((p.x - p.y * self.slope.x - self.corner.x) * (1.0 / self.texel)).max(zero).min(most);
         let z = ((p.z - p.y * self.slope.y - self.corner.y) * (1.0 / self.texel)).max(zero).min(most);
         let lanes = F::<S>::LEN;
@@ -43,7 +44,7 @@ impl CloudShadow {
     /// The map at texel coordinates from 0 up to, but not including, the last texel.
     #[inline(always)]
     fn bilinear(&self, x: f32, z: f32) -> f32 {
-        let (column, row) = (x as u32, z as u32);
+        let (column, row) = (x as i32, z as i32);
         let texels = &self.passes[column as usize + row as usize * CloudShadow::SIDE..][..CloudShadow::SIDE + 2];
         let (u, v) = (x - column as f32, z - row as f32);
         let near = texels[0] + (texels[1] - texels[0]) * u;

@@ -13,6 +13,7 @@ use crate::frame::Tile;
 use crate::frame::Workers;
 use crate::simd::lanes::{Bits, F, M, U};
 use crate::simd::level;
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f32x4, f32x8};
 use fearless_simd_macros::simd;
@@ -135,7 +136,7 @@ impl DepthMap {
         // Smooth, the window of 3x3 texels begins 1.5 before the point; else at the texel before the point's own.
         let smooth = smooth || !cuts::COUNTED_TEXELS;
         let shift = if smooth { 1.5 } else { 1.0 };
-        let end = (size - 3) as u32 as f32;
+        let end = to_f32(size - 3);
         let zero = F::<S>::splat(simd, 0.0);
         let (x, y) = ((points.x - shift).max(zero).min(end), (points.y - shift).max(zero).min(end));
         let (column, row) = (x.floor(), y.floor());

@@ -14,6 +14,7 @@ use super::shadow_views::{Bias, ShadowViews};
 use crate::cuts;
 use crate::simd::block::{Block3, vectors};
 use crate::simd::lanes::{Bits, F, Lane, M, V3};
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Vec2, Vec4};
@@ -159,7 +160,7 @@ pub(super) fn locate<S: Simd>(
     };
     let mut k = 0;
     while k < shadow.views.len() {
-        let number = F::<S>::splat(simd, k as u32 as f32);
+        let number = F::<S>::splat(simd, to_f32(k));
         let here = wanted & !inside & (if margin > 0.0 { zero } else { face - number }).simd_eq(zero);
         if here.any_true() {
             let Projection { rows, texel, .. } = &shadow.views[k];

@@ -7,6 +7,7 @@ use super::project::Projection;
 use super::triangle::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
+use crate::simd::math::to_f32;
 use fearless_simd::Simd;
 use std::slice;
 use std::sync::OnceLock;
@@ -69,7 +70,7 @@ impl LightView {
     /// The meshes that a tile may show, each with the triangles that do. Sets up those that no tile has needed before.
     #[inline(always)]
     pub fn at(&self, column: usize, row: usize) -> impl Iterator<Item = (&SetupMesh, &[Id])> {
-        let [x, y] = [column, row].map(|n| n as u32 as f32);
+        let [x, y] = [column, row].map(to_f32);
         self.casters.iter().filter_map(move |caster| {
             let [x0, x1, y0, y1] = caster.bound;
             // Written so that a NaN counts as everywhere.

@@ -107,8 +107,8 @@ pub fn smooth1(x: f32) -> f32 {
 
 /// A count or a pixel's number as a float, exact below 2^24.
 ///
-/// Through `u32`, which is one instruction for a number that is known to be small; a `u64` takes several.
+/// Through `i32`, which is one instruction; `u32` takes one that is longer, `u64` several.
 #[inline(always)]
 pub fn to_f32(n: usize) -> f32 {
-    n as u32 as f32
+    n as i32 as f32
 }

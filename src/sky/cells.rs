@@ -111,7 +111,7 @@ fn line<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, [left, top]: 
         for (i, out) in out.iter_mut().enumerate() {
             let cell = i / size;
             let (a, b) = (sum[cell], sum[cell + 1]);
-            *out = a + (b - a) * ((i % size) as u32 as f32 + cells.middle()) / size as u32 as f32;
+            *out = a + (b - a) * (to_f32(i % size) + cells.middle()) / to_f32(size);
         }
     }
 }

@@ -57,7 +57,7 @@ impl Note {
 /// Phase per sample of a frequency in hertz.
 fn step(pitch: f32) -> u32 {
     // Modulo 2^32, as phases are.
-    (f64::from(pitch) * (4_294_967_296.0 / f64::from(RATE))) as u64 as u32
+    (f64::from(pitch) * (4_294_967_296.0 / f64::from(RATE))) as i64 as u32
 }
 
 /// Adds block `number` of a note to both ears, and to what goes to the room.

@@ -62,7 +62,7 @@ impl Room {
             for &(delay, gain) in taps {
                 self.diffuse.add(at.wrapping_sub(delay), gain, ear);
             }
-            self.sent.add(at.wrapping_sub((delay * RATE as f32) as usize), gain, ear);
+            self.sent.add(at.wrapping_sub((delay * RATE as f32) as i32 as usize), gain, ear);
         }
     }
 }
@@ -79,7 +79,7 @@ fn taps(seed: u32, count: u32, seconds: f32, fade: f32, loudness: f32) -> Vec<Ta
         let x = (k as f32 + rnd(seed, k, 0)) / count as f32;
         let sign = if rnd(seed, k, 1) < 0.5 { -1.0 } else { 1.0 };
         let gain = exp2(-fade * x) * sign * loudness / (count as f32).sqrt();
-        ((x * seconds * RATE as f32) as usize, gain)
+        ((x * seconds * RATE as f32) as i32 as usize, gain)
     };
     (0..count).map(tap).collect()
 }

@@ -15,6 +15,7 @@ pub use cone::Cone;
 pub use pose::Pose;
 
 use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3;
 
@@ -33,8 +34,8 @@ pub struct View {
 impl View {
     /// The view of a camera on a picture of `width` x `height` pixels.
     pub fn new(camera: Camera, width: usize, height: usize) -> View {
-        let pixel = 2.0 / height as u32 as f32;
-        let half = (width as u32 as f32 / height as u32 as f32 - camera.shift, 1.0);
+        let pixel = 2.0 / to_f32(height);
+        let half = (to_f32(width) / to_f32(height) - camera.shift, 1.0);
         View { camera, width, height, pixel, half }
     }
 

@@ -7,7 +7,7 @@ use super::paint::{self, PAINTS};
 use crate::angle;
 use crate::noise::octaves;
 use crate::raster::Mesh;
-use crate::simd::math::smooth1;
+use crate::simd::math::{smooth1, to_f32};
 use glam::{Mat3, Vec3, vec3};
 use std::f32::consts::TAU;
 
@@ -84,12 +84,12 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
             20..DETAILED => 2,
             _ => 1,
         };
-        let root = ring as u32 as f32 * 0.25;
+        let root = to_f32(ring) * 0.25;
         let r = root * root * root;
         // Rows go outwards, so columns go clockwise seen from above, from east by south.
         for k in start..start + COLUMNS {
             let k = k % ROUND / step * step;
-            let (sin, cos) = angle::sin_cos(k as u32 as f32 * (TAU / ROUND as u32 as f32));
+            let (sin, cos) = angle::sin_cos(to_f32(k) * (TAU / to_f32(ROUND)));
             let (x, z) = (r * cos, r * sin);
             mesh.points.push(vec3(x, height(x, z), z));
             mesh.normals.push(normal(x, z, 0.5 + 0.01 * r));

@@ -9,6 +9,7 @@ use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels,
 use crate::cuts;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
+use crate::simd::math::to_f32;
 use crate::timeline;
 use crate::view::Camera;
 use fearless_simd::dispatch;
@@ -231,11 +232,11 @@ fn picture(spec: &FrameSpec) -> Picture {
     let mut world = valley::world(&dome, valley::season(0).1, turn, place, spec.time);
     // The map of the clouds' shadows moves by whole texels, and its slope is limited before the sun is level.
     let texel = 80.0;
-    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - CloudShadow::SIDE as u32 as f32 * 0.5) * texel;
+    let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - to_f32(CloudShadow::SIDE) * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
     let mut points = Vec::new();
     for number in 0..CloudShadow::SIDE * CloudShadow::SIDE {
-        let [x, z] = [number % CloudShadow::SIDE, number / CloudShadow::SIDE].map(|k| k as u32 as f32 * texel);
+        let [x, z] = [number % CloudShadow::SIDE, number / CloudShadow::SIDE].map(|k| to_f32(k) * texel);
         points.push(vec3(corner.x + x, 0.0, corner.y + z));
     }
     let passes = shadow::shares(&clouds, now.direction, &points);

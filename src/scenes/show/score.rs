@@ -328,7 +328,8 @@ pub fn score() -> Score {
                 let tone = match letter {
                     b'0'..=b'7' => {
                         let tone = letter - b'0';
-                        i32::from(TONES[chords[time as usize] as usize][tone as usize % 4]) + 12 * i32::from(tone / 4)
+                        i32::from(TONES[chords[time as i32 as usize] as usize][tone as usize % 4])
+                            + 12 * i32::from(tone / 4)
                     }
                     b'a'..=b'z' => i32::from(letter - b'a'),
                     _ => -1,

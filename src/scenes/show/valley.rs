@@ -15,6 +15,7 @@ use crate::scenes::script::kind::{self, CLOUDS, LAYERS};
 use crate::scenes::script::{
     Script, VARIABLES, Word, assign_all, operations, pattern, script, texture, variable, words,
 };
+use crate::simd::math::to_f32;
 use crate::sky::dome::{Dome, Sky};
 use crate::sky::layer::SkyLayer;
 use crate::sky::place::Place;
@@ -170,7 +171,7 @@ fn bodies() -> Vec<Body> {
 
 /// The date of a season, days after that of summer, and its textures. They are numbered from summer, 0, to spring, 3.
 pub fn season(number: usize) -> (f32, Vec<Texture>) {
-    let mut seasons = Script::new(SEASONS, [number as u32 as f32, 0.0]);
+    let mut seasons = Script::new(SEASONS, [to_f32(number), 0.0]);
     let (mut days, mut textures) = (0.0, Vec::new());
     loop {
         match seasons.next() {
@@ -275,7 +276,7 @@ pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, fr
 /// to each of the distances `ends`, metres.
 #[inline(never)]
 pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<ShadowViews> {
-    let aspect = spec.width as u32 as f32 / spec.height as u32 as f32;
+    let aspect = to_f32(spec.width) / to_f32(spec.height);
     let shadow_map = spec.quality.raster.built().shadow_map;
     let size = if shadow_map == 0 { 1024 } else { shadow_map };
     let shadow = ShadowViews::new(fit::cascades(camera, aspect, towards, ends, size), Bias::SHOW);
