@@ -13,6 +13,7 @@ use super::imposter::{Imposter, ImposterPlan, PLANE};
 use super::seen::SeenClouds;
 use super::world::{Cloud, CloudLight};
 use crate::angle;
+use crate::frame::cache::keep;
 use crate::frame::{Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::simd::math::smooth1;
@@ -39,13 +40,13 @@ const TEXELS: [f32; 2] = [8.0, 512.0];
 const KEPT: u32 = 120;
 
 /// The imposters of a renderer.
-#[derive(Default)]
 pub(super) struct ImposterCache {
     /// The number of the frame.
     frame: u32,
     /// Imposters, each with the number of the last frame that needed it.
     kept: Vec<(u32, Arc<Imposter>)>,
 }
+keep!(ImposterCache, ImposterCache { frame: 0, kept: Vec::new() });
 
 /// An imposter that a cloud needs: the cloud's number, and the weight.
 struct Need {

@@ -1,7 +1,7 @@
 //! Values that put a scene's camera and its aeroplane elsewhere. Every scene takes them beside its own parameters; what
 //! is not among them stays as the scene has it.
 
-use super::cache::Cache;
+use super::cache::{Cache, keep};
 use super::parameter::{Parameter, Values};
 use crate::view::{Camera, Pose};
 use glam::{Mat3, Vec3};
@@ -45,6 +45,7 @@ pub struct Placed {
     /// The aeroplane of a scene that has one.
     pub plane: Option<Pose>,
 }
+keep!(Placed, Placed { camera: None, plane: None });
 
 /// The numbers of a pose, in the order of the tables.
 pub fn numbers(pose: &Pose) -> [f64; 7] {

@@ -4,15 +4,16 @@ use super::fill::{CENTER, SubPixel, Visible};
 use super::id::PLAIN;
 use super::queue::FragmentQueue;
 use super::shadow_maps::ShadowMaps;
+use crate::frame::cache::keep;
 
 /// Kept from tile to tile, and from frame to frame.
-#[derive(Default)]
 pub struct RasterMemory {
     /// The shadow maps of the lights.
     pub maps: ShadowMaps,
     /// Scratch memory that is not in use: in all there is one for each thread that was drawing at the same time.
     pub(super) spare: Vec<Scratch>,
 }
+keep!(RasterMemory, RasterMemory { maps: ShadowMaps::NONE, spare: Vec::new() });
 
 /// Memory that a thread needs to draw a tile.
 pub(super) struct Scratch {

@@ -6,10 +6,12 @@ use super::depth_map::{DepthMap, MapKey};
 use std::sync::Arc;
 
 /// The latest map of each slot.
-#[derive(Default)]
 pub struct ShadowMaps(Vec<(MapKey, Arc<DepthMap>)>);
 
 impl ShadowMaps {
+    /// None yet.
+    pub const NONE: ShadowMaps = ShadowMaps(Vec::new());
+
     /// The map that has this key: the one of an earlier frame, or a new one, which replaces that of the same slot.
     pub fn get(&mut self, key: MapKey) -> Arc<DepthMap> {
         let mut old = None;

@@ -12,7 +12,7 @@ use super::reference::Ray;
 use super::surface::{self, SurfaceNumbers};
 use super::world::World;
 use crate::cuts;
-use crate::frame::cache::Kept;
+use crate::frame::cache::{Kept, keep};
 #[cfg(feature = "full")]
 use crate::frame::inspect::{Aspect, each};
 use crate::frame::{Cache, Layer, Stats, Tile, Workers};
@@ -40,9 +40,9 @@ pub struct TraceLayer {
 
 /// Memory that tiles leave to later ones, as many pieces as threads have drawn tiles at the same time. It is not kept per
 /// thread, because setting up and freeing such memory would take 3 kB of code.
-#[derive(Default)]
 #[expect(clippy::vec_box)] // Scratch memory is passed on by its pointer: moving all of it takes 1.4 kB of code.
 struct Memory(Vec<Box<Scratch>>);
+keep!(Memory, Memory(Vec::new()));
 
 impl TraceLayer {
     /// The layer of a world. Its picture has the size of the view.

@@ -41,7 +41,7 @@ fn pack() -> bool {
     let said = String::from_utf8_lossy(&output.stderr);
     let lacks_sources = said.starts_with("pack: no Rust 1.");
     if lacks_sources {
-        let what = "a recent Rust with the sources of its standard library";
+        let what = "Rust 1.96.0 with the sources of its standard library";
         testkit::left_out(what, "rustc-web cargo-web rust-web-src");
     } else {
         assert!(output.status.success(), "{said}");

@@ -5,6 +5,7 @@
 use super::cumulus_set as set;
 use super::sky_grid::{self as grid, Cells, Field};
 use crate::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels};
+use crate::frame::cache::keep;
 use crate::frame::encode::Transfer;
 use crate::frame::inspect::Aspect;
 use crate::frame::{Cache, FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile, Workers};
@@ -60,8 +61,8 @@ const SOUTH: Parameter =
     Parameter::new("wind-south", "m/s", (-50.0, 50.0), 0.0, "wind that carries the clouds towards the south");
 
 /// The shapes that were grown, by kind and seed.
-#[derive(Default)]
 struct Shapes(Vec<([u32; 2], Arc<Voxels>)>);
+keep!(Shapes, Shapes(Vec::new()));
 
 /// A shape of the kind that is asked for.
 fn shape(spec: &FrameSpec, seed: u32) -> Arc<Voxels> {

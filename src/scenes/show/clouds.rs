@@ -7,6 +7,7 @@ use super::valley::{self, LATITUDE, LONGITUDE};
 use crate::angle;
 use crate::cloud::{Cloud, CloudField, CloudKind, CloudLayer, CloudLight, Voxels, grain, shadow, sunlight};
 use crate::cuts;
+use crate::frame::cache::keep;
 use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
 use crate::simd::math::to_f32;
@@ -137,11 +138,11 @@ struct Shape {
 }
 
 /// The shapes that clouds have, kept from frame to frame.
-#[derive(Default)]
 struct Shapes {
     all: Vec<Shape>,
     grain: Option<Arc<Voxels>>,
 }
+keep!(Shapes, Shapes { all: Vec::new(), grain: None });
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.

@@ -404,7 +404,7 @@ enum AllocInit {",
     ),
 ];
 
-/// The sources in `original`, cut, below `copy`. Where a toolchain's text is another it stays, for some more bytes.
+/// The sources in `original`, cut, below `copy`. An error where a text that is cut is not there, or more than once.
 pub fn cut(original: &Path, copy: &Path) -> Result<(), String> {
     mirror(original, copy, Path::new("")).map_err(|error| format!("cannot make {}: {error}", copy.display()))
 }
@@ -417,7 +417,7 @@ fn mirror(original: &Path, copy: &Path, place: &Path) -> io::Result<()> {
         let (from, to) = (original.join(&place), copy.join(&place));
         match CUTS.iter().find(|(path, _)| Path::new(path).starts_with(&place)) {
             Some((path, cuts)) if Path::new(path) == place => {
-                let text = cuts.iter().fold(fs::read_to_string(&from)?, without);
+                let text = cuts.iter().try_fold(fs::read_to_string(&from)?, without)?;
                 unlink(&to);
                 // Written anew, a file that is the same would have cargo build all that needs it once more.
                 if fs::read(&to).ok().as_deref() != Some(text.as_bytes()) {
@@ -444,24 +444,11 @@ fn unlink(path: &Path) {
 }
 
 /// The text with a part replaced that is in it once.
-fn without(text: String, (old, new): &(&str, &str)) -> String {
-    if text.matches(old).count() == 1 { text.replace(old, new) } else { text }
-}
-
-/// How many of the texts that are cut are not in `original`, or not once: 0 for the toolchains that the cuts were written
-/// for. With many of them gone the rest may no longer compile.
-pub fn strange(original: &Path) -> usize {
-    let missing = |(path, cuts): &Cuts| {
-        let text = fs::read_to_string(original.join(path)).unwrap_or_default();
-        cuts.iter()
-            .scan(text, |text, cut| {
-                let is_there = text.matches(cut.0).count() == 1;
-                *text = without(std::mem::take(text), cut);
-                Some(usize::from(!is_there))
-            })
-            .sum::<usize>()
-    };
-    CUTS.iter().map(missing).sum()
+fn without(text: String, (old, new): &(&str, &str)) -> io::Result<String> {
+    match text.matches(old).count() {
+        1 => Ok(text.replace(old, new)),
+        count => Err(io::Error::other(format!("{count} times there instead of once: {old}"))),
+    }
 }
 
 /// Where a toolchain at `sysroot` keeps them.
@@ -475,40 +462,37 @@ mod tests {
 
     #[test]
     fn a_part_is_cut_where_it_is_there_once() {
-        let cut = |text: &str| without(text.into(), &("hooks();\n", ""));
-        assert_eq!(cut("a();\nhooks();\nb();\n"), "a();\nb();\n");
-        assert_eq!(cut("a();\n"), "a();\n");
-        assert_eq!(cut("hooks();\nhooks();\n"), "hooks();\nhooks();\n");
+        let cut = |text: &str| without(text.into(), &("hooks();\n", "")).ok();
+        assert_eq!(cut("a();\nhooks();\nb();\n").as_deref(), Some("a();\nb();\n"));
+        assert_eq!(cut("a();\n"), None);
+        assert_eq!(cut("hooks();\nhooks();\n"), None);
     }
 
     #[test]
     fn a_copy_reads_as_the_original_but_for_what_is_cut() {
-        let at = |name: &str| std::env::temp_dir().join(format!("pack-library-{}-{name}", std::process::id()));
-        let (original, copy) = (at("original"), at("copy"));
-        let (path, cuts) = CUTS[0];
-        let text: String = cuts.iter().map(|(old, _)| *old).collect();
-        let file = |path: &str, text: &str| {
+        let work = tempfile::tempdir().unwrap();
+        let (original, copy) = (work.path().join("original"), work.path().join("copy"));
+        let write = |path: &str, text: &str| {
             let path = original.join(path);
             fs::create_dir_all(path.parent().unwrap()).and_then(|()| fs::write(path, text)).unwrap();
         };
-        file(path, &text);
-        file("core/src/lib.rs", "core");
+        let all = |cuts: &[(&str, &str)]| cuts.iter().map(|(old, _)| *old).collect::<String>();
+        CUTS.iter().for_each(|(path, cuts)| write(path, &all(cuts)));
+        write("core/src/lib.rs", "core");
         // As an older packer left it: links where there are cuts now, cuts where there are none any more.
         fs::create_dir_all(copy.join("core/src")).unwrap();
         symlink(original.join("std"), copy.join("std")).unwrap();
         for _ in 0..2 {
             cut(&original, &copy).unwrap();
         }
-        assert_eq!(fs::read_to_string(copy.join("core/src/lib.rs")).unwrap(), "core");
-        assert_eq!(fs::read_to_string(copy.join(path)).unwrap(), cuts.iter().map(|(_, new)| *new).collect::<String>());
-        assert_eq!(fs::read_to_string(original.join(path)).unwrap(), text);
-        // All cuts of the other files are missing, and after this change one more.
-        let all: usize = CUTS.iter().map(|(_, cuts)| cuts.len()).sum();
-        assert_eq!(strange(&original), all - cuts.len());
-        file(path, &text.replacen(cuts[1].0, "another's words\n", 1));
-        assert_eq!(strange(&original), all - cuts.len() + 1);
-        for made in [original, copy] {
-            fs::remove_dir_all(made).unwrap();
-        }
+        let (path, cuts) = CUTS[0];
+        let read = |path: PathBuf| fs::read_to_string(path).unwrap();
+        assert_eq!(read(copy.join("core/src/lib.rs")), "core");
+        assert_eq!(read(copy.join(path)), cuts.iter().map(|(_, new)| *new).collect::<String>());
+        assert_eq!(read(original.join(path)), all(cuts));
+        // Another library is told from the one that is cut.
+        write(path, &all(cuts).replacen(cuts[1].0, "another's words\n", 1));
+        let why = cut(&original, &copy).unwrap_err();
+        assert!(why.contains("0 times there instead of once") && why.contains(cuts[1].0), "{why}");
     }
 }

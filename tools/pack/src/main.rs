@@ -17,15 +17,14 @@ use std::{env, fs, io};
 fn main() -> ExitCode {
     let arguments: Vec<_> = env::args_os().skip(1).collect();
     let said = match &arguments[..] {
-        [] => Place::try_each(intro),
+        [] => Place::find().and_then(|place| intro(&place)),
         // Without one of its dearer features after another.
         [word] if word == "marginal" => {
-            Place::try_each(|p| marginal::table(&p.root, &p.toolchain, &p.unpacker, &p.target.join("build")))
+            Place::find().and_then(|p| marginal::table(&p.root, &p.toolchain, &p.unpacker, &p.target.join("build")))
         }
         // From shuffled sources, too.
-        [word] if word == "shuffle" => {
-            Place::try_each(|p| shuffle::show(&p.root, &p.toolchain, &p.unpacker, &p.target.with_file_name("shuffle")))
-        }
+        [word] if word == "shuffle" => Place::find()
+            .and_then(|p| shuffle::show(&p.root, &p.toolchain, &p.unpacker, &p.target.with_file_name("shuffle"))),
         [file, option, out] if option == "-o" => any(Path::new(file), Path::new(out)),
         _ => Err("usage: pack, pack FILE -o OUT, pack marginal, or pack shuffle".into()),
     };
@@ -70,23 +69,20 @@ struct Place {
 }
 
 impl Place {
-    /// What `make` makes in the place with the first toolchain with which it succeeds.
-    fn try_each<T>(make: impl Fn(&Place) -> Result<T, String>) -> Result<T, String> {
+    fn find() -> Result<Place, String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let target =
             root.join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| OsString::from("target"))).join("intro");
-        Toolchain::try_each(|toolchain| {
-            let unpacker = stub::unpacker(&toolchain, &target)?;
-            make(&Self { root: root.clone(), target: target.clone(), toolchain, unpacker })
-        })
+        let toolchain = Toolchain::find()?;
+        let unpacker = stub::unpacker(&toolchain, &target)?;
+        Ok(Place { root, target, toolchain, unpacker })
     }
 }
 
 /// Packs any executable.
 fn any(file: &Path, out: &Path) -> Result<String, String> {
     let program = read(file)?;
-    let packed =
-        packer::pack(&program, &Toolchain::try_each(|toolchain| stub::unpacker(&toolchain, &env::temp_dir()))?)?;
+    let packed = packer::pack(&program, &stub::unpacker(&Toolchain::find()?, &env::temp_dir())?)?;
     write(out, &packed.bytes)?;
     Ok(sizes(&packed))
 }

@@ -1,5 +1,5 @@
-//! Shows that the packed size stands still: in a copy of the sources a module gets another name, a function moves to
-//! another file, functions of a file are sorted; each time the intro is built and packed.
+//! Shows that the packed size stands still: the sources are copied to another directory, and there a module gets another
+//! name, a function moves to another file, functions of a file are sorted; each time the intro is built and packed.
 
 use crate::toolchain::Toolchain;
 use crate::{build, packer};
@@ -18,7 +18,7 @@ type Sources = BTreeMap<String, String>;
 type Shuffle = (&'static str, fn(&mut Sources) -> Result<(), String>);
 
 const SHUFFLES: [Shuffle; 5] = [
-    ("as they are", |_| Ok(())),
+    ("in another directory", |_| Ok(())),
     ("module `raster` is `polygons`", |sources| rename(sources, "raster", "polygons")),
     ("`refracted` is in sky/sun.rs", |sources| relocate(sources, "refracted", "src/sky/place.rs", "src/sky/sun.rs")),
     ("functions of show/day.rs by name", |sources| sort(sources, "src/scenes/show/day.rs")),
@@ -31,22 +31,27 @@ const SHUFFLES: [Shuffle; 5] = [
     }),
 ];
 
-/// Builds and packs each shuffle of the workspace at `root` in a copy at `place`; gives a table of their sizes, or
+/// Builds and packs the workspace at `root`, and each shuffle of it in a copy at `place`; gives a table of their sizes, or
 /// says that they are too far apart. `unpacker` is [`crate::stub::unpacker`]'s.
 pub fn show(root: &Path, toolchain: &Toolchain, unpacker: &[u8], place: &Path) -> Result<String, String> {
     let sources = copy(root, place)?;
     let mut table = String::from("| sources | packed |\n|---|---:|\n");
     let mut sizes = Vec::new();
-    for (what, shuffle) in SHUFFLES {
-        let mut shuffled = sources.clone();
-        shuffle(&mut shuffled).map_err(|why| format!("{what}: {why}"))?;
-        write(place, &shuffled)?;
-        let program = build::build(place, toolchain, unpacker, &place.join("target/intro/build"), None)?;
+    let mut pack = |what: &str, root: &Path| {
+        let program = build::build(root, toolchain, unpacker, &root.join("target/intro/build"), None)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
         let size = packer::pack(&program, unpacker)?.bytes.len();
         eprintln!("{what}: {size} bytes");
         table += &format!("| {what} | {size} |\n");
         sizes.push(size);
+        Ok::<_, String>(())
+    };
+    pack("in their own directory", root)?;
+    for (what, shuffle) in SHUFFLES {
+        let mut shuffled = sources.clone();
+        shuffle(&mut shuffled).map_err(|why| format!("{what}: {why}"))?;
+        write(place, &shuffled)?;
+        pack(what, place)?;
     }
     let most = sizes.iter().max().zip(sizes.iter().min()).map_or(0, |(most, least)| most - least);
     if most > LIMIT {

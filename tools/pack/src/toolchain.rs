@@ -1,12 +1,11 @@
 //! A Rust toolchain that has the sources of its standard library, which is built anew for size.
 
 use crate::library;
-use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The oldest compiler that knows `-Cpanic=immediate-abort`: minor version.
-const OLDEST: u32 = 92;
+/// The release whose library [`library`] cuts. With another one sizes would not be those of the documents, nor stand still.
+const RELEASE: &str = "1.96.0";
 
 /// Cargo and the compiler.
 #[derive(Debug)]
@@ -16,42 +15,26 @@ pub struct Toolchain {
 }
 
 impl Toolchain {
-    /// All that may do, the likeliest first: those whose library has most of what is cut from it; among such Debian's, with
-    /// which the sizes in the documents were measured, then rustup's, a nightly before the others.
-    pub fn all() -> Result<Vec<Toolchain>, String> {
+    /// Debian's, or one of rustup's.
+    pub fn find() -> Result<Toolchain, String> {
         let rustup = |words: &[&str]| said(Command::new("rustup").args(words)).unwrap_or_default();
         let list = rustup(&["toolchain", "list"]);
-        let mut names: Vec<&str> = list.lines().filter_map(|line| line.split_whitespace().next()).collect();
-        names.sort_by_key(|name| !name.starts_with("nightly"));
-        let homes = names.iter().map(|name| rustup(&["run", name, "rustc", "--print", "sysroot"]).into());
-        let mut found: Vec<Toolchain> = iter::once("/usr".into()).chain(homes).filter_map(Toolchain::at).collect();
-        found.sort_by_cached_key(|toolchain| library::strange(&library::sources(&toolchain.sysroot)));
-        if found.is_empty() {
-            return Err(format!(
-                "no Rust 1.{OLDEST} or later with the sources of its standard library; one of these installs it: \
-                 `rustup toolchain install nightly --component rust-src`, or as root on Debian 12 \
+        let names = list.lines().filter_map(|line| line.split_whitespace().next());
+        let homes = names.map(|name| rustup(&["run", name, "rustc", "--print", "sysroot"]).into());
+        [PathBuf::from("/usr")].into_iter().chain(homes).find_map(Toolchain::at).ok_or_else(|| {
+            format!(
+                "no Rust {RELEASE} with the sources of its standard library; one of these installs it: \
+                 `rustup toolchain install {RELEASE} --component rust-src`, or as root on Debian 12 \
                  `apt install rustc-web cargo-web rust-web-src`"
-            ));
-        }
-        Ok(found)
-    }
-
-    /// The likeliest.
-    pub fn find() -> Result<Toolchain, String> {
-        Ok(Toolchain::all()?.swap_remove(0))
-    }
-
-    /// What `make` makes with the likeliest toolchain, or with the next one where it fails: a library that is another
-    /// than the one that is cut need not compile. Says on stderr what failed.
-    pub fn try_each<T>(make: impl FnMut(Toolchain) -> Result<T, String>) -> Result<T, String> {
-        first(Toolchain::all()?, make)
+            )
+        })
     }
 
     /// The toolchain at `sysroot`, if it will do.
     fn at(sysroot: PathBuf) -> Option<Toolchain> {
         library::sources(&sysroot).join("std/Cargo.toml").exists().then_some(())?;
         let version = said(Command::new(sysroot.join("bin/rustc")).arg("--version"))?;
-        (minor(&version)? >= OLDEST).then_some(Toolchain { sysroot })
+        is_release(&version).then_some(Toolchain { sysroot })
     }
 
     /// The compiler.
@@ -75,22 +58,6 @@ impl Toolchain {
     }
 }
 
-/// What `make` makes of the first toolchain with which it succeeds; the last one's error where there is none.
-fn first<T>(toolchains: Vec<Toolchain>, mut make: impl FnMut(Toolchain) -> Result<T, String>) -> Result<T, String> {
-    let mut left = toolchains.len();
-    let mut last = Err("no toolchain".into());
-    for toolchain in toolchains {
-        let name = toolchain.sysroot.display().to_string();
-        last = make(toolchain);
-        left -= 1;
-        match &last {
-            Err(why) if left > 0 => eprintln!("pack: {why} with the Rust in {name}; trying the next one"),
-            _ => break,
-        }
-    }
-    last
-}
-
 /// Would a variable of that name change what is built? Where crates are kept and fetched from does not.
 fn leaks(name: &str) -> bool {
     let ours = ["CARGO", "RUST", "CFLAGS", "DEP_", "OUT_DIR"].iter().any(|prefix| name.starts_with(prefix));
@@ -105,9 +72,9 @@ fn said(command: &mut Command) -> Option<String> {
     output.status.success().then(|| text.trim().to_owned())
 }
 
-/// The minor version of `rustc 1.96.0 (ac68faa20 2026-05-25)`.
-fn minor(version: &str) -> Option<u32> {
-    version.strip_prefix("rustc 1.")?.split('.').next()?.parse().ok()
+/// Is that what the compiler of [`RELEASE`] says of itself, whoever built it?
+fn is_release(version: &str) -> bool {
+    version.split_whitespace().nth(1) == Some(RELEASE)
 }
 
 #[cfg(test)]
@@ -115,23 +82,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_next_toolchain_is_tried_where_one_fails() {
-        let three = || ["/a", "/b", "/c"].map(|sysroot| Toolchain { sysroot: sysroot.into() }).into();
-        let mut tried = Vec::new();
-        let made = first(three(), |toolchain| {
-            tried.push(toolchain.sysroot.clone());
-            if toolchain.sysroot.ends_with("b") { Ok(7) } else { Err("cargo failed".into()) }
-        });
-        assert_eq!((made, tried), (Ok(7), vec![PathBuf::from("/a"), "/b".into()]));
-        let failed = first::<()>(three(), |toolchain| Err(toolchain.sysroot.display().to_string()));
-        assert_eq!(failed, Err("/c".into()));
-    }
-
-    #[test]
-    fn versions_are_read() {
-        assert_eq!(minor("rustc 1.96.0 (ac68faa20 2026-05-25)"), Some(96));
-        assert_eq!(minor("rustc 1.100.0-nightly (59807616e 2026-12-14)"), Some(100));
-        assert_eq!(minor("cargo 1.96.0"), None);
+    fn other_releases_will_not_do() {
+        assert!(is_release("rustc 1.96.0 (ac68faa20 2026-05-25) (built from a source tarball)"));
+        for version in
+            ["rustc 1.96.1 (ac68faa20 2026-06-25)", "rustc 1.96.0-nightly (59807616e 2026-04-01)", "rustc", ""]
+        {
+            assert!(!is_release(version), "{version}");
+        }
     }
 
     #[test]
