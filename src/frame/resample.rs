@@ -21,13 +21,25 @@ pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
 pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
     let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
     let mut bytes = vec![0; 4 * columns * rows.len()];
-    for (row, line) in rows.zip(bytes.chunks_exact_mut(4 * columns)) {
+    let (pixels, _) = bytes.as_chunks_mut();
+    if (columns, count) == (frame.width, frame.height) {
+        for (place, pixel) in pixels.iter_mut().zip(&frame.pixels[rows.start * columns..]) {
+            *place = pixel.to_le_bytes();
+        }
+        return bytes;
+    }
+    // A row between two of the frame's, and once more its last pixel, which is right of itself.
+    let mut between = vec![0; frame.width + 1];
+    for (row, line) in rows.zip(pixels.chunks_exact_mut(columns)) {
         let (upper, lower, below) = tap(row, down, frame.height);
         let (upper, lower) = (&frame.pixels[upper * frame.width..], &frame.pixels[lower * frame.width..]);
-        for (column, place) in line.as_chunks_mut().0.iter_mut().enumerate() {
-            let (left, right, beyond) = tap(column, across, frame.width);
-            let mixed = [left, right].map(|at| mix(spread(upper[at]), spread(lower[at]), below));
-            let pixel = mix(mixed[0], mixed[1], beyond);
+        for column in 0..frame.width {
+            between[column] = mix(spread(upper[column]), spread(lower[column]), below);
+        }
+        between[frame.width] = between[frame.width - 1];
+        for (column, place) in line.iter_mut().enumerate() {
+            let (left, _, beyond) = tap(column, across, frame.width);
+            let pixel = mix(between[left], between[left + 1], beyond);
             *place = ((pixel | pixel >> 24) as u32).to_le_bytes();
         }
     }
@@ -52,7 +64,8 @@ fn spread(pixel: u32) -> u64 {
 
 /// A mix of two pixels' fields, at `share` 256ths of the way from `a` to `b`.
 fn mix(a: u64, b: u64, share: u64) -> u64 {
-    (a * (256 - share) + b * share) >> 8 & CHANNELS
+    // Fields may borrow from each other on the way to the sum, which is right again.
+    (a << 8).wrapping_add(b.wrapping_sub(a).wrapping_mul(share)) >> 8 & CHANNELS
 }
 
 #[cfg(test)]
@@ -82,6 +95,7 @@ mod tests {
         let frame = frame(16, 9);
         let bands: Vec<_> = [0..5, 5..6, 6..40].map(|band| rows(&frame, 50, 40, band)).concat();
         assert_eq!(bands, rows(&frame, 50, 40, 0..40));
+        assert_eq!([rows(&frame, 16, 9, 0..4), rows(&frame, 16, 9, 4..9)].concat(), rows(&frame, 16, 9, 0..9));
     }
 
     #[test]
