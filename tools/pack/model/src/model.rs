@@ -198,7 +198,10 @@ impl Model {
         // Two loops, so that the processor waits for all lines at once. The first keeps the checks it finds.
         for (hash, line) in self.hashes.iter_mut().zip(&mut *lines) {
             *hash = features::hash(*hash, self.partial);
-            *line = cells[(*hash >> (32 - LINE_BITS)) as usize][0];
+            let at = (*hash >> (32 - LINE_BITS)) as usize;
+            // SAFETY: nothing is read.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>((&raw const cells[at ^ 1]).cast()) };
+            *line = cells[at][0];
         }
         for (&check, line) in self.hashes.iter().zip(lines) {
             let mut at = check >> (32 - LINE_BITS);
