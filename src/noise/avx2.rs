@@ -88,15 +88,14 @@ fearless_simd::kernel!(
 #[inline(always)]
 pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
     let vectors = vectors(count, LANES);
-    // Separate arrays, since to clear larger ones is a call.
-    let (mut ox, mut oy, mut oz) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
-    let mut cells = [0; BLOCK];
-    let starts = locate(simd, points, zoom, vectors, [&mut ox, &mut oy, &mut oz], &mut cells);
-
-    let (mut near, mut far) = ([0; BLOCK + LANES], [0; BLOCK + LANES]);
+    // Two arrays, since the 64 kB build calls a function to clear each.
+    let (mut offsets, [mut near, mut far]) = ([[0.0; BLOCK]; 3], [[0; BLOCK + LANES]; 2]);
+    // The cells of points, in whose place come the hashes of runs: the number of a run is at most that of its first point.
+    let cells = near.first_chunk_mut().expect("it is longer than a block");
+    let starts = locate(simd, points, zoom, vectors, &mut offsets, cells);
     let (mut todo, mut run) = (starts, 0);
     while todo != 0 {
-        let cell = cells[todo.trailing_zeros() as usize & (BLOCK - 1)];
+        let cell = near[todo.trailing_zeros() as usize & (BLOCK - 1)];
         todo &= todo - 1;
         [near[run], far[run]] = hash(cell);
         run = (run + 1) & (BLOCK - 1);
@@ -106,7 +105,8 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, 
     let mut run = !0usize;
     let mut i = 0;
     while i < vectors {
-        let p = [load(simd, &ox, i), load(simd, &oy, i), load(simd, &oz, i)];
+        let [x, y, z] = &offsets;
+        let p = [load(simd, x, i), load(simd, y, i), load(simd, z, i)];
         let begins = starts >> (i * LANES) & 255;
         run = run.wrapping_add(begins as usize & 1);
         let first = run & (BLOCK - 1);
@@ -151,7 +151,7 @@ fn locate(
     points: [&[f32; BLOCK]; 3],
     zoom: f32,
     vectors: usize,
-    offsets: [&mut [f32; BLOCK]; 3],
+    offsets: &mut [[f32; BLOCK]; 3],
     cells: &mut [u32; BLOCK],
 ) -> u64 {
     let mut starts = 0;
@@ -167,7 +167,7 @@ fn locate(
             // Where the conversion overflows it gives 0x80000000. Its low byte is right, since floats as large are
             // multiples of 256.
             cell = cell << 8 | (floor.to_int::<i32x8<_>>().bitcast::<Words>() & 255);
-            store(p - floor, offsets[axis], i);
+            store(p - floor, &mut offsets[axis], i);
             axis += 1;
         }
         store(cell, cells, i);

@@ -76,10 +76,12 @@ pub fn octaves_block<S: Simd>(
     }
     let (mut amplitude, mut zoom) = (0.5, 1.0);
     *out = [0.0; BLOCK];
+    let mut octave = [0.0; BLOCK];
     for _ in 0..octaves {
-        let mut octave = [0.0; BLOCK];
         if shortest * zoom < LONG {
             noise_block(simd, x, y, z, zoom, count, &mut octave);
+        } else {
+            octave = [0.0; BLOCK];
         }
         let mut i = 0;
         while i < vectors(count, S::f32s::LEN) {
