@@ -17,7 +17,7 @@ pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
 
 /// Some `rows` of the frame scaled to `columns` x `count` pixels: four bytes per pixel, blue, green, red and 0.
 ///
-/// Panics where the frame, `columns` or `count` is 0, or where `rows` go beyond `count`.
+/// The `rows` lie within `count`. Panics where the frame, `columns` or `count` is 0.
 pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
     let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
     let mut bytes = vec![0; 4 * columns * rows.len()];

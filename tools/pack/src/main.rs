@@ -69,6 +69,7 @@ struct Place {
 }
 
 impl Place {
+    /// The workspace that this packer was built in, with the toolchain that there is.
     fn find() -> Result<Place, String> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let target =
