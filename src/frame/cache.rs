@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "full")]
 use std::{any::Any, sync::Arc};
 
-/// What a [`Cache`] can keep; [`keep!`] makes a type one of these.
+/// What a [`Cache`] can keep; `keep!` makes a type one of these.
 pub trait Keep: Send + Sized + 'static {
     /// What it starts as.
     const NEW: Self;
