@@ -17,29 +17,28 @@ pub fn fit(frame: &Frame, (width, height): (usize, usize)) -> (usize, usize) {
 
 /// Some `rows` of the frame scaled to `columns` x `count` pixels: four bytes per pixel, blue, green, red and 0.
 ///
-/// The `rows` lie within `count`. Panics where the frame, `columns` or `count` is 0.
+/// Panics where the frame, `columns` or `count` is 0, or where `rows` go beyond `count`.
 pub fn rows(frame: &Frame, columns: usize, count: usize, rows: Range<usize>) -> Vec<u8> {
     let (across, down) = ((frame.width << 16) / columns, (frame.height << 16) / count);
     let mut bytes = vec![0; 4 * columns * rows.len()];
     let (pixels, _) = bytes.as_chunks_mut();
     if (columns, count) == (frame.width, frame.height) {
-        for (place, pixel) in pixels.iter_mut().zip(&frame.pixels[rows.start * columns..]) {
+        for (place, pixel) in pixels.iter_mut().zip(&frame.pixels[rows.start * columns..rows.end * columns]) {
             *place = pixel.to_le_bytes();
         }
         return bytes;
     }
-    // A row between two of the frame's, and once more its last pixel, which is right of itself.
-    let mut between = vec![0; frame.width + 1];
+    // A row between two of the frame's.
+    let mut between = vec![0; frame.width];
     for (row, line) in rows.zip(pixels.chunks_exact_mut(columns)) {
         let (upper, lower, below) = tap(row, down, frame.height);
         let (upper, lower) = (&frame.pixels[upper * frame.width..], &frame.pixels[lower * frame.width..]);
         for column in 0..frame.width {
             between[column] = mix(spread(upper[column]), spread(lower[column]), below);
         }
-        between[frame.width] = between[frame.width - 1];
         for (column, place) in line.iter_mut().enumerate() {
-            let (left, _, beyond) = tap(column, across, frame.width);
-            let pixel = mix(between[left], between[left + 1], beyond);
+            let (left, right, beyond) = tap(column, across, frame.width);
+            let pixel = mix(between[left], between[right], beyond);
             *place = ((pixel | pixel >> 24) as u32).to_le_bytes();
         }
     }
@@ -96,6 +95,12 @@ mod tests {
         let bands: Vec<_> = [0..5, 5..6, 6..40].map(|band| rows(&frame, 50, 40, band)).concat();
         assert_eq!(bands, rows(&frame, 50, 40, 0..40));
         assert_eq!([rows(&frame, 16, 9, 0..4), rows(&frame, 16, 9, 4..9)].concat(), rows(&frame, 16, 9, 0..9));
+    }
+
+    #[test]
+    #[should_panic(expected = "out of range")]
+    fn rows_beyond_the_frame_are_refused() {
+        rows(&frame(16, 9), 16, 9, 8..10);
     }
 
     #[test]
