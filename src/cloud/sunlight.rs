@@ -17,8 +17,8 @@ use fearless_simd_macros::simd;
 use glam::Vec3;
 use std::f32::consts::LOG2_E;
 
-/// Writes the sunlight of every voxel, for a sun in the direction of the unit vector `towards` and a cloud whose
-/// greatest density has that extinction coefficient, per half of the cube's edge.
+/// Writes the sunlight of all voxels within the [bounds](Voxels::bounds), for a sun in the direction of the unit vector
+/// `towards` and a cloud whose greatest density has that extinction coefficient, per half of the cube's edge.
 #[simd]
 pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f32) {
     let (n, lanes) = (voxels.edge(), F::<S>::LEN);
@@ -35,45 +35,40 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     let width = n + 20;
     let mut before = vec![0.0; width * (n + 3)];
     let mut after = before.clone();
-    // A layer's rows interpolated along themselves; densities and light of a row.
-    let mut between = before.clone();
-    let mut densities = vec![0.0; width];
-    let mut lights = densities.clone();
+    // Densities of a row, in whose place comes their light.
+    let mut values = vec![0; width];
     let [column, row] = [du, dv].map(|step| (step.floor() + 1.0) as i32 as usize);
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
+    // Light that enters the bounds has met nothing before, and nothing in them is behind what has left them.
+    let [layers, along, across] = [main, u, v].map(|axis| voxels.extent(axis));
     let (density, light) = voxels.density_and_light();
-    for step in 0..n {
-        let layer = strides[main] * if way[main] > 0.0 { n - 1 - step } else { step };
-        for j in 0..n + 1 {
-            for i in (0..n).step_by(lanes) {
-                let place = steps + to_f32(i);
-                let share = place + du - (place + du.floor());
-                let at = (j + row) * width + i + column;
-                let (a, b): (F<S>, F<S>) = (take(simd, &before, at), take(simd, &before, at + 1));
-                (a + (b - a) * share).store_slice(&mut between[j * width + i..][..lanes]);
-            }
-        }
-        for j in 0..n {
+    for step in 0..layers.len() {
+        let layer = strides[main] * if way[main] > 0.0 { layers.end - 1 - step } else { layers.start + step };
+        for j in across.clone() {
             let first = layer + j * strides[v];
-            for (i, out) in densities[..n].iter_mut().enumerate() {
-                *out = density[first + i * strides[u]] as f32;
+            for i in along.clone() {
+                values[i] = density[first + i * strides[u]] as u32;
             }
             let share = to_f32(j) + dv - (to_f32(j) + dv.floor());
-            for i in (0..n).step_by(lanes) {
-                let (a, b): (F<S>, F<S>) =
-                    (take(simd, &between, j * width + i), take(simd, &between, (j + 1) * width + i));
-                let own: F<S> = take(simd, &densities, i);
+            for i in along.clone().step_by(lanes) {
+                let place = steps + to_f32(i);
+                let aside = place + du - (place + du.floor());
+                let at = (j + row) * width + i + column;
+                let (a, b): (F<S>, F<S>) = (take(simd, &before, at), take(simd, &before, at + 1));
+                let (c, d): (F<S>, F<S>) = (take(simd, &before, at + width), take(simd, &before, at + width + 1));
+                let (a, b) = (a + (b - a) * aside, c + (d - c) * aside);
+                let own = float(simd, U::<S>::from_slice(simd, &values[i..i + lanes]));
                 let depth = a + (b - a) * share + own * (2.0 * half);
-                let inside = (steps + to_f32(i)).simd_lt(to_f32(n));
+                let inside = place.simd_lt(to_f32(along.end));
                 let kept = inside.select(depth, F::<S>::splat(simd, 0.0));
                 kept.store_slice(&mut after[(j + 1) * width + i + 1..][..lanes]);
                 // As far as the centre of the voxel.
                 let q = (depth - own * half) * LOG2_E;
                 let light = exp2(simd, q * -0.5) * (0.7 * 255.0) + exp2(simd, q * -0.06) * (0.3 * 255.0);
-                light.store_slice(&mut lights[i..i + lanes]);
+                (light + 0.5).to_int::<S::i32s>().bitcast::<U<S>>().store_slice(&mut values[i..i + lanes]);
             }
-            for (i, value) in lights[..n].iter().enumerate() {
-                light[first + i * strides[u]] = (value + 0.5) as u8;
+            for i in along.clone() {
+                light[first + i * strides[u]] = values[i] as u8;
             }
         }
         std::mem::swap(&mut before, &mut after);

@@ -8,6 +8,7 @@ use crate::simd::lanes::{F, U, V3, float};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3;
+use std::ops::Range;
 
 /// Cells along an edge of a block, for which one leap is stored.
 const LEAP: usize = 2;
@@ -73,7 +74,8 @@ impl Voxels {
         &self.density
     }
 
-    /// The share of the sun's light that reaches each point and is scattered there, of 255.
+    /// The share of the sun's light that reaches each point and is scattered there, of 255. It matters within the
+    /// [bounds](Voxels::bounds).
     pub fn light(&self) -> &[u8] {
         &self.light
     }
@@ -97,6 +99,17 @@ impl Voxels {
         self.bounds
     }
 
+    /// The points within the [bounds](Voxels::bounds) along an axis: those where the density is not 0, their neighbours, and
+    /// what is between them.
+    #[inline(never)]
+    pub(super) fn extent(&self, axis: usize) -> Range<usize> {
+        let edge = to_f32(self.edge);
+        // The bounds are halfway between points.
+        let [low, high] =
+            self.bounds.map(|bound| ((bound[axis] + 1.0) * edge * 0.5).clamp(0.0, edge - 1.0) as i32 as usize);
+        low..high + 1
+    }
+
     /// Makes the words that lookups read, after density or light have changed.
     pub(super) fn pack(&mut self) {
         let n = self.edge;
@@ -115,8 +128,12 @@ impl Voxels {
     fn measure(&mut self) {
         let mut full = self.occupied();
         let n = self.edge / LEAP;
-        self.leaps = full.iter().map(|full| !full as u8).collect();
-        for _ in 0..RINGS {
+        self.leaps = vec![0; full.len()];
+        for ring in 0..RINGS + 1 {
+            let more = if ring == 0 { 1 } else { LEAP as u8 };
+            for (leap, full) in self.leaps.iter_mut().zip(&full) {
+                *leap += if *full { 0 } else { more };
+            }
             // One ring wider, an axis at a time. What runs over an edge comes in at the next row, which can only make
             // leaps shorter.
             for stride in [1, n, n * n] {
@@ -127,9 +144,6 @@ impl Voxels {
                 for (full, last) in full[stride..].iter_mut().zip(&before) {
                     *full |= last;
                 }
-            }
-            for (leap, full) in self.leaps.iter_mut().zip(&full) {
-                *leap += if *full { 0 } else { LEAP as u8 };
             }
         }
     }
