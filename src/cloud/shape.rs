@@ -32,6 +32,9 @@ pub struct CloudKind {
     rise: f32,
 }
 
+/// Edge of a block of points.
+const SIDE: usize = 4;
+
 /// How far noise moves points.
 const WARP: f32 = 0.22;
 
@@ -59,14 +62,15 @@ impl CloudKind {
 
     /// The cloud of a kind and a seed, `edge` points along an edge: a multiple of 4.
     ///
-    /// Points are taken in blocks along x, and blocks in columns along y, whose base is the same:
+    /// Points are taken in blocks of 4^3, of which many are wholly outside or inside, and these in columns, whose base is
+    /// the same:
     ///
     /// ```text
-    /// for each column, for each block of it:
+    /// for each column, for each block of it that is not below all bases:
     ///     warped = point + WARP * noise(point)
     ///     distance = to the nearest puff from the warped point, + SHIFT
     ///     skip the block where erosion could not bring any point inside
-    ///     distance -= EROSION * four octaves of |noise(warped)|
+    ///     distance -= EROSION * four octaves of |noise(warped)|, unless all points are inside as it is
     ///     base = height over the base, which noise makes uneven
     ///     density = clamp(-distance / rise) * clamp(base), and 0 at the faces of the cube
     /// ```
@@ -75,26 +79,31 @@ impl CloudKind {
         let o = 17.3 * (seed + 1) as f32;
         let puffs = kind.puffs(seed);
         let mut density = vec![0; edge * edge * edge];
-        let across = edge.div_ceil(BLOCK);
-        for column in 0..across * edge {
-            let (first, z) = (column % across * BLOCK, column / across);
+        let across = edge / SIDE;
+        for column in 0..across * across {
+            let (x, z) = (column % across * SIDE, column / across * SIDE);
             let mut base = None;
-            for y in 0..edge {
-                let (mut at, mut inside) = ([[0.0; BLOCK]; 3], [0.0; BLOCK]);
-                points([first, y, z], edge, &mut at, &mut inside);
+            for y in (0..edge).step_by(SIDE) {
+                let (mut at, mut inside, mut places) = ([[0.0; BLOCK]; 3], [0.0; BLOCK], [0; BLOCK]);
+                points([x, y, z], edge, &mut at, &mut inside, &mut places);
                 let [px, py, pz] = &at;
+                // Four octaves of noise come to less than 1.
+                let lowest = kind.base as f32 * 0.1;
+                if py[BLOCK - 1] * 10.0 + 1.0 < lowest {
+                    continue;
+                }
                 let mut warped = at;
                 warp(simd, [px, py, pz], o, &mut warped);
                 let mut distance = [0.0; BLOCK];
-                if !erode(simd, &warped, &puffs, o, &mut distance) {
+                if !erode(simd, &warped, &puffs, o, kind.rise, &mut distance) {
                     continue;
                 }
                 let base =
                     base.get_or_insert_with(|| fbm(simd, [px, py, pz], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4));
-                let row = density[(z * edge + y) * edge..][..edge][first..].iter_mut();
-                for (i, density) in row.take(BLOCK).enumerate() {
-                    let base = (py[i] * 10.0 + base[i] - kind.base as f32 * 0.1).clamp(0.0, 1.0);
-                    *density = ((distance[i] * (-1.0 / kind.rise)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
+                for i in 0..BLOCK {
+                    let base = (py[i] * 10.0 + base[i] - lowest).clamp(0.0, 1.0);
+                    density[places[i]] =
+                        ((distance[i] * (-1.0 / kind.rise)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
                 }
             }
         }
@@ -120,16 +129,24 @@ impl CloudKind {
 
 // The steps write into the caller's blocks: as results these would be copied, 0.2 kB packed.
 
-/// The points of a block that begins at voxel `[x, y, z]`, and 255 for those that are not in a face of the cube.
+/// The points of a block that begins at voxel `first`, in Morton's order, in which neighbours mostly lie in one cell of
+/// noise; 255 for those that are not in a face of the cube, and their voxels' numbers.
 #[inline(always)]
-fn points([first, y, z]: [usize; 3], edge: usize, at: &mut Block3, inside: &mut [f32; BLOCK]) {
+fn points(first: [usize; 3], edge: usize, at: &mut Block3, inside: &mut [f32; BLOCK], numbers: &mut [usize; BLOCK]) {
     let scale = 2.0 / to_f32(edge);
     for i in 0..BLOCK {
-        let place = [first + i, y, z];
-        for (at, place) in at.iter_mut().zip(place) {
+        let mut stride = 1;
+        inside[i] = 255.0;
+        for (axis, at) in at.iter_mut().enumerate() {
+            let bits = i >> axis;
+            let place = first[axis] + (bits & 1 | bits >> 2 & 2);
             at[i] = (to_f32(place) + 0.5) * scale - 1.0;
+            if place == 0 || place == edge - 1 {
+                inside[i] = 0.0;
+            }
+            numbers[i] += place * stride;
+            stride *= edge;
         }
-        inside[i] = if place.iter().any(|i| *i == 0 || *i == edge - 1) { 0.0 } else { 255.0 };
     }
 }
 
@@ -145,10 +162,17 @@ fn warp<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], o: f32, warped: &mut Block
 }
 
 /// Distances of points to the eroded puffs, below 0 inside. False where all points are outside; the distances are not
-/// complete then.
+/// complete then. Neither are they where all are less than `-rise` as it is.
 #[inline(always)]
-fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, distance: &mut [f32; BLOCK]) -> bool {
-    let mut some = false;
+fn erode<S: Simd>(
+    simd: S,
+    warped: &Block3,
+    puffs: &[(Vec3, f32)],
+    o: f32,
+    rise: f32,
+    distance: &mut [f32; BLOCK],
+) -> bool {
+    let (mut some, mut all) = (false, true);
     for i in 0..BLOCK / F::<S>::LEN {
         let [x, y, z]: [F<S>; 3] = [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
         let mut near = F::<S>::splat(simd, 9.0);
@@ -158,10 +182,11 @@ fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, dista
         }
         // Four octaves of billows, less the shift, come to at most 0.815 of the erosion.
         some |= near.simd_lt(EROSION * 0.815).any_true();
+        all &= near.simd_lt(-SHIFT - rise).all_true();
         store(near + SHIFT, distance, i);
     }
-    if !some {
-        return false;
+    if !some || all {
+        return some;
     }
     let (mut frequency, mut amplitude) = (3.0, -EROSION);
     let [u, v, w] = warped;
