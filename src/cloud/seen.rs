@@ -132,8 +132,13 @@ impl SeenClouds {
         const HALF: f32 = 0.5 * Tile::SIZE as f32;
         let cone = Cone::new(&self.view, (to_f32(tile.x) + HALF, to_f32(tile.y) + HALF), HALF);
         let eye = self.view.camera().eye;
-        let meets = |seen: &&SeenCloud| cone.may_meet(seen.cloud.centre - eye, seen.radius());
-        self.clouds.iter().filter(meets).collect()
+        let mut near = Vec::new();
+        for seen in &self.clouds {
+            if cone.may_meet(seen.cloud.centre - eye, seen.radius()) {
+                near.push(seen);
+            }
+        }
+        near
     }
 }
 

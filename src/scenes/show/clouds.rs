@@ -128,8 +128,7 @@ impl Shot {
     }
 }
 
-/// A shape of cloud, and the sun that it is lit by.
-#[derive(Default)]
+/// A shape of cloud, and the sun that it is lit by: none at first.
 struct Shape {
     voxels: Option<Arc<Voxels>>,
     sun: Vec3,
@@ -139,24 +138,25 @@ struct Shape {
 
 /// The shapes that clouds have, kept from frame to frame.
 struct Shapes {
-    all: Vec<Shape>,
+    all: [Shape; 6],
     grain: Option<Arc<Voxels>>,
 }
-keep!(Shapes, Shapes { all: Vec::new(), grain: None });
+keep!(Shapes, Shapes { all: [const { Shape::NONE }; 6], grain: None });
+
+impl Shape {
+    const NONE: Shape = Shape { voxels: None, sun: Vec3::ZERO, kind: 0, extinction: 0.0 };
+}
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.
     fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
-        while self.all.len() < 6 {
-            self.all.push(Shape::default());
-        }
         spec.workers.each(self.all.iter_mut().enumerate(), |(number, shape)| {
             // Each shape at a time of its own, lest one frame has to light all of them.
             let sun = ((towards * 64.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
-            let known = shape.voxels.as_deref().filter(|_| !cuts::PARAMETERS || shape.kind == only);
-            if known.is_none() || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
+            let other = cuts::PARAMETERS && shape.kind != only;
+            if other || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
                 let kind = match only {
                     1 => CloudKind::CUMULUS,
                     2 => CloudKind::CONGESTUS,
@@ -164,15 +164,20 @@ impl Shapes {
                     _ => CloudKind::CONGESTUS,
                 };
                 let kind = kind.with_rise(RISE);
-                let mut new = match known {
-                    Some(old) => Voxels::clone(old),
-                    None => dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, VOXELS)),
-                };
+                // The last frame's picture is gone, so that nobody else has the shape but imposters.
+                let own = if cuts::IMPOSTERS { |old| Some(Arc::unwrap_or_clone(old)) } else { Arc::into_inner };
+                let old = std::mem::replace(shape, Shape::NONE).voxels.filter(|_| !other).and_then(own);
+                let mut new = old
+                    .unwrap_or_else(|| dispatch!(level, simd => CloudKind::grow(simd, &kind, number as u32, VOXELS)));
                 dispatch!(level, simd => sunlight::bake(simd, &mut new, sun, extinction));
                 *shape = Shape { voxels: Some(Arc::new(new)), sun, kind: only, extinction };
             }
         });
-        self.all.iter().filter_map(|shape| shape.voxels.clone()).collect()
+        let mut lit = Vec::new();
+        for shape in &self.all {
+            lit.extend(shape.voxels.clone());
+        }
+        lit
     }
 }
 
@@ -235,12 +240,23 @@ fn picture(spec: &FrameSpec) -> Picture {
     let texel = 80.0;
     let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - to_f32(CloudShadow::SIDE) * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
-    let mut points = Vec::new();
-    for number in 0..CloudShadow::SIDE * CloudShadow::SIDE {
-        let [x, z] = [number % CloudShadow::SIDE, number / CloudShadow::SIDE].map(|k| to_f32(k) * texel);
-        points.push(vec3(corner.x + x, 0.0, corner.y + z));
+    let mut passes = Vec::new();
+    for row in 0..CloudShadow::SIDE {
+        let z = corner.y + to_f32(row) * texel;
+        // Few shadows reach a row: most clouds are farther than half of their cube's edge from the sun's plane through it.
+        // They are sorted by z, as far as it matters.
+        let reaches = |cloud: &Cloud| {
+            let beside = (cloud.centre.z - z) * now.direction.y - cloud.centre.y * now.direction.z;
+            beside.abs() < cloud.size
+        };
+        let first = clouds.iter().position(reaches).unwrap_or(clouds.len());
+        let last = clouds.iter().rposition(reaches).map_or(first, |last| last + 1);
+        let mut points = Vec::new();
+        for column in 0..CloudShadow::SIDE {
+            points.push(vec3(corner.x + to_f32(column) * texel, 0.0, z));
+        }
+        passes.append(&mut shadow::shares(&clouds[first..last], now.direction, &points));
     }
-    let passes = shadow::shares(&clouds, now.direction, &points);
     if !cfg!(without = "cloud-shadows") {
         world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
