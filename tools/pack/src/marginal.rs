@@ -32,24 +32,24 @@ const FEATURES: &[(&str, &str)] = &[
 ];
 
 /// Builds and packs the intro of the workspace at `root` without each feature in turn; gives a table in Markdown, dearest
-/// first. `unpacker` is [`crate::stub::unpacker`]'s. Fails where leaving something out makes the program no smaller: then
-/// the sources no longer ask for it.
+/// first. `unpacker` is [`crate::stub::unpacker`]'s. Fails where leaving something out changes nothing: then the sources no
+/// longer ask for it.
 pub fn table(root: &Path, toolchain: &Toolchain, unpacker: &[u8], target: &Path) -> Result<String, String> {
-    let sizes = |without| -> Result<[usize; 2], String> {
+    let pack = |without| -> Result<packer::Packed, String> {
         let program = build::build(root, toolchain, unpacker, target, without)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
-        let packed = packer::pack(&program, unpacker)?;
-        Ok([packed.trimmed, packed.bytes.len()])
+        packer::pack(&program, unpacker)
     };
-    let all = sizes(None)?;
+    let all = pack(None)?;
     let mut rows = Vec::new();
     for &(name, what) in FEATURES {
-        let less = sizes(Some(name))?;
-        let [bytes, packed] = [0, 1].map(|i| all[i] as i64 - less[i] as i64);
-        eprintln!("{name}: {bytes} bytes, {packed} packed");
-        if bytes <= 0 {
-            return Err(format!("without {name} the program is no smaller"));
+        let less = pack(Some(name))?;
+        if less.bytes == all.bytes {
+            return Err(format!("without {name} the program is the same"));
         }
+        let bytes = all.trimmed as i64 - less.trimmed as i64;
+        let packed = all.bytes.len() as i64 - less.bytes.len() as i64;
+        eprintln!("{name}: {bytes} bytes, {packed} packed");
         rows.push((packed, bytes, name, what));
     }
     rows.sort_by_key(|row| -row.0);
