@@ -95,7 +95,7 @@ impl CloudKind {
                 let mut warped = at;
                 warp(simd, [px, py, pz], o, &mut warped);
                 let mut distance = [0.0; BLOCK];
-                if !erode(simd, &warped, &puffs, o, kind.rise, &mut distance) {
+                if !erode(simd, &warped, &puffs, o, &mut distance) {
                     continue;
                 }
                 let base =
@@ -162,17 +162,10 @@ fn warp<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], o: f32, warped: &mut Block
 }
 
 /// Distances of points to the eroded puffs, below 0 inside. False where all points are outside; the distances are not
-/// complete then. Neither are they where all are less than `-rise` as it is.
+/// complete then.
 #[inline(always)]
-fn erode<S: Simd>(
-    simd: S,
-    warped: &Block3,
-    puffs: &[(Vec3, f32)],
-    o: f32,
-    rise: f32,
-    distance: &mut [f32; BLOCK],
-) -> bool {
-    let (mut some, mut all) = (false, true);
+fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, distance: &mut [f32; BLOCK]) -> bool {
+    let mut some = false;
     for i in 0..BLOCK / F::<S>::LEN {
         let [x, y, z]: [F<S>; 3] = [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
         let mut near = F::<S>::splat(simd, 9.0);
@@ -182,11 +175,10 @@ fn erode<S: Simd>(
         }
         // Four octaves of billows, less the shift, come to at most 0.815 of the erosion.
         some |= near.simd_lt(EROSION * 0.815).any_true();
-        all &= near.simd_lt(-SHIFT - rise).all_true();
         store(near + SHIFT, distance, i);
     }
-    if !some || all {
-        return some;
+    if !some {
+        return false;
     }
     let (mut frequency, mut amplitude) = (3.0, -EROSION);
     let [u, v, w] = warped;

@@ -2,7 +2,7 @@
 //! instances in a browser do that share no memory.
 
 use super::layer::Picture;
-use super::renderer::{Options, Renderer, encode_tile};
+use super::renderer::{Options, RUN, Renderer, encode_tile, runs};
 use super::scene::{FrameSpec, Scene};
 use super::tile::Tile;
 use fearless_simd::dispatch;
@@ -48,9 +48,10 @@ impl Renderer {
         let last = end.next_multiple_of(Tile::SIZE).min(height);
         pixels.resize((last - above) * width, 0);
         let (level, Picture { layers, transfer }) = (self.level(), &prepared.picture);
-        let draw = |tile: &mut Tile, (band, pixels): (usize, &mut [u32])| {
-            for column in 0..width.div_ceil(Tile::SIZE) {
-                tile.place(column, first + band, width, height);
+        let across = width.div_ceil(RUN * Tile::SIZE);
+        let draw = |tile: &mut Tile, (run, rows): (usize, &mut [&mut [u32]])| {
+            for column in 0..rows[0].len().div_ceil(Tile::SIZE) {
+                tile.place(run % across * RUN + column, first + run / across, width, height);
                 for layer in layers {
                     layer.foresee(level, tile);
                 }
@@ -58,12 +59,12 @@ impl Renderer {
                     tile.solids_matter = index + 1 < layers.len();
                     layer.draw(level, tile);
                 }
-                dispatch!(level, simd => encode_tile(simd, *transfer, tile, width, pixels));
+                dispatch!(level, simd => encode_tile(simd, *transfer, tile, column, rows));
             }
             0
         };
-        let bands = pixels.chunks_mut((width * Tile::SIZE).max(1)).enumerate();
-        self.workers().each_with(bands, Tile::new, draw);
+        let mut rows = runs(pixels, width, 0, width);
+        self.workers().each_with(rows.chunks_mut(Tile::SIZE).enumerate(), Tile::new, draw);
         pixels.truncate((end - above) * width);
         pixels.drain(..(start - above) * width);
     }

@@ -175,7 +175,9 @@ impl Shapes {
         });
         let mut lit = Vec::new();
         for shape in &self.all {
-            lit.extend(shape.voxels.clone());
+            if let Some(voxels) = &shape.voxels {
+                lit.push(voxels.clone());
+            }
         }
         lit
     }

@@ -216,16 +216,8 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
     let mut flames = Vec::new();
     for (number, [x, y, z, inner, outer, scale]) in FIRES.into_iter().enumerate() {
         for (flame, count) in FLAMES.iter().zip([count, count / 75.0]) {
-            let mut flame = Flame { ring: [inner / scale, outer / scale], ..*flame };
-            if inner > 0.0 {
-                flame.narrows = 0.1;
-            }
-            if cuts::PARAMETERS {
-                flame.ring = flame.ring.map(|radius| radius * spec.get(&RADIUS) as f32);
-                flame.life = flame.life.map(|life| life * spec.get(&LIFE));
-            }
-            let fire = Fire {
-                flame,
+            let mut fire = Fire {
+                flame: *flame,
                 place: vec3(x, y, z),
                 scale,
                 time: spec.time,
@@ -236,6 +228,14 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
                 wind: vec3(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32),
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
+            fire.flame.ring = [inner / scale, outer / scale];
+            if inner > 0.0 {
+                fire.flame.narrows = 0.1;
+            }
+            if cuts::PARAMETERS {
+                fire.flame.ring = fire.flame.ring.map(|radius| radius * spec.get(&RADIUS) as f32);
+                fire.flame.life = fire.flame.life.map(|life| life * spec.get(&LIFE));
+            }
             flames.push(Emitter::Fire(fire));
         }
     }
