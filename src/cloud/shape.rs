@@ -62,15 +62,14 @@ impl CloudKind {
 
     /// The cloud of a kind and a seed, `edge` points along an edge: a multiple of 4.
     ///
-    /// Points are taken in blocks of 4^3, of which many are wholly outside or inside, and these in columns, whose base is
-    /// the same:
+    /// Points are taken in blocks of 4^3, many of which are wholly outside, and these in columns, whose base is the same:
     ///
     /// ```text
     /// for each column, for each block of it that is not below all bases:
     ///     warped = point + WARP * noise(point)
     ///     distance = to the nearest puff from the warped point, + SHIFT
     ///     skip the block where erosion could not bring any point inside
-    ///     distance -= EROSION * four octaves of |noise(warped)|, unless all points are inside as it is
+    ///     distance -= EROSION * four octaves of |noise(warped)|
     ///     base = height over the base, which noise makes uneven
     ///     density = clamp(-distance / rise) * clamp(base), and 0 at the faces of the cube
     /// ```
@@ -84,8 +83,8 @@ impl CloudKind {
             let (x, z) = (column % across * SIDE, column / across * SIDE);
             let mut base = None;
             for y in (0..edge).step_by(SIDE) {
-                let (mut at, mut inside, mut places) = ([[0.0; BLOCK]; 3], [0.0; BLOCK], [0; BLOCK]);
-                points([x, y, z], edge, &mut at, &mut inside, &mut places);
+                let (mut at, mut inside, mut numbers) = ([[0.0; BLOCK]; 3], [0.0; BLOCK], [0; BLOCK]);
+                points([x, y, z], edge, &mut at, &mut inside, &mut numbers);
                 let [px, py, pz] = &at;
                 // Four octaves of noise come to less than 1.
                 let lowest = kind.base as f32 * 0.1;
@@ -102,7 +101,7 @@ impl CloudKind {
                     base.get_or_insert_with(|| fbm(simd, [px, py, pz], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4));
                 for i in 0..BLOCK {
                     let base = (py[i] * 10.0 + base[i] - lowest).clamp(0.0, 1.0);
-                    density[places[i]] =
+                    density[numbers[i]] =
                         ((distance[i] * (-1.0 / kind.rise)).clamp(0.0, 1.0) * base * inside[i] + 0.5) as u8;
                 }
             }

@@ -40,7 +40,7 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f3
     let [column, row] = [du, dv].map(|step| (step.floor() + 1.0) as i32 as usize);
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
     // Light that enters the bounds has met nothing before, and nothing in them is behind what has left them.
-    let [layers, along, across] = [main, u, v].map(|axis| voxels.extent(axis));
+    let (layers, along, across) = (voxels.extent(main), voxels.extent(u), voxels.extent(v));
     let (density, light) = voxels.density_and_light();
     for step in 0..layers.len() {
         let layer = strides[main] * if way[main] > 0.0 { layers.end - 1 - step } else { layers.start + step };
