@@ -77,6 +77,7 @@ impl CloudKind {
     pub fn grow<S: Simd>(simd: S, kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
         let o = 17.3 * (seed + 1) as f32;
         let puffs = kind.puffs(seed);
+        let lowest = kind.base as f32 * 0.1;
         let mut density = vec![0; edge * edge * edge];
         let across = edge / SIDE;
         for column in 0..across * across {
@@ -87,7 +88,6 @@ impl CloudKind {
                 points([x, y, z], edge, &mut at, &mut inside, &mut numbers);
                 let [px, py, pz] = &at;
                 // Four octaves of noise come to less than 1.
-                let lowest = kind.base as f32 * 0.1;
                 if py[BLOCK - 1] * 10.0 + 1.0 < lowest {
                     continue;
                 }

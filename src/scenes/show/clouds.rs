@@ -136,16 +136,16 @@ struct Shape {
     extinction: f32,
 }
 
+impl Shape {
+    const NONE: Shape = Shape { voxels: None, sun: Vec3::ZERO, kind: 0, extinction: 0.0 };
+}
+
 /// The shapes that clouds have, kept from frame to frame.
 struct Shapes {
     all: [Shape; 6],
     grain: Option<Arc<Voxels>>,
 }
 keep!(Shapes, Shapes { all: [const { Shape::NONE }; 6], grain: None });
-
-impl Shape {
-    const NONE: Shape = Shape { voxels: None, sun: Vec3::ZERO, kind: 0, extinction: 0.0 };
-}
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.
@@ -246,18 +246,18 @@ fn picture(spec: &FrameSpec) -> Picture {
     for row in 0..CloudShadow::SIDE {
         let z = corner.y + to_f32(row) * texel;
         // Few shadows reach a row: most clouds are farther than half of their cube's edge from the sun's plane through it.
-        // They are sorted by z, as far as it matters.
+        // The others lie close together in the list, which goes by rows of the field's squares.
         let reaches = |cloud: &Cloud| {
             let beside = (cloud.centre.z - z) * now.direction.y - cloud.centre.y * now.direction.z;
             beside.abs() < cloud.size
         };
         let first = clouds.iter().position(reaches).unwrap_or(clouds.len());
-        let last = clouds.iter().rposition(reaches).map_or(first, |last| last + 1);
+        let end = clouds.iter().rposition(reaches).map_or(first, |last| last + 1);
         let mut points = Vec::new();
         for column in 0..CloudShadow::SIDE {
             points.push(vec3(corner.x + to_f32(column) * texel, 0.0, z));
         }
-        passes.append(&mut shadow::shares(&clouds[first..last], now.direction, &points));
+        passes.append(&mut shadow::shares(&clouds[first..end], now.direction, &points));
     }
     if !cfg!(without = "cloud-shadows") {
         world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
