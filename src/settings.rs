@@ -49,7 +49,7 @@ pub struct RasterSettings {
 /// Settings of the cloud renderer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudSettings {
-    /// Steps through a cloud's cube of voxels. The error falls with their square.
+    /// Steps along an edge of a cloud's cube of voxels. The error falls with their square.
     pub steps: u32,
     /// Steps per pixel of the cube's edge on the screen, where that makes fewer than `steps`; infinite for never.
     pub detail: f32,
@@ -57,9 +57,6 @@ pub struct CloudSettings {
     pub opaque: f32,
     /// A ray ends between clouds where its transmittance falls below this, and solids behind are not drawn; 0 for never.
     pub hidden: f32,
-    /// Pixels that a voxel's edge has at least where there is detail below a voxel, which is in full at twice as many; 0 for
-    /// detail everywhere.
-    pub grain: f32,
     /// Edge of the coarsest square of pixels with rays at its corners, a power of two up to 16. At 1 every pixel has a
     /// ray.
     pub cell: usize,
@@ -122,10 +119,9 @@ impl Quality {
         raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.05 },
         cloud: CloudSettings {
             steps: 100,
-            detail: 0.5,
+            detail: 1.0,
             opaque: 1.0 / 256.0,
             hidden: 1.0 / 256.0,
-            grain: 3.0,
             cell: 16,
             // At 0.032 0.2 % of the pixels of `sky-of-clouds` at 2 and 6 s are off by more than 8 codes, at 0.04 0.3 %, for 0.93
             // of the time.
@@ -162,7 +158,6 @@ impl Quality {
             detail: f32::INFINITY,
             opaque: 0.0,
             hidden: 0.0,
-            grain: 0.0,
             cell: 1,
             threshold: 0.0,
             grid: 1,

@@ -1,4 +1,4 @@
-//! Detail below a voxel: billows from a small table of noise, which a cloud has where one is close by.
+//! Detail below a voxel: billows from a small table of noise.
 //!
 //! Voxels of some metres are soft from close by. What is finer comes from one table for all clouds, three octaves of
 //! turbulence `[Perlin02]` on a lattice of less than half a voxel, so that a lookup costs what one of a cloud's own voxels does,
@@ -10,7 +10,6 @@ use crate::simd::lanes::{F, V3};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3;
-use std::sync::Arc;
 
 /// Points along an edge of the table.
 const EDGE: usize = 32;
@@ -30,14 +29,6 @@ pub fn table() -> Voxels {
         sum.min(255.0) as u8
     };
     Voxels::new(EDGE, (0..EDGE * EDGE * EDGE).map(point).collect())
-}
-
-/// Where a cloud has it.
-pub struct Fine {
-    /// [`table`].
-    pub table: Arc<Voxels>,
-    /// Distance from the eye up to which there is some, halves of the cube's edge. Within half of it there is all.
-    pub distance: f32,
 }
 
 /// Detail at points `u` of a cloud, in its voxels: from -1 to 1, and 0 in the mean.

@@ -34,7 +34,8 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let (met, left) = clip(within(simd, q, ways, cloud.voxels.bounds()));
     let (entry, exit) = clip(within(simd, q, ways, CUBE));
     let q = Vec3::new(first(q.x), first(q.y), first(q.z));
-    let length = (exit - entry) / seen.steps;
+    let steps = ((exit - entry) * (seen.steps * 0.5) + 0.5).floor().max(1.0);
+    let length = (exit - entry) / steps;
     // Written so that a NaN takes no steps.
     if length.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
         return 0;
@@ -43,7 +44,7 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let reach = 0.9999 / (length * half * d.abs().max_element());
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
     let (mut step, mut taken, mut depth) = (((met - entry) / length).floor().max(0.0), 0, 0.0);
-    while step < ((left - entry) / length).min(seen.steps) {
+    while step < ((left - entry) / length).min(steps) {
         taken += 1;
         let p = q + d * (entry + (step + 0.5) * length);
         let u = (p * half + (half - 0.5)).max(Vec3::ZERO).min(Vec3::splat(most));

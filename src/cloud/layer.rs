@@ -28,8 +28,7 @@ impl CloudLayer {
         CloudLayer { clouds: SeenClouds::new(clouds, light, view, settings) }
     }
 
-    /// The same with detail below a voxel from a [`table`](super::grain::table), where voxels are large on the screen: clouds
-    /// that one flies through.
+    /// The same with detail below a voxel from a [`table`](super::grain::table), for clouds that one flies through.
     pub fn with_grain(mut self, table: &Arc<Voxels>) -> CloudLayer {
         self.clouds.add_grain(table);
         self

@@ -1,12 +1,13 @@
 //! Rays through the voxels of one cloud, a vector of rays at a time.
 //!
-//! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, and the density
-//! in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
+//! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, about as long for
+//! every ray, and the density in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
 //! exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
 //! square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
 //! steps the transmittance of clouds that have one in closed form.
 
-use super::grain::{Fine, grain};
+use super::grain::grain;
+use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, U, V3};
 use crate::simd::math::{opacity, to_f32};
@@ -18,9 +19,6 @@ use std::f32::consts::LOG2_E;
 /// How much detail below a voxel adds to the density, of its distance to none and to all, and to the light.
 const GRAIN: f32 = 3.0;
 const SHADE: f32 = 0.008;
-
-/// Most of the product of a density and what it lacks, halved with 127.5 each: where detail is strongest.
-const MOST: f32 = 255.0 / 4.0;
 
 /// What rays meet in a cloud, without the colours of its light.
 pub struct Passage<S: Simd> {
@@ -53,8 +51,9 @@ impl<S: Simd> Passage<S> {
 
 /// What rays from `eye` along unit directions `d` meet of a cloud, up to `limit` metres from the eye.
 ///
-/// The way through the cube is cut into `steps` steps. A ray ends where its transmittance falls below `opaque`.
-/// Of `fine` detail there is nothing where less than 16 times `opaque` comes through.
+/// The way through the cube is cut into equal steps, whose length is the nearest to the cube's edge over `steps`. A ray
+/// ends where its transmittance falls below `opaque`. Detail below a voxel is that of the table `fine`, if there is one;
+/// there is none where less than 16 times `opaque` comes through.
 ///
 /// Directions have to have the length 1: they are not normalised, and the depth is in proportion to it. The cube is
 /// closed: a ray along an axis that runs within a face is in the cloud. `limit` may be infinite; where it is 0 or less
@@ -76,7 +75,7 @@ impl<S: Simd> Passage<S> {
 #[simd]
 pub fn march<S: Simd>(
     simd: S,
-    (cloud, fine): (&Cloud, Option<&Fine>),
+    (cloud, fine): (&Cloud, Option<&Voxels>),
     eye: Vec3,
     d: V3<S>,
     limit: F<S>,
@@ -93,7 +92,8 @@ pub fn march<S: Simd>(
     }
     let (entry, exit) = clip(within(simd, q, d, CUBE));
     let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
-    let length = (exit - entry) * (1.0 / steps);
+    let steps = ((exit - entry) * (steps * 0.5) + 0.5).floor().max(1.0);
+    let length = (exit - entry) / steps;
     let missed = length.simd_le(zero);
     let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
     let most = to_f32(cloud.voxels.edge() - 1);
@@ -121,12 +121,11 @@ pub fn march<S: Simd>(
         if (goes & leap.simd_lt(zero)).any_true() {
             let [mut density, mut sunlit] = cloud.voxels.look_up(simd, u);
             if let Some(fine) = fine {
-                let near = (F::<S>::splat(simd, fine.distance) / (way + along) - 1.0).min(1.0);
-                let near = transmittance.simd_ge(opaque * 16.0).select(near, zero).max(zero);
                 // Neither emptiness nor a cloud's inside has any.
-                let near = (density * (density * (-1.0 / 255.0) + 1.0)).min(near * MOST);
-                if (goes & near.simd_gt(zero)).any_true() {
-                    let grain = grain(simd, &fine.table, u) * near;
+                let share = density * (density * (-1.0 / 255.0) + 1.0);
+                let share = transmittance.simd_ge(opaque * 16.0).select(share, zero);
+                if (goes & share.simd_gt(zero)).any_true() {
+                    let grain = grain(simd, fine, u) * share;
                     density = (density + grain * GRAIN).max(zero).min(255.0);
                     sunlit += sunlit * grain * SHADE;
                 }

@@ -1,7 +1,6 @@
 //! Clouds as they are seen from an eye: sorted by distance, each with the steps that it is worth, and with the air and
 //! the shadows of others between.
 
-use super::grain::Fine;
 use super::imposter::Imposter;
 use super::march::{Passage, march};
 use super::shadow;
@@ -20,7 +19,7 @@ use std::sync::Arc;
 /// Distance from the centre of a cube to a corner, halves of its edge: the root of 3.
 const ROOT: f32 = 1.732_051;
 
-/// The least number of steps through a cube, however small it is on the screen.
+/// The least number of steps along the edge of a cube, however small it is on the screen.
 const LEAST_STEPS: f32 = 8.0;
 
 /// Share of the sun's light that reaches a cloud in the deepest shadow of others: air and clouds scatter some to it.
@@ -31,10 +30,10 @@ pub(super) struct SeenCloud {
     pub cloud: Cloud,
     /// Distance of its centre from the eye, metres.
     pub distance: f32,
-    /// Steps through its cube.
+    /// Steps along an edge of its cube.
     pub steps: f32,
     /// Its detail below a voxel.
-    pub fine: Option<Fine>,
+    pub fine: Option<Arc<Voxels>>,
     /// The share of its light that comes through the air.
     pub fades: f32,
     /// The light of the air before it, where it hides all that is behind.
@@ -101,9 +100,7 @@ impl SeenClouds {
     /// Gives the clouds detail below a voxel: see [`CloudLayer::with_grain`](super::CloudLayer::with_grain).
     pub fn add_grain(&mut self, table: &Arc<Voxels>) {
         for seen in &mut self.clouds {
-            let voxel = 2.0 / to_f32(seen.cloud.voxels.edge());
-            let distance = voxel / (self.view.pixel() * self.settings.built().grain);
-            seen.fine = Some(Fine { table: table.clone(), distance });
+            seen.fine = Some(table.clone());
         }
     }
 
@@ -162,7 +159,7 @@ impl SeenCloud {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
             self.meet_imposters(simd, eye, d, limit, opaque)
         } else {
-            march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque)
+            march(simd, (&self.cloud, self.fine.as_deref()), eye, d, limit, self.steps, opaque)
         }
     }
 
@@ -174,7 +171,7 @@ impl SeenCloud {
         let q = (eye - self.cloud.centre) / self.cloud.size;
         let mut sums = [zero; 3];
         if self.direct > 0.0 {
-            let met = march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque);
+            let met = march(simd, (&self.cloud, self.fine.as_deref()), eye, d, limit, self.steps, opaque);
             sums = [met.transmittance * self.direct, met.upper * self.direct, met.lit * self.direct];
         }
         for (imposter, weight) in &self.imposters {
@@ -203,7 +200,7 @@ impl SeenCloud {
         if !cut.any_true() {
             return met;
         }
-        let cast = march(simd, (&self.cloud, self.fine.as_ref()), eye, d, limit, self.steps, opaque);
+        let cast = march(simd, (&self.cloud, self.fine.as_deref()), eye, d, limit, self.steps, opaque);
         Passage {
             hidden: cut.select(cast.hidden, met.hidden),
             upper: cut.select(cast.upper, met.upper),

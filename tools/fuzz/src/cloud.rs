@@ -65,7 +65,6 @@ fn settings(input: &mut Input) -> CloudSettings {
         detail: input.one_of(&[f32::INFINITY, 0.5, 2.0]),
         opaque: input.one_of(&[0.0, 1.0 / 256.0, 0.5]),
         hidden: input.one_of(&[0.0, 1.0 / 256.0, 0.5]),
-        grain: 3.0,
         cell,
         threshold: input.one_of(&[0.0, 0.015, 1.0]),
         grid: if cell == 1 { 1 + input.below(2) } else { 1 },

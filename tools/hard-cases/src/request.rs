@@ -66,7 +66,6 @@ fn any_quality(random: &mut Random) -> Quality {
             detail: if random.unit() < 0.2 { f32::INFINITY } else { random.log(0.01, 4.0) as f32 },
             opaque: share(random).min(0.9),
             hidden: share(random).min(0.9),
-            grain: pick(random, &[0.0, 1.0, 3.0, 30.0]),
             cell: pick(random, &cells),
             threshold: share(random),
             grid: 1,

@@ -2,7 +2,6 @@
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::{DVec3, Vec3, dvec3, vec3};
-use paprsek::cloud::grain::Fine;
 use paprsek::cloud::march::march;
 use paprsek::cloud::{Cloud, CloudLight, Voxels};
 use paprsek::noise::{fbm, noise};
@@ -66,7 +65,7 @@ pub fn rays(
 /// The same through a cloud with detail below a voxel.
 pub fn fine_rays(
     level: Level,
-    (cloud, fine): (&Cloud, Option<&Fine>),
+    (cloud, fine): (&Cloud, Option<&Voxels>),
     look: &CloudLight,
     eye: Vec3,
     d: &[Vec3; 16],
@@ -75,7 +74,7 @@ pub fn fine_rays(
 ) -> Vec<(Vec3, f32)> {
     fn all<S: Simd>(
         simd: S,
-        (cloud, fine, look, eye): (&Cloud, Option<&Fine>, &CloudLight, Vec3),
+        (cloud, fine, look, eye): (&Cloud, Option<&Voxels>, &CloudLight, Vec3),
         d: &[Vec3; 16],
         limit: f32,
         cut: [f32; 2],
@@ -176,14 +175,14 @@ fn look_up(voxels: &Voxels, u: DVec3) -> [f64; 2] {
     sum
 }
 
-/// The march in f64, as the bench scenes specify it, but that nothing ends it.
+/// The march in f64, with about `steps` steps for an edge of the cube, but that nothing ends it.
 pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, steps: u32) -> (DVec3, f64) {
     fine_truth((cloud, None), look, eye, d, steps)
 }
 
 /// The same with detail below a voxel.
 pub fn fine_truth(
-    (cloud, fine): (&Cloud, Option<&Fine>),
+    (cloud, fine): (&Cloud, Option<&Voxels>),
     look: &CloudLight,
     eye: Vec3,
     d: Vec3,
@@ -191,6 +190,7 @@ pub fn fine_truth(
 ) -> (DVec3, f64) {
     let (q, d) = ((eye - cloud.centre).as_dvec3() / cloud.size as f64, d.as_dvec3());
     let Some((entry, exit)) = span(q, d) else { return (DVec3::ZERO, 1.0) };
+    let steps = ((exit - entry) * (0.5 * steps as f64) + 0.5).floor().max(1.0) as u32;
     let length = (exit - entry) / steps as f64;
     let (mut light, mut left) = (DVec3::ZERO, 1.0);
     let phase = look.phase[0] as f64 + look.phase[1] as f64 * d.dot(look.towards.as_dvec3()).max(0.0).powi(6);
@@ -200,8 +200,7 @@ pub fn fine_truth(
         let u = voxel(&cloud.voxels, p);
         let [mut density, mut lit] = look_up(&cloud.voxels, u);
         if let Some(fine) = fine {
-            let near = (fine.distance as f64 / along - 1.0).clamp(0.0, 1.0);
-            let grain = grain(&fine.table, u) * (density * (1.0 - density)).min(near * 0.25);
+            let grain = grain(fine, u) * density * (1.0 - density);
             density = (density + 3.0 * grain).clamp(0.0, 1.0);
             lit *= 1.0 + 2.04 * grain;
         }
