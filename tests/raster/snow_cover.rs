@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec2, Vec3, Vec3Swizzles as _, vec2, vec3};
 use paprsek::frame::Cache;
 use paprsek::noise::noise;
-use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, PRINT, RELIEF, ROUGH, SINKS, STANCE, STEP, WHITE};
+use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, PRINT, RELIEF, ROUGH, SINKS, STANCE, STEP, VARIES, WHITE};
 use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, SnowCover, World};
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern};
@@ -51,6 +51,8 @@ struct Spot {
     depth: f64,
     point: DVec3,
     grain: f64,
+    /// Length of the pixel there.
+    footprint: f64,
 }
 
 /// On a plane through the origin.
@@ -72,7 +74,7 @@ fn spot(camera: &Camera, pixel: usize, normal: DVec3) -> Spot {
             0.5f64.powi(k as i32 + 1) * noise((point * zoom).as_vec3()) as f64 * fade
         })
         .sum();
-    Spot { ray, depth, point, grain: sum * most.x as f64 }
+    Spot { ray, depth, point, grain: sum * most.x as f64, footprint }
 }
 
 fn smooth(x: f64) -> f64 {
@@ -80,12 +82,18 @@ fn smooth(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// The share of a surface that is white, by how much of the sky it faces.
-fn cover(amount: f32, open: f64, albedo: Vec3, gloss: f32, grain: f64) -> f64 {
+/// The depth of snow, by how much of the sky a surface faces.
+fn depth(amount: f32, open: f64) -> f64 {
     let [steep, level] = KEEPS.map(f64::from);
-    let depth = amount as f64 * (1.0 + EDGE as f64) * smooth((open - steep) / (level - steep));
+    amount as f64 * (1.0 + EDGE as f64) * smooth((open - steep) / (level - steep))
+}
+
+/// The share of a surface that is white under a depth of snow, over a pixel of a length.
+fn cover(depth: f64, albedo: Vec3, grain: f64, footprint: f64) -> f64 {
     let rough = (ROUGH as f64 * albedo.y as f64 + grain).clamp(0.0, 1.0);
-    smooth((depth - rough) / EDGE as f64) * (1.0 - gloss as f64)
+    let across = (footprint * VARIES as f64).min(depth).min(1.0 + EDGE as f64 - depth);
+    let edge = across.hypot(EDGE as f64);
+    smooth((depth - rough - 0.5 * EDGE as f64) / edge + 0.5)
 }
 
 /// What snow looks like in light 1.
@@ -121,8 +129,8 @@ fn open_slopes_are_covered_by_their_formula() {
                 let planes = picture(&World { snow: settled, ..world.clone() }, camera);
                 for (pixel, found) in planes.color.iter().enumerate().filter(|(pixel, _)| planes.coverage[*pixel] > 0.0)
                 {
-                    let Spot { ray, grain, .. } = spot(&camera, pixel, normal);
-                    let cover = cover(amount, normal.y, albedo, gloss, grain);
+                    let Spot { ray, grain, footprint, .. } = spot(&camera, pixel, normal);
+                    let cover = cover(depth(amount, normal.y), albedo, grain, footprint) * (1.0 - gloss as f64);
                     let lit = 1.0 + light.as_dvec3() * normal.y;
                     let seen = albedo.as_dvec3().lerp(white(grain), cover);
                     let color = seen * lit;
@@ -186,7 +194,7 @@ fn footprints_are_where_feet_have_trodden() {
         let planes = picture(&World { snow: settled, ..world.clone() }, camera);
         let mut trodden = 0;
         for pixel in (0..planes.color.len()).filter(|pixel| planes.coverage[*pixel] > 0.0) {
-            let Spot { point, grain, .. } = spot(&camera, pixel, DVec3::Y);
+            let Spot { point, grain, footprint, .. } = spot(&camera, pixel, DVec3::Y);
             let place = point.xz() - from;
             let (along, across) = (place.dot(way), way.perp().dot(place));
             // The n-th foot comes down in the middle of the n-th step, the left one first.
@@ -196,9 +204,7 @@ fn footprints_are_where_feet_have_trodden() {
             let v = (across - side) / PRINT[1] as f64;
             let on_the_way = (0.0..=length).contains(&along);
             let print = if on_the_way { (1.0 - u * u - v * v).clamp(0.0, 1.0) } else { 0.0 };
-            let depth = amount as f64 * (1.0 + EDGE as f64) - print * SINKS as f64;
-            let rough = (ROUGH as f64 * GROUND.y as f64 + grain).clamp(0.0, 1.0);
-            let cover = smooth((depth - rough) / EDGE as f64);
+            let cover = cover(depth(amount, 1.0) - print * SINKS as f64, GROUND, grain, footprint);
             let snow = WHITE.as_dvec3() * (1.0 + RELIEF as f64 * (grain - print));
             let gap = (planes.color[pixel].as_dvec3() - GROUND.as_dvec3().lerp(snow, cover)).abs().max_element();
             assert!(gap <= 2.0 * EXACT, "{amount}: off by {gap} at {pixel}");
@@ -227,7 +233,7 @@ fn what_stands_above_keeps_snow_off() {
         let planes = picture(&World { snow: snow(1.0, Some(shadow_views(24.0, texels))), ..world.clone() }, camera);
         let mut seen = [0; 3];
         for pixel in 0..planes.color.len() {
-            let Spot { ray, depth, point: p, grain } = spot(&camera, pixel, DVec3::Y);
+            let Spot { ray, depth, point: p, grain, .. } = spot(&camera, pixel, DVec3::Y);
             // The ground, not the slab or its rim.
             let ground = (planes.inv_depth[pixel] as f64 * depth - 1.0).abs() < 1e-3;
             if ray.y >= 0.0 || !ground || p.abs().max_element() > 11.5 {
