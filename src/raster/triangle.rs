@@ -9,7 +9,7 @@ use super::id::TRIANGLES;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
 use crate::cuts;
-use glam::{Affine3A, Vec3, Vec3A, Vec4};
+use glam::{Affine3A, Vec3, Vec3A, Vec4, vec4};
 
 /// Steps per pixel of the grid that corners are snapped to, along x and along y.
 pub const SUB: i32 = 256;
@@ -59,7 +59,7 @@ pub struct SetupMesh {
     pub triangles: Vec<Triangle>,
 }
 
-/// Number of the first plane, in [`Corner::distances`], that triangles must be clipped at.
+/// Number of the first plane, in [`Corner::outside`], that triangles must be clipped at.
 const CLIP: usize = 4;
 
 /// A corner of a triangle.
@@ -71,10 +71,11 @@ struct Corner {
     place: Vec3A,
     /// Normal in the world, of any length.
     normal: Vec3A,
-    /// Signed distances, in homogeneous pixels and positive inside, from the four sides of the raster, then from the
-    /// planes that must be clipped at: near, and the four sides of the guard band.
-    distances: [f32; 9],
-    /// For each of these planes a bit, set where the corner does not lie inside.
+    /// Signed distances, in homogeneous pixels and positive inside, from the planes that must be clipped at: the four sides
+    /// of the guard band, and near.
+    distances: [f32; 5],
+    /// For each of the four sides of the raster, then for each of these planes a bit, set where the corner does not lie
+    /// inside.
     outside: u32,
     /// Place on the raster, in steps of 1 / [`SUB`] pixel.
     x: i32,
@@ -167,25 +168,22 @@ impl TriangleSetup {
     /// A corner at homogeneous pixels `h`.
     fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
         let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
-        let (x, y, guard) = (h.x - 0.5 * a, h.y - 0.5 * b, GUARD * h.w);
-        let distances = [h.x, a - h.x, h.y, b - h.y, h.w - NEAR, guard + x, guard - x, guard + y, guard - y];
-        let mut outside = 0;
-        for (k, distance) in distances.into_iter().enumerate() {
-            // Written so that NaN lies outside of every plane.
-            #[allow(clippy::neg_cmp_op_on_partial_ord)]
-            let beyond = !(distance >= 0.0);
-            outside |= u32::from(beyond) << k;
-        }
+        let (x, y, near) = (h.x - 0.5 * a, h.y - 0.5 * b, h.w - NEAR);
+        let guard = Vec4::splat(GUARD * h.w) + vec4(x, -x, y, -y);
+        // Written so that NaN lies outside of every plane.
+        let within = |distances: Vec4| distances.cmpge(Vec4::ZERO).bitmask();
+        let inside = within(vec4(h.x, a - h.x, h.y, b - h.y)) | within(guard) << CLIP | u32::from(near >= 0.0) << 8;
+        let [d0, d1, d2, d3] = guard.to_array();
+        let (distances, outside) = ([d0, d1, d2, d3, near], !inside & 0x1ff);
         let inverse = 1.0 / h.w;
-        let sub = |x: f32| (x * inverse * SUB as f32).round() as i32;
-        let (x, y) = (sub(h.x), sub(h.y));
+        let (x, y) = (nearest(h.x * inverse * SUB as f32), nearest(h.y * inverse * SUB as f32));
         Corner { h, place: Vec3A::ZERO, normal, distances, outside, x, y }
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
     /// `[SutherlandHodgman74]`. New corners are appended to `corners`.
     fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
-        for plane in CLIP..9 {
+        for plane in [4, 0, 1, 2, 3] {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {
                 let next = polygon[if i + 1 < polygon.len() { i + 1 } else { 0 }];
@@ -207,7 +205,7 @@ impl TriangleSetup {
         }
         // A corner that is NaN, or has lost all its digits beside another, may be anywhere: such a polygon is dropped.
         let sound = |&i: &usize| {
-            let Corner { h, distances: [.., near, a, b, c, d], .. } = corners[i];
+            let Corner { h, distances: [a, b, c, d, near], .. } = corners[i];
             near >= -0.5 * NEAR && [a, b, c, d].into_iter().all(|side| side >= -SLACK * h.w)
         };
         if !polygon.iter().all(sound) {
@@ -263,6 +261,12 @@ impl TriangleSetup {
             face: if cuts::TRACED_SHADOWS { skin.face } else { 0 },
         });
     }
+}
+
+/// The whole number nearest to a number, of two the even one; any for what is too large for it.
+fn nearest(x: f32) -> i32 {
+    // Beside 1.5 times 2^52 a number has no fraction, and its lowest bits are the whole one.
+    (f64::from(x) + 6_755_399_441_055_744.0).to_bits() as i32
 }
 
 /// A normal of a body, turned into the world: of length 1, or 0.
