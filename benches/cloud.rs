@@ -11,12 +11,14 @@ use paprsek::cloud::{Cloud, CloudKind, CloudLight, Voxels, sunlight};
 use paprsek::simd::lanes::{F, Lane, V3};
 use std::hint::black_box;
 use std::sync::Arc;
+use testkit::voxels::span;
 
 /// Points along an edge.
 const EDGE: usize = 64;
-/// Rays along each side of the picture, and steps of each.
+/// Rays along each side of the picture, and steps along an edge of the cube.
 const SIDE: usize = 128;
 const STEPS: usize = 100;
+const EYE: Vec3 = vec3(0.0, 0.0, 3.0);
 const EXTINCTION: f32 = 20.0;
 const SUN: Vec3 = vec3(0.67, 0.57, 0.47);
 const LOOK: CloudLight =
@@ -45,21 +47,31 @@ fn grow(criterion: &mut Criterion) {
     }
 }
 
+/// Where rays pass, along either axis, at a distance of `AWAY`.
+fn places() -> [f32; SIDE] {
+    std::array::from_fn(|i| (i as f32 + 0.5) * (2.0 / SIDE as f32) - 1.0)
+}
+const AWAY: f32 = 2.5;
+
+/// Steps that all rays take where nothing ends them.
+fn steps() -> u64 {
+    let way = |x: f32, y: f32| span(EYE.as_dvec3(), vec3(x, y, -AWAY).as_dvec3().normalize());
+    let ways = places().into_iter().flat_map(|y| places().map(|x| way(x, y))).flatten();
+    ways.map(|(entry, exit)| ((exit - entry) * 0.5 * STEPS as f64).round() as u64).sum()
+}
+
 /// The sum of light of rays side by side.
 fn sum<S: Simd>(simd: S, cloud: &Cloud, opaque: f32) -> f32 {
-    let mut along = [0.0; SIDE];
-    for (i, along) in along.iter_mut().enumerate() {
-        *along = (i as f32 + 0.5) * (2.0 / SIDE as f32) - 1.0;
-    }
+    let along = places();
     let mut sum = 0.0;
     for y in along {
         for x in along.chunks(F::<S>::LEN) {
-            let d = V3::<S> { x: F::<S>::from_slice(simd, x), y: F::<S>::splat(simd, y), z: F::<S>::splat(simd, -2.5) };
+            let d =
+                V3::<S> { x: F::<S>::from_slice(simd, x), y: F::<S>::splat(simd, y), z: F::<S>::splat(simd, -AWAY) };
             let length = d.dot(d).sqrt();
             let d = d * Lane(F::<S>::splat(simd, 1.0) / length);
             let limit = F::<S>::splat(simd, f32::INFINITY);
-            let met =
-                march(simd, (cloud, None), vec3(0.0, 0.0, 3.0), d, limit, STEPS as f32, F::<S>::splat(simd, opaque));
+            let met = march(simd, (cloud, None), EYE, d, limit, STEPS as f32, F::<S>::splat(simd, opaque));
             let (light, left) = met.shine(simd, &LOOK, d);
             // One by one, so that every level adds in the same order.
             for i in 0..F::<S>::LEN {
@@ -80,7 +92,7 @@ fn rays(criterion: &mut Criterion) {
     for (name, voxels, extinction, opaque) in cases {
         let cloud = Cloud { voxels: Arc::new(voxels), centre: Vec3::ZERO, size: 1.0, extinction };
         let mut group = criterion.benchmark_group(format!("steps of rays, {name}"));
-        group.throughput(Throughput::Elements((SIDE * SIDE * STEPS) as u64)).sample_size(20);
+        group.throughput(Throughput::Elements(steps())).sample_size(20);
         let mut first = None;
         for (level_name, level) in testkit::levels() {
             let sum = || dispatch!(level, simd => sum(simd, &cloud, opaque));

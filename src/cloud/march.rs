@@ -1,9 +1,9 @@
 //! Rays through the voxels of one cloud, a vector of rays at a time.
 //!
 //! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, about as long for
-//! every ray, and the density in the middle of a step stands for all of it. By the law of Beer and Lambert a step of length s hides the share `1 -
-//! exp(-extinction density s)` of what is behind it, and shows as much of its own light. The error falls with the
-//! square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
+//! every ray, and the density in the middle of a step stands for all of it. By the law of Beer and Lambert a step of
+//! length s hides the share `1 - exp(-extinction density s)` of what is behind it, and shows as much of its own light. The
+//! error falls with the square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
 //! steps the transmittance of clouds that have one in closed form.
 
 use super::grain::grain;

@@ -183,6 +183,7 @@ impl TriangleSetup {
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
     /// `[SutherlandHodgman74]`. New corners are appended to `corners`.
     fn clip(&self, polygon: &mut Vec<usize>, corners: &mut Vec<Corner>) {
+        // Near first: behind the eye the other planes mean nothing.
         for plane in [4, 0, 1, 2, 3] {
             let mut rest = Vec::new();
             for (i, &this) in polygon.iter().enumerate() {

@@ -118,7 +118,8 @@ fn picture(spec: &FrameSpec, variant: usize, clouds: Vec<Cloud>) -> Picture {
         phase: [0.85, 0.5],
     };
     let q = &spec.quality;
-    // `fast` takes the steps that are specified, and ends rays where it says; `exact` is the limit of both.
+    // `fast` takes as many steps as are specified on a way as long as the cube's edge, and ends rays where it says; `exact` is
+    // the limit of both.
     let clouds = CloudLayer::new(clouds, light, &view, &q.cloud).in_air(1400.0, |_| HAZE);
     let cells = Cells { size: if q.cloud.cell > 1 { 8 } else { 1 }, grid: q.cloud.grid };
     Picture {
