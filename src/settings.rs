@@ -119,7 +119,7 @@ impl Quality {
         raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.05 },
         cloud: CloudSettings {
             steps: 100,
-            detail: 1.0,
+            detail: 0.5,
             opaque: 1.0 / 256.0,
             hidden: 1.0 / 256.0,
             cell: 16,
