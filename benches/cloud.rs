@@ -19,6 +19,8 @@ const EDGE: usize = 64;
 const SIDE: usize = 128;
 const STEPS: usize = 100;
 const EYE: Vec3 = vec3(0.0, 0.0, 3.0);
+/// Distance from the eye at which the picture is 2 wide and high.
+const AWAY: f32 = 2.5;
 const EXTINCTION: f32 = 20.0;
 const SUN: Vec3 = vec3(0.67, 0.57, 0.47);
 const LOOK: CloudLight =
@@ -47,11 +49,10 @@ fn grow(criterion: &mut Criterion) {
     }
 }
 
-/// Where rays pass, along either axis, at a distance of `AWAY`.
+/// Where rays pass through the picture, along either axis.
 fn places() -> [f32; SIDE] {
     std::array::from_fn(|i| (i as f32 + 0.5) * (2.0 / SIDE as f32) - 1.0)
 }
-const AWAY: f32 = 2.5;
 
 /// Steps that all rays take where nothing ends them.
 fn steps() -> u64 {

@@ -2,7 +2,7 @@
 //! that every machine has, for one ray at a time, so that the executable has it once: every level gives the same bits.
 
 use super::imposter::Imposter;
-use super::march::{CUBE, closest, within};
+use super::march::{CUBE, closest, steps_along, within};
 use super::seen::{SeenCloud, SeenClouds};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
@@ -34,7 +34,7 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let (met, left) = clip(within(simd, q, ways, cloud.voxels.bounds()));
     let (entry, exit) = clip(within(simd, q, ways, CUBE));
     let q = Vec3::new(first(q.x), first(q.y), first(q.z));
-    let steps = ((exit - entry) * (seen.steps * 0.5) + 0.5).floor().max(1.0);
+    let steps = first(steps_along::<S>(F::<S>::splat(simd, exit - entry), seen.steps));
     let length = (exit - entry) / steps;
     // Written so that a NaN takes no steps.
     if length.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {

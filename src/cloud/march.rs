@@ -3,8 +3,8 @@
 //! This is the second pass of `[Kajiya84]`. The way of a ray through the cube is cut into equal steps, about as long for
 //! every ray, and the density in the middle of a step stands for all of it. By the law of Beer and Lambert a step of
 //! length s hides the share `1 - exp(-extinction density s)` of what is behind it, and shows as much of its own light. The
-//! error falls with the square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and in the limit of many
-//! steps the transmittance of clouds that have one in closed form.
+//! error falls with the square of the step. The reference is the same march in `f64` (`tools/testkit/src/voxels.rs`), and
+//! in the limit of many steps the transmittance of clouds that have one in closed form.
 
 use super::grain::grain;
 use super::voxels::Voxels;
@@ -92,7 +92,7 @@ pub fn march<S: Simd>(
     }
     let (entry, exit) = clip(within(simd, q, d, CUBE));
     let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
-    let steps = ((exit - entry) * (steps * 0.5) + 0.5).floor().max(1.0);
+    let steps = steps_along::<S>(exit - entry, steps);
     let length = (exit - entry) / steps;
     let missed = length.simd_le(zero);
     let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
@@ -146,6 +146,12 @@ pub fn march<S: Simd>(
     }
     let (upper, end) = ((height + hidden) * 0.5, (way + end + length * 0.5) * cloud.size);
     Passage { hidden, upper, lit, transmittance, end }
+}
+
+/// The steps that ways through a cube are cut into, halves of its edge long, where `steps` are cut along an edge.
+#[inline(always)]
+pub(super) fn steps_along<S: Simd>(way: F<S>, steps: f32) -> F<S> {
+    (way * (steps * 0.5) + 0.5).floor().max(1.0)
 }
 
 /// The points where rays from `q` along unit directions `d` come closest to the centre of the cube, and how far away.
