@@ -22,7 +22,7 @@ pub struct TraceSettings {
     /// Whether pixels that an edge crosses are anti-aliased, by samples half a pixel apart.
     pub antialias: bool,
     /// An edge has samples within its pixels where the light of their corners differs by more than this, on the scale of
-    /// `threshold`. Elsewhere the corners alone say how much of the pixel each surface takes.
+    /// `threshold`. Elsewhere the corners and their neighbours say how much of the pixel each surface takes.
     pub contrast: f32,
     /// Samples along each axis of every pixel: 1, or 8 for the reference.
     pub grid: usize,
@@ -112,7 +112,7 @@ impl Quality {
             min_weight: 1.0 / 64.0,
             min_detail: 1.0 / 5.0,
             antialias: false,
-            contrast: 0.06,
+            contrast: 0.15,
             grid: 1,
             light_samples: [16, 4],
         },
@@ -135,7 +135,7 @@ impl Quality {
 
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality {
-        trace: TraceSettings { min_detail: 1.0 / 8.0, antialias: true, ..Quality::FAST.trace },
+        trace: TraceSettings { min_weight: 1.0 / 256.0, min_detail: 1.0 / 7.0, antialias: true, ..Quality::FAST.trace },
         raster: RasterSettings { coverage: 4, ..Quality::FAST.raster },
         ..Quality::FAST
     };

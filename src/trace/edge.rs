@@ -12,6 +12,8 @@ use fearless_simd::prelude::*;
 const POINTS: usize = 9;
 /// A share of a pixel.
 const SIXTEENTH: f32 = 1.0 / 16.0;
+/// The least share of a surface that a corner of the pixel sees.
+const LEAST: f32 = 0.04;
 
 /// One surface in a pixel.
 #[derive(Clone, Copy)]
@@ -69,6 +71,12 @@ impl Groups {
                 let sum = sample::load(simd, &group.mean.numbers, i);
                 sample::store::<S>(sum * k, &mut group.mean.numbers, i);
             }
+        }
+        if let [first, second] = groups {
+            let lean = grid.lean(pixel, first.mean.path_signature);
+            let share = first.share + lean * if centre { 0.5 } else { 2.0 };
+            first.share = share.clamp(LEAST, 1.0 - LEAST);
+            second.share = 1.0 - first.share;
         }
         groups
     }

@@ -9,6 +9,9 @@ use fearless_simd::prelude::*;
 
 /// Most lattice points along a tile's edge: at half pixels, with both ends.
 const LATTICE: usize = Tile::SIZE * 2 + 1;
+/// Lattice points from one row to the next: behind each row as many that have no sample as a pixel has, so that a pixel beyond
+/// either end of a row has none either.
+const ROW: usize = LATTICE + 2;
 
 /// A place in a square, halves of its edge from its top left.
 type Place = (usize, usize);
@@ -64,7 +67,7 @@ impl Grid {
         self.first = (to_f32(tile.x) + dx, to_f32(tile.y) + dy);
         self.step = 1.0 / to_f32(job.unit());
         if self.lattice.is_empty() {
-            self.lattice = vec![(0, 0); LATTICE * LATTICE];
+            self.lattice = vec![(0, 0); ROW * LATTICE];
         }
         self.generation = self.generation.wrapping_add(1).max(1);
         self.count = 0;
@@ -84,7 +87,7 @@ impl Grid {
     /// Whether there is a sample at a lattice point, or one is wanted.
     #[inline(always)]
     pub fn has(&self, x: usize, y: usize) -> bool {
-        self.lattice[y * LATTICE + x].0 == self.generation
+        self.lattice[y * ROW + x].0 == self.generation
     }
 
     /// Puts a sample at a lattice point that has none, instead of tracing it. No point may be wanted.
@@ -105,7 +108,7 @@ impl Grid {
     }
 
     fn add(&mut self, x: usize, y: usize) {
-        self.lattice[y * LATTICE + x] = (self.generation, self.xs.len() as u32);
+        self.lattice[y * ROW + x] = (self.generation, self.xs.len() as u32);
         self.xs.push(self.first.0 + to_f32(x) * self.step);
         self.ys.push(self.first.1 + to_f32(y) * self.step);
     }
@@ -123,7 +126,7 @@ impl Grid {
 
     /// The sample at a lattice point, which must be there.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
-        &self.samples[self.lattice[y * LATTICE + x].1 as usize]
+        &self.samples[self.lattice[y * ROW + x].1 as usize]
     }
 
     /// The samples at two places of a square.
@@ -141,6 +144,44 @@ impl Grid {
     /// The sample in the middle of a square.
     pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
         self.at(x + size / 2, y + size / 2)
+    }
+
+    /// How an edge between two surfaces lies in a pixel, as its neighbours tell: towards the one that is not `first`, which is
+    /// the path signature of the top left corner, up to 1/4, or towards the first, down to -1/4.
+    ///
+    /// A side whose ends are of one surface belongs to it, and tells nothing if the edge crosses its line within a pixel
+    /// beyond one of its ends.
+    pub fn lean(&self, pixel: Square, first: u32) -> f32 {
+        let (mut lean, mut differs) = (0.0, 0);
+        let start = pixel.y * ROW + pixel.x;
+        // Side by side, around the pixel.
+        let (mut near, mut step, mut next) = (start, 2, 2 * ROW);
+        loop {
+            let far = near.wrapping_add(step);
+            let corner = self.path(near, 0);
+            differs |= corner ^ first;
+            let before = self.path(near.wrapping_sub(step), corner);
+            if self.path(far, 0) == corner && before == self.path(far.wrapping_add(step), corner) {
+                lean += if corner == first { 0.125 } else { -0.125 };
+            }
+            (step, next) = (next, step.wrapping_neg());
+            near = far;
+            if near == start {
+                break;
+            }
+        }
+        // Of a surface that no corner sees the neighbours know nothing.
+        if differs == 0 { 0.0 } else { lean }
+    }
+
+    /// The path signature of the sample at an index of the lattice, or another number if there is none.
+    fn path(&self, index: usize, otherwise: u32) -> u32 {
+        match self.lattice.get(index) {
+            Some(&(generation, sample)) if generation == self.generation => {
+                self.samples[sample as usize].path_signature
+            }
+            _ => otherwise,
+        }
     }
 
     /// Traces the points that are wanted.

@@ -80,7 +80,10 @@ fn the_camera_and_settings_are_set_too() {
     let plain = picture("");
     assert!(picture("--set trace.antialias=0") != plain);
     // All that `fast` and `default` differ by in the tracer.
-    assert!(picture("--set trace.antialias=0 --set trace.min_detail=0.2") == picture("--quality fast"));
+    assert!(
+        picture("--set trace.antialias=0 --set trace.min_detail=0.2 --set trace.min_weight=0.015625")
+            == picture("--quality fast")
+    );
     assert!(picture("--set camera.fov=70") != plain);
     // From straight above the floor nothing is sky.
     let above = "--set camera.x=0 --set camera.y=30 --set camera.z=0 --set camera.heading=0 --set camera.pitch=-90";
