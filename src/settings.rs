@@ -137,6 +137,7 @@ impl Quality {
     pub const DEFAULT: Quality = Quality {
         trace: TraceSettings { min_weight: 1.0 / 256.0, min_detail: 1.0 / 7.0, antialias: true, ..Quality::FAST.trace },
         raster: RasterSettings { coverage: 4, ..Quality::FAST.raster },
+        cloud: CloudSettings { steps: 125, ..Quality::FAST.cloud },
         ..Quality::FAST
     };
 
