@@ -118,7 +118,7 @@ impl Quality {
         },
         raster: RasterSettings { coverage: 1, shadow_map: 1024, grid: 1, threshold: 0.05 },
         cloud: CloudSettings {
-            steps: 100,
+            steps: 125,
             detail: 0.5,
             opaque: 1.0 / 256.0,
             hidden: 1.0 / 256.0,
@@ -137,7 +137,6 @@ impl Quality {
     pub const DEFAULT: Quality = Quality {
         trace: TraceSettings { min_weight: 1.0 / 256.0, min_detail: 1.0 / 7.0, antialias: true, ..Quality::FAST.trace },
         raster: RasterSettings { coverage: 4, ..Quality::FAST.raster },
-        cloud: CloudSettings { steps: 125, ..Quality::FAST.cloud },
         ..Quality::FAST
     };
 
@@ -212,11 +211,11 @@ impl Default for Quality {
 // other values would need is left out.
 
 impl TraceSettings {
-    /// These settings; in the 64 kB build all but two are those of [`Quality::FAST`].
+    /// These settings; in the 64 kB build all but three are those of [`Quality::FAST`].
     #[inline(always)]
     pub const fn built(&self) -> TraceSettings {
-        let TraceSettings { min_detail, antialias, .. } = *self;
-        if cuts::QUALITIES { *self } else { TraceSettings { min_detail, antialias, ..Quality::FAST.trace } }
+        let TraceSettings { min_weight, min_detail, antialias, .. } = *self;
+        if cuts::QUALITIES { *self } else { TraceSettings { min_weight, min_detail, antialias, ..Quality::FAST.trace } }
     }
 }
 

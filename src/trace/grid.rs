@@ -151,6 +151,7 @@ impl Grid {
     ///
     /// A side whose ends are of one surface belongs to it, and tells nothing if the edge crosses its line within a pixel
     /// beyond one of its ends.
+    #[inline(never)]
     pub fn lean(&self, pixel: Square, first: u32) -> f32 {
         let (mut lean, mut differs) = (0.0, 0);
         let start = pixel.y * ROW + pixel.x;
