@@ -312,7 +312,9 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
     }
     let mut groups = Groups::default();
     for &square in edges.iter() {
-        for group in groups.of_pixel(simd, grid, square) {
+        // Rims of balls of less than four pixels turn too much from one pixel to the next.
+        let straight = finest(job, tile, square) > 1;
+        for group in groups.of_pixel(simd, grid, square, straight) {
             fill::add(simd, job, tile, deferred, square, &group.mean, group.share, &[0.0; REMEMBERED]);
         }
     }

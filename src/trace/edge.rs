@@ -13,7 +13,7 @@ const POINTS: usize = 9;
 /// A share of a pixel.
 const SIXTEENTH: f32 = 1.0 / 16.0;
 /// The least share of a surface that a corner of the pixel sees.
-const LEAST: f32 = 0.04;
+const LEAST: f32 = SIXTEENTH;
 
 /// One surface in a pixel.
 #[derive(Clone, Copy)]
@@ -37,9 +37,10 @@ impl Default for Groups {
 }
 
 impl Groups {
-    /// The surfaces in a pixel, given as a square of two lattice steps.
+    /// The surfaces in a pixel, given as a square of two lattice steps. Where edges are `straight` for some pixels, the samples
+    /// of its neighbours tell the shares of two surfaces too.
     #[inline(always)]
-    pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square) -> &[Group] {
+    pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square, straight: bool) -> &[Group] {
         let Square { x, y, .. } = pixel;
         self.count = 0;
         // The centre stands for a quarter of the pixel, the middle of a side for an eighth, a corner for a sixteenth. Sides
@@ -72,9 +73,10 @@ impl Groups {
                 sample::store::<S>(sum * k, &mut group.mean.numbers, i);
             }
         }
-        if let [first, second] = groups {
+        if straight && let [first, second] = groups {
             let lean = grid.lean(pixel, first.mean.path_signature);
-            let share = first.share + lean * if centre { 0.5 } else { 2.0 };
+            // 2 for corners alone, 1/2 beside samples within, which have told most of it.
+            let share = first.share + lean * (128.0 * corner * corner);
             first.share = share.clamp(LEAST, 1.0 - LEAST);
             second.share = 1.0 - first.share;
         }

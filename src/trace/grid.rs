@@ -146,21 +146,20 @@ impl Grid {
         self.at(x + size / 2, y + size / 2)
     }
 
-    /// How an edge between two surfaces lies in a pixel, as its neighbours tell: towards the one that is not `first`, which is
-    /// the path signature of the top left corner, up to 1/4, or towards the first, down to -1/4.
+    /// How the edge between two surfaces lies in a pixel whose corners see both, as its neighbours tell: up to 1/4 where the
+    /// surface whose path signature is `first` has more of the pixel, down to -1/4 where the other one has.
     ///
-    /// A side whose ends are of one surface belongs to it, and tells nothing if the edge crosses its line within a pixel
-    /// beyond one of its ends.
+    /// A side whose ends are of one surface counts for it, unless the edge crosses its line within a pixel beyond one of its
+    /// ends.
     #[inline(never)]
     pub fn lean(&self, pixel: Square, first: u32) -> f32 {
-        let (mut lean, mut differs) = (0.0, 0);
+        let mut lean = 0.0;
         let start = pixel.y * ROW + pixel.x;
         // Side by side, around the pixel.
         let (mut near, mut step, mut next) = (start, 2, 2 * ROW);
         loop {
             let far = near.wrapping_add(step);
             let corner = self.path(near, 0);
-            differs |= corner ^ first;
             let before = self.path(near.wrapping_sub(step), corner);
             if self.path(far, 0) == corner && before == self.path(far.wrapping_add(step), corner) {
                 lean += if corner == first { 0.125 } else { -0.125 };
@@ -168,11 +167,9 @@ impl Grid {
             (step, next) = (next, step.wrapping_neg());
             near = far;
             if near == start {
-                break;
+                return lean;
             }
         }
-        // Of a surface that no corner sees the neighbours know nothing.
-        if differs == 0 { 0.0 } else { lean }
     }
 
     /// The path signature of the sample at an index of the lattice, or another number if there is none.
