@@ -7,7 +7,7 @@
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3;
-use paprsek::noise::{fbm, noise, noise_block, octaves_block};
+use paprsek::noise::{Scratch, fbm, noise, noise_block, octaves_block};
 use paprsek::simd::block::BLOCK;
 use std::time::Instant;
 
@@ -16,7 +16,7 @@ const STEP: f32 = 0.05;
 
 /// The grid in blocks along x: `evaluate` is given the coordinates and answers with noises, whose bits are summed.
 #[inline(always)]
-fn grid<S: Simd>(simd: S, planes: usize, evaluate: impl Fn(&[[f32; BLOCK]; 3], &mut [f32; BLOCK])) -> u32 {
+fn grid<S: Simd>(simd: S, planes: usize, mut evaluate: impl FnMut(&[[f32; BLOCK]; 3], &mut [f32; BLOCK])) -> u32 {
     let mut out = [0.0; BLOCK];
     let mut sum = S::u32s::splat(simd, 0);
     let mut p = [[0.0; BLOCK]; 3];
@@ -52,8 +52,9 @@ fn fill<S: Simd>(simd: S, value: f32, out: &mut [f32; BLOCK]) {
 }
 
 fn wide(level: Level, planes: usize, octaves: Option<u32>) -> u32 {
+    let mut scratch = Scratch::default();
     dispatch!(level, simd => grid(simd, planes, #[inline(always)] |[x, y, z], out| match octaves {
-        None => noise_block(simd, x, y, z, 1.0, BLOCK, out),
+        None => noise_block(simd, x, y, z, 1.0, BLOCK, &mut scratch, out),
         Some(octaves) => octaves_block(simd, [x, y, z], octaves, false, BLOCK, None, out),
     }))
 }

@@ -174,38 +174,31 @@ fn octaves_of(pattern: &Pattern) -> (u32, bool, f32, f32) {
     }
 }
 
-/// The colours of the first `count` points of a block, linear light: [`Texture::color`], up to [`BLOCK`] at a time.
+/// Puts colours, linear light, in the place of the first `count` points of a block: [`Texture::color`], up to [`BLOCK`] at a
+/// time.
 ///
 /// `footprint` is the length of a pixel's picture on the surface, metres. Where it is given, a colour is an estimate of
 /// the mean over it.
 ///
 /// ```text
-/// points -> texture space, in cells of the first octave
+/// points -> texture space, in cells of the first octave, in their place
 /// octaves of noise there, faded by the footprint -> noise, and the variance that it lost
 /// for each vector of points: the pattern's value from point and noise -> the palette's colour
 /// ```
 #[simd]
-pub fn shade<S: Simd>(
-    simd: S,
-    texture: &Texture,
-    points: &Block3,
-    count: usize,
-    footprint: Option<&[f32; BLOCK]>,
-    out: &mut Block3,
-) {
+pub fn shade<S: Simd>(simd: S, texture: &Texture, block: &mut Block3, count: usize, footprint: Option<&[f32; BLOCK]>) {
     let vectors = vectors(count, F::<S>::LEN);
-    let mut local = [[0.0; BLOCK]; 3];
     let (octaves, absolute, warp, scale) = octaves_of(&texture.pattern);
     let mut foot = [0.0; BLOCK];
-    localize(simd, texture, 1.0 / scale, points, footprint, &mut local, &mut foot);
+    localize(simd, texture, 1.0 / scale, footprint, block, &mut foot);
     let mut field = [0.0; BLOCK];
     let mut lost = [0.0; BLOCK];
-    let [x, y, z] = &local;
+    let [x, y, z] = &*block;
     let fading = if footprint.is_some() { Some(Footprint { length: &foot, lost: &mut lost }) } else { None };
     noise::octaves_block(simd, [x, y, z], octaves, absolute, count, fading, &mut field);
     let mut i = 0;
     while i < vectors {
-        let p = V3::load(simd, &local, i);
+        let p = V3::load(simd, block, i);
         let n = load::<S, F<S>>(simd, &field, i);
         let w = load::<S, F<S>>(simd, &foot, i);
         let lost = load::<S, F<S>>(simd, &lost, i);
@@ -223,7 +216,7 @@ pub fn shade<S: Simd>(
                 wave + 0.5
             }
         };
-        paint(simd, &texture.palette, s, i, out);
+        paint(simd, &texture.palette, s, i, block);
         i += 1;
     }
 }
@@ -243,17 +236,16 @@ fn localize<S: Simd>(
     simd: S,
     texture: &Texture,
     pre: f32,
-    points: &Block3,
     footprint: Option<&[f32; BLOCK]>,
-    local: &mut Block3,
+    points: &mut Block3,
     foot: &mut [f32; BLOCK],
 ) {
     let zoom = texture.turn.x_axis.length() * pre;
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let p = V3::load(simd, points, i).sub1(texture.origin);
-        for (axis, local) in local.iter_mut().enumerate() {
-            store(p.dot1(texture.turn.row(axis)) * pre, local, i);
+        for (axis, points) in points.iter_mut().enumerate() {
+            store(p.dot1(texture.turn.row(axis)) * pre, points, i);
         }
         if let Some(footprint) = footprint {
             store(load::<S, F<S>>(simd, footprint, i) * zoom, foot, i);

@@ -17,7 +17,7 @@
 use super::curve::{fade, lerp};
 use super::permutation::PERMUTATION;
 use super::wide::{CODES, at};
-use crate::simd::block::{BLOCK, load, store, vectors};
+use crate::simd::block::{BLOCK, Block3, load, store, vectors};
 use core::arch::x86_64::*;
 use fearless_simd::{Avx2, f32x8, i32x8, prelude::*, u8x16, u32x8};
 
@@ -84,15 +84,38 @@ fearless_simd::kernel!(
     }
 );
 
+/// Memory for 64 points.
+pub struct Scratch {
+    /// Offsets of points in their cells.
+    offsets: Block3,
+    /// The cells of points, in whose place come the first hashes of runs: the number of a run is at most that of its first
+    /// point.
+    near: [u32; BLOCK + LANES],
+    /// The second hashes of runs.
+    far: [u32; BLOCK + LANES],
+}
+
+impl Default for Scratch {
+    #[inline(always)]
+    fn default() -> Scratch {
+        Scratch { offsets: [[0.0; BLOCK]; 3], near: [0; BLOCK + LANES], far: [0; BLOCK + LANES] }
+    }
+}
+
 /// Noise at the first `count` of 64 points times `zoom`.
 #[inline(always)]
-pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, out: &mut [f32; BLOCK]) {
+pub fn noise64(
+    simd: Avx2,
+    points: [&[f32; BLOCK]; 3],
+    zoom: f32,
+    count: usize,
+    scratch: &mut Scratch,
+    out: &mut [f32; BLOCK],
+) {
     let vectors = vectors(count, LANES);
-    // Two arrays, since the 64 kB build calls a function to clear each.
-    let (mut offsets, [mut near, mut far]) = ([[0.0; BLOCK]; 3], [[0; BLOCK + LANES]; 2]);
-    // The cells of points, in whose place come the hashes of runs: the number of a run is at most that of its first point.
+    let Scratch { offsets, near, far } = scratch;
     let cells = near.first_chunk_mut().expect("it is longer than a block");
-    let starts = locate(simd, points, zoom, vectors, &mut offsets, cells);
+    let starts = locate(simd, points, zoom, vectors, offsets, cells);
     let (mut todo, mut run) = (starts, 0);
     while todo != 0 {
         let cell = near[todo.trailing_zeros() as usize & (BLOCK - 1)];
@@ -105,7 +128,7 @@ pub fn noise64(simd: Avx2, points: [&[f32; BLOCK]; 3], zoom: f32, count: usize, 
     let mut run = !0usize;
     let mut i = 0;
     while i < vectors {
-        let [x, y, z] = &offsets;
+        let [x, y, z] = &*offsets;
         let p = [load(simd, x, i), load(simd, y, i), load(simd, z, i)];
         let begins = starts >> (i * LANES) & 255;
         run = run.wrapping_add(begins as usize & 1);
@@ -151,7 +174,7 @@ fn locate(
     points: [&[f32; BLOCK]; 3],
     zoom: f32,
     vectors: usize,
-    offsets: &mut [[f32; BLOCK]; 3],
+    offsets: &mut Block3,
     cells: &mut [u32; BLOCK],
 ) -> u64 {
     let mut starts = 0;

@@ -26,5 +26,5 @@ mod wide;
 
 #[cfg(feature = "full")]
 pub use octaves::evaluated;
-pub use octaves::{Footprint, noise_block, octaves, octaves_block};
+pub use octaves::{Footprint, Scratch, noise_block, octaves, octaves_block};
 pub use reference::{fbm, noise, turbulence};

@@ -26,9 +26,17 @@ const MEAN: f32 = 0.21;
 /// Cells of an octave along the footprint from which on it is left out: less than a thirtieth of it would be left.
 const LONG: f32 = 4.0;
 
+/// Memory for a block of noise, in which no value survives. It is passed on because it would be cleared for each block.
+#[derive(Default)]
+pub struct Scratch {
+    #[cfg(target_arch = "x86_64")]
+    avx2: avx2::Scratch,
+}
+
 /// Perlin's improved noise at the first `count` points of a block, whose coordinates are multiplied by `zoom`: the same
 /// bits as [`noise`](super::noise) there. What is written behind these is of no meaning.
 #[simd]
+#[allow(clippy::too_many_arguments)]
 pub fn noise_block<S: Simd>(
     simd: S,
     x: &[f32; BLOCK],
@@ -36,13 +44,14 @@ pub fn noise_block<S: Simd>(
     z: &[f32; BLOCK],
     zoom: f32,
     count: usize,
+    scratch: &mut Scratch,
     out: &mut [f32; BLOCK],
 ) {
     match simd.level() {
         #[cfg(target_arch = "x86_64")]
         Level::Avx512(simd) => avx512::noise64(simd, [x, y, z], zoom, count, out),
         #[cfg(target_arch = "x86_64")]
-        Level::Avx2(simd) => avx2::noise64(simd, [x, y, z], zoom, count, out),
+        Level::Avx2(simd) => avx2::noise64(simd, [x, y, z], zoom, count, &mut scratch.avx2, out),
         _ => wide::noise64(simd, [x, y, z], zoom, count, out),
     }
 }
@@ -76,10 +85,10 @@ pub fn octaves_block<S: Simd>(
     }
     let (mut amplitude, mut zoom) = (0.5, 1.0);
     *out = [0.0; BLOCK];
-    let mut octave = [0.0; BLOCK];
+    let (mut octave, mut scratch) = ([0.0; BLOCK], Scratch::default());
     for _ in 0..octaves {
         if shortest * zoom < LONG {
-            noise_block(simd, x, y, z, zoom, count, &mut octave);
+            noise_block(simd, x, y, z, zoom, count, &mut scratch, &mut octave);
         } else {
             octave = [0.0; BLOCK];
         }
@@ -153,7 +162,7 @@ pub fn octaves(p: Vec3, octaves: usize, absolute: bool) -> f32 {
         [x[k], y[k], z[k]] = zoomed.to_array();
         zoomed *= 2.0;
     }
-    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, octaves, &mut n));
+    dispatch!(best(), simd => noise_block(simd, &x, &y, &z, 1.0, octaves, &mut Scratch::default(), &mut n));
     let (mut sum, mut amplitude) = (0.0, 0.5);
     for n in &n[..octaves] {
         sum += amplitude * if absolute { n.abs() } else { *n };

@@ -182,8 +182,8 @@ fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize,
 /// Multiplies the albedo of a queue's surfaces by a texture.
 #[inline(always)]
 fn paint<S: Simd>(simd: S, texture: &Texture, queue: &mut FragmentQueue) {
-    let mut painted = [[0.0; BLOCK]; 3];
-    texture::shade(simd, texture, &queue.places[POINTS], BLOCK, Some(&queue.footprint), &mut painted);
+    let mut painted = queue.places[POINTS];
+    texture::shade(simd, texture, &mut painted, BLOCK, Some(&queue.footprint));
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         V3::load(simd, &queue.albedo, i).mulv(V3::load(simd, &painted, i)).store(&mut queue.albedo, i);
@@ -201,9 +201,9 @@ fn settle<S: Simd>(
     lookup: &ShadowLookup,
     queue: &mut FragmentQueue,
 ) {
-    let (mut open, mut grain) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
+    let (mut open, mut grain) = ([[0.0; BLOCK]; 3], queue.places[POINTS]);
     shine(simd, context, (&snow.fall, lookup), &queue.places, BLOCK, &mut open);
-    texture::shade(simd, &GRAIN, &queue.places[POINTS], BLOCK, Some(&queue.footprint), &mut grain);
+    texture::shade(simd, &GRAIN, &mut grain, BLOCK, Some(&queue.footprint));
     snow.whiten(simd, &open, &grain, queue);
 }
 

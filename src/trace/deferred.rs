@@ -9,23 +9,29 @@ use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::inspect::count_octaves;
-use crate::simd::block::{BLOCK, Block3, load, store};
-use crate::simd::lanes::{Bits, F};
+use crate::simd::block::{BLOCK, Block3};
+use crate::simd::lanes::Bits;
 use crate::texture;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
+
+/// The most hits that are added at once.
+pub const RUN: usize = 16;
+
+/// Room in a queue: fewer hits than a block, and a run.
+const ROOM: usize = BLOCK + RUN;
 
 /// Hits that wait for the texture of one object.
 struct TextureQueue {
     count: usize,
     /// Pixel of the tile, row by row.
-    pixel: [u16; BLOCK],
+    pixel: [u16; ROOM],
     /// Light that the pixel gets off a white surface.
-    gain: Block3,
+    gain: [[f32; ROOM]; 3],
     /// Hit point, metres.
-    point: Block3,
+    point: [[f32; ROOM]; 3],
     /// Length of the pixel on the surface, metres.
-    footprint: [f32; BLOCK],
+    footprint: [f32; ROOM],
 }
 
 /// All waiting hits of a tile.
@@ -41,9 +47,9 @@ pub struct Deferred {
 impl Deferred {
     /// Makes queues for a number of objects.
     pub fn begin(&mut self, objects: usize, filter: bool) {
-        let black = [[0.0; BLOCK]; 3];
+        let black = [[0.0; ROOM]; 3];
         while self.queues.len() < objects {
-            let (pixel, footprint) = ([0; BLOCK], [0.0; BLOCK]);
+            let (pixel, footprint) = ([0; ROOM], [0.0; ROOM]);
             self.queues.push(TextureQueue { count: 0, pixel, gain: black, point: black, footprint });
         }
         if cuts::MANY_BODIES {
@@ -83,7 +89,8 @@ impl Deferred {
         }
     }
 
-    /// Adds a hit of one object for each of `pixels`: gains, points and footprints in the same order.
+    /// Adds a hit of one object for each of the first `count` of `pixels`, counted from the pixel `first`: gains, points and
+    /// footprints in the same order.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn push_run<S: Simd>(
@@ -92,27 +99,27 @@ impl Deferred {
         world: &World,
         tile: &mut Tile,
         object: u32,
-        pixels: &[u16],
+        (first, pixels, count): (u16, &[u16; RUN], usize),
         gain: &Block3,
         point: &Block3,
         footprint: &[f32; BLOCK],
     ) {
         self.mark(object);
         let queue = &mut self.queues[object as usize];
-        let mut done = 0;
-        while done < pixels.len() {
-            let (at, n) = (queue.count, (BLOCK - queue.count).min(pixels.len() - done));
-            queue.pixel[at..at + n].copy_from_slice(&pixels[done..done + n]);
-            queue.footprint[at..at + n].copy_from_slice(&footprint[done..done + n]);
-            for axis in 0..3 {
-                queue.gain[axis][at..at + n].copy_from_slice(&gain[axis][done..done + n]);
-                queue.point[axis][at..at + n].copy_from_slice(&point[axis][done..done + n]);
-            }
-            queue.count += n;
-            done += n;
-            if queue.count == BLOCK {
-                flush(simd, world, queue, object, self.filter, tile);
-            }
+        // All of them, whatever their number: copies of one length need no calls.
+        let start = queue.count & (BLOCK - 1);
+        let to = start..start + RUN;
+        for (to, pixel) in queue.pixel[to.clone()].iter_mut().zip(pixels) {
+            *to = first + pixel;
+        }
+        queue.footprint[to.clone()].copy_from_slice(&footprint[..RUN]);
+        for axis in 0..3 {
+            queue.gain[axis][to.clone()].copy_from_slice(&gain[axis][..RUN]);
+            queue.point[axis][to.clone()].copy_from_slice(&point[axis][..RUN]);
+        }
+        queue.count += count;
+        if queue.count >= BLOCK {
+            flush(simd, world, queue, object, self.filter, tile);
         }
     }
 
@@ -143,30 +150,33 @@ impl Deferred {
     }
 }
 
-/// Evaluates the texture of a queue, adds the light to its pixels and empties it.
+/// Evaluates the texture of the first block of a queue, adds the light to its pixels and takes it out of the queue.
 #[simd]
 fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32, filter: bool, tile: &mut Tile) {
-    let mut color = [[0.0; BLOCK]; 3];
+    let count = queue.count.min(BLOCK);
     // What stands behind the last hit is left over from earlier ones, and must not decide how many octaves are computed.
     let last = queue.footprint[0];
-    queue.footprint[queue.count..].fill(last);
-    let footprint = filter.then_some(&queue.footprint);
+    queue.footprint[count..BLOCK].fill(last);
+    let footprint = if filter { queue.footprint.first_chunk() } else { None };
     let albedo = &world.objects[object as usize].material.albedo;
     #[cfg(feature = "full")]
     if !tile.octaves.is_empty() {
-        count_octaves(tile, albedo, footprint, &mut queue.pixel[..queue.count].iter().map(|pixel| *pixel as usize));
+        count_octaves(tile, albedo, footprint, &mut queue.pixel[..count].iter().map(|pixel| *pixel as usize));
     }
-    texture::shade(simd, albedo, &queue.point, queue.count, footprint, &mut color);
+    let mut color = [[0.0; BLOCK]; 3];
+    for (color, point) in color.iter_mut().zip(&queue.point) {
+        color.copy_from_slice(&point[..BLOCK]);
+    }
+    texture::shade(simd, albedo, &mut color, count, footprint);
     for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
-        let mut i = 0;
-        while i < BLOCK / F::<S>::LEN {
-            let light = load::<S, F<S>>(simd, &color[channel], i) * load::<S, F<S>>(simd, &queue.gain[channel], i);
-            store(light, &mut color[channel], i);
-            i += 1;
+        let (color, gain) = (&mut color[channel], &mut queue.gain[channel]);
+        for (&pixel, (color, gain)) in queue.pixel[..count].iter().zip(color.iter().zip(&*gain)) {
+            plane[pixel as usize & (Tile::AREA - 1)] += color * gain;
         }
-        for (&pixel, &light) in queue.pixel[..queue.count].iter().zip(&color[channel]) {
-            plane[pixel as usize & (Tile::AREA - 1)] += light;
-        }
+        gain.copy_within(BLOCK.., 0);
+        queue.point[channel].copy_within(BLOCK.., 0);
     }
-    queue.count = 0;
+    queue.pixel.copy_within(BLOCK.., 0);
+    queue.footprint.copy_within(BLOCK.., 0);
+    queue.count -= count;
 }

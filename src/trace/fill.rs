@@ -165,8 +165,8 @@ impl Patch {
         (v * self.twist[k] + self.along[k], u * self.twist[k] + self.down[k])
     }
 
-    /// Divides the homogeneous points of the textured hit whose numbers begin at `at` by their inverse depth; if `filter`,
-    /// also computes how long a pixel is on the surface there, metres.
+    /// Divides the homogeneous points of the textured hit whose numbers begin at `at` by their inverse depth; if `filter`, the
+    /// latter gives place to how long a pixel is on the surface there, metres.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     fn project<S: Simd>(
@@ -174,10 +174,9 @@ impl Patch {
         simd: S,
         at: usize,
         ramp: &Ramp,
-        inv_depth: &[f32; BLOCK],
         points: &mut Block3,
+        inv_depth: &mut [f32; BLOCK],
         filter: bool,
-        footprint: &mut [f32; BLOCK],
     ) {
         let mut i = 0;
         while i * F::<S>::LEN < ramp.count {
@@ -194,7 +193,7 @@ impl Patch {
                 let across = V3::<S> { x: xu, y: yu, z: zu } - point * Lane(wu);
                 let down = V3::<S> { x: xv, y: yv, z: zv } - point * Lane(wv);
                 let longest = across.dot(across).max(down.dot(down)).sqrt();
-                store(longest * k.abs() * ramp.step, footprint, i);
+                store(longest * k.abs() * ramp.step, inv_depth, i);
             }
             i += 1;
         }
@@ -227,7 +226,6 @@ pub fn interpolate<S: Simd>(
     let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
     let filter = job.settings.antialias;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
-    let mut footprint = [0.0; BLOCK];
     let rows = ramps.rows.get_or_insert_with(|| Box::new([[0.0; BLOCK]; NUMBERS]));
     for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
         patch.values(simd, ramp, &mut rows[..corners[0].used()]);
@@ -236,11 +234,12 @@ pub fn interpolate<S: Simd>(
             let ([gain, points], [inv_depth]) = numbers.as_chunks_mut::<3>() else {
                 unreachable!("a hit is two vectors and a number");
             };
-            patch.project(simd, PLAIN + HIT * n, ramp, inv_depth, points, filter, &mut footprint);
+            patch.project(simd, PLAIN + HIT * n, ramp, points, inv_depth, filter);
+            let footprint = &*inv_depth;
             let object = corners[0].object[n];
             if ramp.count == BLOCK {
                 let albedo = &job.context.world.objects[object as usize].material.albedo;
-                let footprint = if filter { Some(&footprint) } else { None };
+                let footprint = if filter { Some(footprint) } else { None };
                 #[cfg(feature = "full")]
                 if !tile.octaves.is_empty() {
                     count_octaves(
@@ -252,12 +251,9 @@ pub fn interpolate<S: Simd>(
                 }
                 add_texture(simd, albedo, gain, points, footprint, plain);
             } else {
-                let mut pixels = [0; BLOCK];
-                for (pixel, offset) in pixels.iter_mut().zip(&ramp.pixel) {
-                    *pixel = first as u16 + offset;
-                }
-                let pixels = &pixels[..ramp.count];
-                deferred.push_run(simd, job.context.world, tile, object, pixels, gain, points, &footprint);
+                let pixels = ramp.pixel.first_chunk().expect("it is shorter than a block");
+                let run = (first as u16, pixels, ramp.count);
+                deferred.push_run(simd, job.context.world, tile, object, run, gain, points, footprint);
             }
         }
         deposit(simd, tile, ramp, first, size >= ROW, plain);
@@ -276,12 +272,12 @@ fn add_texture<S: Simd>(
     simd: S,
     albedo: &Texture,
     gain: &Block3,
-    points: &Block3,
+    points: &mut Block3,
     footprint: Option<&[f32; BLOCK]>,
     light: &mut [[f32; BLOCK]; PLAIN],
 ) {
-    let mut color = [[0.0; BLOCK]; 3];
-    texture::shade(simd, albedo, points, BLOCK, footprint, &mut color);
+    texture::shade(simd, albedo, points, BLOCK, footprint);
+    let color = points;
     for k in 0..3 {
         let mut i = 0;
         while i * F::<S>::LEN < BLOCK {

@@ -429,14 +429,14 @@ fn remember<S: Simd>(
         let id = object[late.trailing_zeros() as usize];
         let here = late & object.simd_eq(U::<S>::splat(simd, id)).to_bitmask();
         late &= !here;
-        let (mut points, mut color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
-        point.store(&mut points, 0);
-        texture::shade(simd, &world.objects[id as usize].material.albedo, &points, F::<S>::LEN, None, &mut color);
+        let mut block = [[0.0; BLOCK]; 3];
+        point.store(&mut block, 0);
+        texture::shade(simd, &world.objects[id as usize].material.albedo, &mut block, F::<S>::LEN, None);
         for lane in Bits(here) {
             let [red, green, blue, ..] = &mut out[lane].numbers;
-            *red += color[0][lane] * gain.x[lane];
-            *green += color[1][lane] * gain.y[lane];
-            *blue += color[2][lane] * gain.z[lane];
+            *red += block[0][lane] * gain.x[lane];
+            *green += block[1][lane] * gain.y[lane];
+            *blue += block[2][lane] * gain.z[lane];
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use fearless_simd::dispatch;
 use glam::Vec3;
-use paprsek::noise::{Footprint, fbm, noise, noise_block, octaves_block, turbulence};
+use paprsek::noise::{Footprint, Scratch, fbm, noise, noise_block, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
 use proptest::prelude::*;
 use testkit::perlin::{exact, exact_at};
@@ -172,8 +172,8 @@ fn check_levels(points: &[Vec3; BLOCK]) {
         }
     };
     for (name, level) in testkit::levels() {
-        let mut out = [0.0; BLOCK];
-        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut out));
+        let (mut scratch, mut out) = (Scratch::default(), [0.0; BLOCK]);
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut scratch, &mut out));
         same("noise", name, &out, &noise);
         for octaves in [0, 1, 5] {
             dispatch!(level, simd => octaves_block(simd, [&x, &y, &z], octaves, false, BLOCK, None, &mut out));

@@ -3,7 +3,7 @@
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::dispatch;
 use glam::Vec3;
-use paprsek::noise::{noise, noise_block};
+use paprsek::noise::{Scratch, noise, noise_block};
 use paprsek::simd::block::BLOCK;
 use testkit::perlin::{exact, exact_at};
 use testkit::random::Random;
@@ -80,7 +80,7 @@ fn compare(found: &mut Found, points: &[Vec3; BLOCK], truth: &dyn Fn(Vec3) -> f6
     see("scalar", &points.map(noise), true);
     for (name, level) in levels() {
         let mut out = [0.0; BLOCK];
-        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut out));
+        dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut Scratch::default(), &mut out));
         see(name, &out, false);
     }
 }
@@ -198,7 +198,7 @@ fn not_numbers(_: &Effort) -> Found {
                 for (name, level) in levels() {
                     let [x, y, z] = p.to_array().map(|x| [x; BLOCK]);
                     let mut out = [0.0; BLOCK];
-                    dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut out));
+                    dispatch!(level, simd => noise_block(simd, &x, &y, &z, 1.0, BLOCK, &mut Scratch::default(), &mut out));
                     found.judge(out.iter().all(|v| v.is_nan()), || format!("{name} at {p}: {out:?}"));
                 }
             }

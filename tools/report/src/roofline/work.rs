@@ -3,7 +3,7 @@
 use crate::options::Result;
 use fearless_simd::{Level, Simd, dispatch};
 use paprsek::frame::{Frame, Renderer};
-use paprsek::noise::noise_block;
+use paprsek::noise::{Scratch, noise_block};
 use paprsek::scenes;
 use paprsek::settings::Quality;
 use paprsek::simd::block::BLOCK;
@@ -67,14 +67,14 @@ fn timed(times: usize, mut once: impl FnMut(usize)) -> f64 {
 /// Noise at a grid of points, in blocks along x.
 #[inline(always)]
 fn noise<S: Simd>(simd: S, (width, height): (usize, usize)) {
-    let (mut x, mut out) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let (mut x, mut out, mut scratch) = ([0.0; BLOCK], [0.0; BLOCK], Scratch::default());
     for j in 0..height {
         let y = [j as f32 * SPACE; BLOCK];
         for start in (0..width).step_by(BLOCK) {
             for (k, x) in x.iter_mut().enumerate() {
                 *x = (start + k) as f32 * SPACE;
             }
-            noise_block(simd, &x, &y, &[0.5; BLOCK], 1.0, BLOCK, &mut out);
+            noise_block(simd, &x, &y, &[0.5; BLOCK], 1.0, BLOCK, &mut scratch, &mut out);
             black_box(&out);
         }
     }
