@@ -1,6 +1,7 @@
 //! Searches for better contexts at random: `tune SECONDS [SKIP-FROM SKIP-TO] FILE...` changes one set of features at
 //! a time and keeps what makes the files together smaller, then prints the table of `model/src/tuned.rs`.
-//! What lies between the two offsets is left out of each file.
+//! What lies between the two offsets is left out of each file. A file needs its sections, as `paprsek.ordered` in
+//! `target/intro/build` has them: without, all of it counts as instructions.
 
 use pack::compress::costs;
 use pack::toolchain::Toolchain;
