@@ -276,7 +276,7 @@ const ANGLE: [Word; 7] = fragment! { ..[assign(SIN)]; COS = (cos(SIN)); SIN = (s
 // The next texture is turned by that angle around x, y or z.
 const PITCH: [Word; 12] = words!(1.0, 0.0, 0.0, 0.0, COS, SIN, 0.0, SIN * -1.0, COS; op::turn);
 const YAW: [Word; 12] = words!(COS, 0.0, SIN * -1.0, 0.0, 1.0, 0.0, SIN, 0.0, COS; op::turn);
-/// The next texture is the same at every height, that of the lattice, where noise takes little more than half its time.
+/// The next texture is the same at every height, that of the lattice, where noise takes some two thirds of its time.
 const FLAT: [Word; 10] = words!(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0; op::turn);
 const ROLL: [Word; 12] = words!(COS, SIN, 0.0, SIN * -1.0, COS, 0.0, 0.0, 0.0, 1.0; op::turn);
 
