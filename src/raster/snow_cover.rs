@@ -12,7 +12,7 @@ use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
 use crate::texture::{Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
-use glam::{Vec2, Vec3, vec3};
+use glam::{Mat3, Vec2, Vec3, vec3};
 
 /// Snow on all surfaces that keep it.
 #[derive(Clone, Debug)]
@@ -45,9 +45,12 @@ pub const RELIEF: f32 = 0.3;
 pub const KEEPS: [f32; 2] = [0.25, 0.7];
 /// Depth that covers a surface, per albedo in green: dark places are hollows, and pale stalks stand out longest.
 pub const ROUGH: f32 = 4.5;
-/// Variation, around 0, of roughness and of the snow itself: 0.7 cells per metre.
-pub static GRAIN: Texture =
-    Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(Vec3::splat(-0.8), Vec3::splat(0.8)), 0.7);
+/// Variation, around 0, of roughness and of the snow itself: 0.62 cells per metre. It is noise at the lattice's own height,
+/// which costs half, and leans, so that what stands upright has other grain higher up.
+pub static GRAIN: Texture = Texture {
+    turn: Mat3::from_cols(vec3(0.62, 0.0, 0.0), vec3(0.2, 0.0, 0.3), vec3(0.0, 0.0, 0.62)),
+    ..Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(Vec3::splat(-0.8), Vec3::splat(0.8)), 1.0)
+};
 /// Depth between the first flakes in a place and the last gap.
 pub const EDGE: f32 = 0.25;
 /// How much roughness varies per metre: by as much, in squares, a pixel on the surface widens [`EDGE`]. To `reference` at

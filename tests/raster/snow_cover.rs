@@ -66,12 +66,13 @@ fn spot(camera: &Camera, pixel: usize, normal: DVec3) -> Spot {
     let footprint = depth * stretch * camera.up.length() as f64 * 2.0 / SIZE[1] as f64;
     let Pattern::Clouds { octaves } = GRAIN.pattern else { unreachable!() };
     let Palette::Mix(_, most) = GRAIN.palette else { unreachable!() };
+    let turn = GRAIN.turn.as_dmat3();
     let sum: f64 = (0..octaves)
         .map(|k| {
-            let zoom = GRAIN.turn.x_axis.x as f64 * 2f64.powi(k as i32);
-            let square = (footprint * zoom).powi(2);
+            let zoom = 2f64.powi(k as i32);
+            let square = (footprint * turn.x_axis.length() * zoom).powi(2);
             let fade = 1.0 / (1.0 + 0.4 * square + 0.1 * square * square);
-            0.5f64.powi(k as i32 + 1) * noise((point * zoom).as_vec3()) as f64 * fade
+            0.5f64.powi(k as i32 + 1) * noise((turn * point * zoom).as_vec3()) as f64 * fade
         })
         .sum();
     Spot { ray, depth, point, grain: sum * most.x as f64, footprint }
