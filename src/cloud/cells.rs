@@ -21,6 +21,7 @@ use crate::simd::math::to_f32;
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use fearless_simd_macros::simd;
 use glam::Vec3;
+use std::f32::consts::SQRT_2;
 
 /// Points along an edge of a tile's lattice: its pixels, and the first ones of the next tile.
 const SIDE: usize = Tile::SIZE + 1;
@@ -149,9 +150,10 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
     while size > LEAST && size * CELLS > clouds.view.height() {
         size /= 2;
     }
-    // The smallest cells to be interpolated, of two pixels, may be off by the threshold. An error of a larger cell shows in
-    // more pixels, and the rays of a smaller one cost as much: the larger, the less is allowed.
-    let mut allowed = threshold * 2.0 / to_f32(size);
+    // The middles of the smallest cells to be interpolated, of two pixels, may be off by the threshold. In a larger cell more
+    // pixels are off, and its rays cost no more: the larger, the less is allowed, by (2 / size)^1.5.
+    let share = 2.0 / to_f32(size);
+    let mut allowed = threshold * share * share.sqrt();
     let known = vec![false; planes[0].len()];
     let mut lattice = Lattice { planes, known, cells: Vec::new(), wanted: Vec::new() };
     for y in (0..tile.height).step_by(size) {
@@ -182,7 +184,7 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
             }
         }
         size /= 2;
-        allowed *= 2.0;
+        allowed *= 2.0 * SQRT_2;
     }
 }
 
@@ -216,42 +218,37 @@ impl Lattice<'_> {
         }
     }
 
-    /// Fills a cell's points by bilinear interpolation between its corners, but that ends are the farthest of the four.
+    /// Fills a cell's points by bilinear interpolation between its corners, bent by a parabola along each axis so that it
+    /// meets the middle; but ends are the farthest of the four corners'.
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, cell: Cell) {
         let Cell { at, size } = cell;
-        let share = 1.0 / to_f32(size);
-        let far = cell.corners().map(|corner| self.planes[END][corner]).into_iter().fold(0.0, f32::max);
+        let (middle, share) = (cell.middle(), 1.0 / to_f32(size));
         for (k, plane) in self.planes.iter_mut().enumerate() {
-            let corners = if k == END { [far; 4] } else { cell.corners().map(|corner| plane[corner]) };
+            let [mut a, mut b, mut c, mut d] = cell.corners().map(|corner| plane[corner]);
+            let mut off = plane[middle] - (a + b + c + d) * 0.25;
+            if k == END {
+                a = a.max(b).max(c).max(d);
+                (b, c, d, off) = (a, a, a, 0.0);
+            }
             for y in 0..size {
                 let row = &mut plane[at + y * ROW..][..size];
                 let down = to_f32(y) * share;
+                let bend = 16.0 * (down - down * down) * off;
+                let mut u = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]) * share;
                 // What is written is a cell's width and no more: vectors that hang over would have to read what the cell
                 // before has just written, and wait for it.
-                if size >= 4 {
-                    between(simd, corners, share, down, row);
-                } else {
-                    let [a, b, c, d] = corners;
-                    let (above, below) = ((b - a) * share + a, (d - c) * share + c);
-                    row[0] = a + (c - a) * down;
-                    row[1] = above + (below - above) * down;
+                for row in row.chunks_mut(4) {
+                    let (above, below) = (u * (b - a) + a, u * (d - c) + c);
+                    let light = above + (below - above) * down + (u - u * u) * bend;
+                    match row.first_chunk_mut::<4>() {
+                        Some(row) => light.store_slice(row),
+                        None => row[..2].copy_from_slice(&light.as_slice()[..2]),
+                    }
+                    u += 4.0 * share;
                 }
             }
         }
-    }
-}
-
-/// Fills a row of a cell, some way `down` from its upper to its lower edge, by bilinear interpolation between its corners.
-/// Its points are a `share` of its edge apart, and fill whole vectors.
-#[inline(always)]
-fn between<S: Simd>(simd: S, [a, b, c, d]: [f32; 4], share: f32, down: f32, row: &mut [f32]) {
-    let mut place = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]);
-    for row in row.as_chunks_mut::<4>().0 {
-        let u = place * share;
-        let (above, below) = (u * (b - a) + a, u * (d - c) + c);
-        (above + (below - above) * down).store_slice(row);
-        place += 4.0;
     }
 }
 
