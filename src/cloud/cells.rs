@@ -218,8 +218,8 @@ impl Lattice<'_> {
         }
     }
 
-    /// Fills a cell's points by bilinear interpolation between its corners, bent by a parabola along each axis so that it
-    /// meets the middle; but ends are the farthest of the four corners'.
+    /// Fills a cell's points by bilinear interpolation between its corners, over which a tent is put up so that it meets the
+    /// middle and goes nowhere beyond the five; but ends are the farthest of the four corners'.
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, cell: Cell) {
         let Cell { at, size } = cell;
@@ -234,13 +234,13 @@ impl Lattice<'_> {
             for y in 0..size {
                 let row = &mut plane[at + y * ROW..][..size];
                 let down = to_f32(y) * share;
-                let bend = 16.0 * (down - down * down) * off;
+                let bend = 4.0 * down.min(1.0 - down) * off;
                 let mut u = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]) * share;
                 // What is written is a cell's width and no more: vectors that hang over would have to read what the cell
                 // before has just written, and wait for it.
                 for row in row.chunks_mut(4) {
                     let (above, below) = (u * (b - a) + a, u * (d - c) + c);
-                    let light = above + (below - above) * down + (u - u * u) * bend;
+                    let light = above + (below - above) * down + u.min(-u + 1.0) * bend;
                     match row.first_chunk_mut::<4>() {
                         Some(row) => light.store_slice(row),
                         None => row[..2].copy_from_slice(&light.as_slice()[..2]),

@@ -166,6 +166,9 @@ fn cells_are_off_by_less_than_their_threshold() {
         let error = (squares / Tile::AREA as f32).sqrt();
         println!("threshold {threshold}: rms {error}");
         assert!(error < 0.2 * threshold && error < last, "{threshold}: {error}");
+        // Nothing goes beyond what rays met.
+        let beyond = cells.coverage.iter().fold(0.0, |most: f32, share| most.max(-share).max(share - 1.0));
+        assert!(beyond < 1e-6, "{threshold}: {beyond} beyond none and all");
         last = error;
     }
 }
