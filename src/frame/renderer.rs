@@ -17,6 +17,7 @@ use crate::simd::level;
 use crate::simd::math::to_f32;
 use crate::view::{Eye, Stereo};
 use fearless_simd::{Level, Simd, dispatch};
+use std::hint::black_box;
 
 /// A finished picture: `0RGB` pixels, row by row from the top left.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,6 +71,11 @@ impl Renderer {
     ///
     /// The calling thread is one of them where it can be. Fails where threads cannot be started.
     pub fn new(threads: usize) -> Result<Renderer, String> {
+        if cfg!(target_env = "gnu") {
+            // Once so large a block was freed, glibc keeps up to twice as much of what a frame frees for the next one, which
+            // else begins with pages that the system has to clear: see M_MMAP_THRESHOLD in mallopt(3).
+            drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
+        }
         Ok(Renderer { workers: Workers::new(threads)?, cache: Cache::default() })
     }
 
