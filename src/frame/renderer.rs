@@ -73,8 +73,9 @@ impl Renderer {
     pub fn new(threads: usize) -> Result<Renderer, String> {
         if cfg!(target_env = "gnu") {
             // Once so large a block was freed, glibc keeps up to twice as much of what a frame frees for the next one, which
-            // else begins with pages that the system has to clear: see M_MMAP_THRESHOLD in mallopt(3).
-            drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
+            // else begins with pages that the system has to clear: see M_MMAP_THRESHOLD in mallopt(3). Where there is not
+            // so much, frames do without.
+            _ = black_box(&mut Vec::<u8>::new()).try_reserve_exact(16 << 20);
         }
         Ok(Renderer { workers: Workers::new(threads)?, cache: Cache::default() })
     }
