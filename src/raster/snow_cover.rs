@@ -46,7 +46,7 @@ pub const KEEPS: [f32; 2] = [0.25, 0.7];
 /// Depth that covers a surface, per albedo in green: dark places are hollows, and pale stalks stand out longest.
 pub const ROUGH: f32 = 4.5;
 /// Variation, around 0, of roughness and of the snow itself: 0.62 cells per metre. It is noise at the lattice's own height,
-/// which costs half, and leans, so that what stands upright has other grain higher up.
+/// which takes two thirds of its time, and leans, so that what stands upright has other grain higher up.
 pub static GRAIN: Texture = Texture {
     turn: Mat3::from_cols(vec3(0.62, 0.0, 0.0), vec3(0.2, 0.0, 0.3), vec3(0.0, 0.0, 0.62)),
     ..Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(Vec3::splat(-0.8), Vec3::splat(0.8)), 1.0)

@@ -212,7 +212,7 @@ pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3, place: Vec3, t
     let now = dome.lighting();
     let mut bodies = bodies();
     textures[WAVES].origin = Vec3::splat(time as f32);
-    // The same at every height, as the ground is but gentle slopes: noise at the lattice's own height costs half.
+    // The same at every height, as the ground is but gentle slopes: there noise takes two thirds of its time.
     textures[GRASS].turn.y_axis = Vec3::ZERO;
     // Five turns per second.
     let turns = 5.0 * time;
