@@ -1,6 +1,6 @@
 //! Surfaces of triangles: points with normals, faces that join them, and what faces are painted with.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// What a face is painted with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +41,11 @@ pub struct Mesh {
 impl Mesh {
     /// Centre and radius of a bounding sphere: the one around the bounding box. Coordinates that are NaN are left out.
     pub fn bound(&self) -> (Vec3, f32) {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let (mut low, mut high) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
         for &p in &self.points {
             // In this order `min` and `max` drop a NaN.
-            (low, high) = (p.min(low), p.max(high));
+            (low, high) = (Vec3A::from(p).min(low), Vec3A::from(p).max(high));
         }
-        (0.5 * (low + high), 0.5 * low.distance(high))
+        ((0.5 * (low + high)).into(), 0.5 * low.distance(high))
     }
 }
