@@ -153,8 +153,9 @@ impl Shapes {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
         spec.workers.each(self.all.iter_mut().enumerate(), |(number, shape)| {
-            // Each shape at a time of its own, lest one frame has to light all of them.
-            let sun = ((towards * 64.0 + number as f32 / 6.0).floor() - number as f32 / 6.0 + 0.5).normalize();
+            // Two shapes at a time, one for each core of most machines that are slow, lest one frame has to light all.
+            let turn = to_f32(number / 2) / 3.0;
+            let sun = ((towards * 64.0 + turn).floor() - turn + 0.5).normalize();
             let other = cuts::PARAMETERS && shape.kind != only;
             if other || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
                 let kind = match only {
