@@ -5,7 +5,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::{Simd, dispatch, prelude::*};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::march::march;
 use paprsek::cloud::{Cloud, CloudKind, CloudLight, Voxels, sunlight};
 use paprsek::simd::lanes::{F, Lane, V3};
@@ -18,13 +18,17 @@ const EDGE: usize = 64;
 /// Rays along each side of the picture, and steps along an edge of the cube.
 const SIDE: usize = 128;
 const STEPS: usize = 100;
-const EYE: Vec3 = vec3(0.0, 0.0, 3.0);
+const EYE: Vec3A = vec3a(0.0, 0.0, 3.0);
 /// Distance from the eye at which the picture is 2 wide and high.
 const AWAY: f32 = 2.5;
 const EXTINCTION: f32 = 20.0;
-const SUN: Vec3 = vec3(0.67, 0.57, 0.47);
-const LOOK: CloudLight =
-    CloudLight { ambient: [vec3(0.2, 0.3, 0.4), vec3(0.4, 0.4, 0.5)], towards: SUN, sun: Vec3::ONE, phase: [0.8, 0.5] };
+const SUN: Vec3A = vec3a(0.67, 0.57, 0.47);
+const LOOK: CloudLight = CloudLight {
+    ambient: [vec3a(0.2, 0.3, 0.4), vec3a(0.4, 0.4, 0.5)],
+    towards: SUN,
+    sun: Vec3A::ONE,
+    phase: [0.8, 0.5],
+};
 
 /// Kinds by name.
 const KINDS: [(&str, CloudKind); 2] = [("cumulus", CloudKind::CUMULUS), ("congestus", CloudKind::CONGESTUS)];
@@ -56,7 +60,7 @@ fn places() -> [f32; SIDE] {
 
 /// Steps that all rays take where nothing ends them.
 fn steps() -> u64 {
-    let way = |x: f32, y: f32| span(EYE.as_dvec3(), vec3(x, y, -AWAY).as_dvec3().normalize());
+    let way = |x: f32, y: f32| span(EYE.as_dvec3(), vec3a(x, y, -AWAY).as_dvec3().normalize());
     let ways = places().into_iter().flat_map(|y| places().map(|x| way(x, y))).flatten();
     ways.map(|(entry, exit)| ((exit - entry) * 0.5 * STEPS as f64).round() as u64).sum()
 }
@@ -91,7 +95,7 @@ fn rays(criterion: &mut Criterion) {
     // Every step looked up; and as in pictures, where leaps and opaque clouds spare most of them.
     let cases = [("full", full, 1.0, 0.0), ("cumulus", grown, EXTINCTION, 1.0 / 256.0)];
     for (name, voxels, extinction, opaque) in cases {
-        let cloud = Cloud { voxels: Arc::new(voxels), centre: Vec3::ZERO, size: 1.0, extinction };
+        let cloud = Cloud { voxels: Arc::new(voxels), centre: Vec3A::ZERO, size: 1.0, extinction };
         let mut group = criterion.benchmark_group(format!("steps of rays, {name}"));
         group.throughput(Throughput::Elements(steps())).sample_size(20);
         let mut first = None;

@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, Throughput, black_box, criterion_group, criterion_main};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::noise::{Scratch, fbm, noise, noise_block, octaves_block};
 use paprsek::simd::block::BLOCK;
 use std::time::Instant;
@@ -64,7 +64,7 @@ fn scalar(planes: usize, octaves: Option<u32>) -> u32 {
     for k in 0..planes {
         for j in 0..SIZE[1] {
             for i in 0..SIZE[0] {
-                let p = Vec3::new(i as f32, j as f32, k as f32) * STEP;
+                let p = Vec3A::new(i as f32, j as f32, k as f32) * STEP;
                 sum = sum.wrapping_add(octaves.map_or_else(|| noise(p), |n| fbm(p, n)).to_bits());
             }
         }

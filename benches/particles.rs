@@ -32,7 +32,7 @@ fn particles(renderer: &Renderer, kind: usize, time: f64) -> ParticleLayer {
     if kind == 0 {
         return snowfall(&renderer.spec(time, &Quality::FAST, SIZE), &FLAKES).without_solids();
     }
-    let camera = Camera::look_at(glam::vec3(4.0, 2.2, 5.8), glam::vec3(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(glam::vec3a(4.0, 2.2, 5.8), glam::vec3a(0.0, 1.8, 0.0), 50f32.to_radians(), 0.0);
     let fires = fires(time).into_iter().map(Emitter::Fire).collect();
     ParticleLayer::new(fires, &View::new(camera, width, height), &Quality::EXACT.particles).without_solids()
 }

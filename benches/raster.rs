@@ -7,7 +7,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use fearless_simd::Level;
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3A};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::{Bias, Body, Light, Projection, RasterLayer, RasterMemory, ShadowViews, World, fit};
@@ -64,13 +64,13 @@ impl Case {
         let (_, size, _) = self.numbers();
         let (light, views) = match self {
             Case::Sun => {
-                let towards = shadow_set::sun(time).as_vec3();
-                let views = vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size as u32)];
-                (Light::sun(towards, Vec3::ONE), views)
+                let towards = shadow_set::sun(time).as_vec3a();
+                let views = vec![Projection::parallel(towards, Vec3A::ZERO, 72.0, size as u32)];
+                (Light::sun(towards, Vec3A::ONE), views)
             }
             Case::Cube => {
-                let position = shadow_set::torch(time).as_vec3();
-                let light = Light::lamp(position, Vec3::ONE, Vec2::new(0.0, 0.06), f32::INFINITY);
+                let position = shadow_set::torch(time).as_vec3a();
+                let light = Light::lamp(position, Vec3A::ONE, Vec2::new(0.0, 0.06), f32::INFINITY);
                 (light, fit::cube(position, size as u32))
             }
         };
@@ -80,7 +80,7 @@ impl Case {
 
 /// The set under a light, whose maps are all that is drawn: the camera is far off and looks away.
 fn depth_only(bodies: &[Body], light: Light) -> Picture {
-    let camera = Camera::look_at(Vec3::splat(1e4), Vec3::splat(2e4), 0.1, 0.0);
+    let camera = Camera::look_at(Vec3A::splat(1e4), Vec3A::splat(2e4), 0.1, 0.0);
     let world = World { lights: vec![light], ..World::new(bodies.to_vec()) };
     let drawn = RasterLayer::new(world, &View::new(camera, Tile::SIZE, Tile::SIZE), &Quality::FAST.raster);
     Picture { layers: vec![Box::new(DepthOnly(drawn))], transfer: Transfer::Gamma22 }

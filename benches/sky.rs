@@ -4,7 +4,7 @@
 #![allow(missing_docs)] // criterion_group! makes an undocumented function.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::{Quality, SkySettings};
@@ -25,16 +25,16 @@ const OFF: u8 = 8;
 fn picture(altitude: f32, cell: f32) -> Picture {
     let (sin, cos) = altitude.to_radians().sin_cos();
     let sky = Sky {
-        sun: vec3(0.0, sin, -cos),
-        moon: Vec3::NEG_Y,
-        moon_to_sun: Vec3::X,
+        sun: vec3a(0.0, sin, -cos),
+        moon: Vec3A::NEG_Y,
+        moon_to_sun: Vec3A::X,
         lit: 0.0,
         moon_radius: 0.0045,
-        turn: Mat3::IDENTITY,
+        turn: Mat3A::IDENTITY,
         air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
     };
     let settings = SkySettings { cell, ..Quality::DEFAULT.sky };
-    let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
     let layer = SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, SIZE.0, SIZE.1), &settings);
     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }
 }

@@ -4,7 +4,7 @@
 #![allow(missing_docs)] // criterion_group! makes an undocumented function.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::Quality;
@@ -21,26 +21,26 @@ fn world(count: u32) -> World {
     let radius = 2.0 * (COVER / count as f32 / std::f32::consts::PI).sqrt();
     let random = |n: u32| pcg(n) as f32 / u32::MAX as f32 * 2.0 - 1.0;
     let ball = |n: u32| {
-        let center = vec3(random(3 * n), 1.0 + random(3 * n + 1), random(3 * n + 2));
-        let material = Material::plain(vec3(0.7, 0.4, 0.3)).polished(0.25, 0.5, 48.0);
-        Object::new(Shape::Sphere { center: center + Vec3::Y * radius, radius }, material)
+        let center = vec3a(random(3 * n), 1.0 + random(3 * n + 1), random(3 * n + 2));
+        let material = Material::plain(vec3a(0.7, 0.4, 0.3)).polished(0.25, 0.5, 48.0);
+        Object::new(Shape::Sphere { center: center + Vec3A::Y * radius, radius }, material)
     };
-    let floor = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
-    let floor = Object::new(floor, Material::plain(Vec3::splat(0.5)).polished(0.15, 0.2, 32.0)).without_shadow();
+    let floor = Shape::Plane { normal: Vec3A::Y, offset: 0.0 };
+    let floor = Object::new(floor, Material::plain(Vec3A::splat(0.5)).polished(0.15, 0.2, 32.0)).without_shadow();
     World {
         lights: vec![
-            Light::point(vec3(4.0, 6.0, 3.0), Vec3::ONE),
-            Light::point(vec3(-5.0, 4.0, 2.0), Vec3::splat(0.4)),
+            Light::point(vec3a(4.0, 6.0, 3.0), Vec3A::ONE),
+            Light::point(vec3a(-5.0, 4.0, 2.0), Vec3A::splat(0.4)),
         ],
-        ambient: Vec3::splat(0.08),
-        background: Background::gradient(vec3(0.75, 0.8, 0.9), vec3(0.2, 0.35, 0.6)),
+        ambient: Vec3A::splat(0.08),
+        background: Background::gradient(vec3a(0.75, 0.8, 0.9), vec3a(0.2, 0.35, 0.6)),
         max_level: 4,
         ..World::new((0..count).map(ball).chain([floor]).collect())
     }
 }
 
 fn bodies(criterion: &mut Criterion) {
-    let view = View::new(Camera::look_at(vec3(0.0, 2.2, 5.0), Vec3::Y, 0.8, 0.0), SIZE.0, SIZE.1);
+    let view = View::new(Camera::look_at(vec3a(0.0, 2.2, 5.0), Vec3A::Y, 0.8, 0.0), SIZE.0, SIZE.1);
     for (quality_name, quality) in [("fast", Quality::FAST), ("exact", Quality::EXACT)] {
         let mut group = criterion.benchmark_group(format!("bodies, {quality_name}"));
         group.sample_size(10);

@@ -5,7 +5,7 @@
 //! Beer's law says how much is left of the sky behind, which is computed from the date, and lights the clouds as well.
 
 use fearless_simd::dispatch;
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 use paprsek::cloud::{CloudField, CloudKind, CloudLayer, CloudLight, sunlight};
 use paprsek::frame::{Frame, Layer, Picture, Renderer, encode::Transfer};
 use paprsek::raster::{RasterLayer, World};
@@ -22,12 +22,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         dispatch!(level, simd => sunlight::bake(simd, &mut voxels, now.direction, extinction));
         voxels.into()
     });
-    let (size, eye) = ([400.0, 500.0], Vec3::Y * 700.0);
+    let (size, eye) = ([400.0, 500.0], Vec3A::Y * 700.0);
     let field = CloudField { seed: 7, spacing: 1500.0, share: 0.5, height: 900.0, size, range: 20e3, extinction };
     let clouds = field.around(eye, 0.0, &shapes);
     let ambient = [now.ground * 0.5 + now.sky * 0.4, now.sky * 0.85];
     let light = CloudLight { ambient, towards: now.direction, sun: now.color * 0.75, phase: [0.8, 0.8] };
-    let ahead = Mat3::from_rotation_y(-0.9) * now.direction.with_y(0.0) + Vec3::Y * 0.29;
+    let ahead = Mat3A::from_rotation_y(-0.9) * now.direction.with_y(0.0) + Vec3A::Y * 0.29;
     let view = spec.view(Camera::look_at(eye, eye + ahead, 46f32.to_radians(), 0.0));
     let seen = CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud).shaded_by(&clouds);
     let ground = Box::new(RasterLayer::new(World::new(Vec::new()), &view, &spec.quality.raster));

@@ -7,7 +7,7 @@ use crate::simd::math::{exp2, to_f32};
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::LOG2_E;
 
 /// Fog of one density everywhere. By the law of Beer and Lambert a share `exp(-density way)` of the light comes
@@ -15,7 +15,7 @@ use std::f32::consts::LOG2_E;
 #[derive(Clone, Copy, Debug)]
 pub struct Fog {
     /// Its light, linear, where it hides everything.
-    pub light: Vec3,
+    pub light: Vec3A,
     /// Extinction coefficient, per metre.
     pub density: f32,
     /// Distance from the eye at which it ends, metres: before the sky, and before whatever is farther.

@@ -7,18 +7,18 @@
 //! all threads. This one is a white ball lit from the upper left, in five rows of nine pixels:
 //!
 //! ```
-//! use paprsek::glam::{Vec3, vec3};
+//! use paprsek::glam::{Vec3A, vec3a};
 //! use paprsek::trace::{Light, Material, Object, Shape, TraceLayer, World};
 //! use paprsek::{Camera, Frame, FrameSpec, Picture, Quality, Renderer, Scene, Transfer};
 //!
 //! fn ball(spec: &FrameSpec) -> Picture {
-//!     let ball = Shape::Sphere { center: Vec3::ZERO, radius: 1.0 };
+//!     let ball = Shape::Sphere { center: Vec3A::ZERO, radius: 1.0 };
 //!     let world = World {
-//!         lights: vec![Light::directional(vec3(-1.0, 1.0, 1.0).normalize(), Vec3::ONE)],
-//!         ambient: Vec3::splat(0.1),
-//!         ..World::new(vec![Object::new(ball, Material::plain(Vec3::ONE))])
+//!         lights: vec![Light::directional(vec3a(-1.0, 1.0, 1.0).normalize(), Vec3A::ONE)],
+//!         ambient: Vec3A::splat(0.1),
+//!         ..World::new(vec![Object::new(ball, Material::plain(Vec3A::ONE))])
 //!     };
-//!     let camera = Camera::look_at(vec3(0.0, 0.0, 4.0), Vec3::ZERO, 0.5, 0.0);
+//!     let camera = Camera::look_at(vec3a(0.0, 0.0, 4.0), Vec3A::ZERO, 0.5, 0.0);
 //!     let layer = TraceLayer::new(world, &spec.view(camera), &spec.quality.trace);
 //!     Picture { layers: vec![Box::new(layer)], transfer: Transfer::Linear }
 //! }
@@ -54,7 +54,7 @@
 //! | [`effects`] | fog and fades |
 //! | [`frame`] | scenes, layers, tiles, threads, and pixels |
 //! | [`settings`] | speed against error: [`Quality`] and its five parts |
-//! | [`view`], [`angle`], [`texture`], [`noise`], [`timeline`] | cameras, turns, solid textures, Perlin's noise, keyframes |
+//! | [`view`], [`angle`], [`vector`], [`texture`], [`noise`], [`timeline`] | cameras, turns, products, solid textures, Perlin's noise, keyframes |
 //! | [`simd`] | lanes, blocks, elementary functions, hashes |
 //! | [`sound`] | music and noise in closed form |
 //! | [`scenes`] | the show, and scenes to measure with |
@@ -83,6 +83,7 @@ pub mod sound;
 pub mod texture;
 pub mod timeline;
 pub mod trace;
+pub mod vector;
 pub mod view;
 
 pub use frame::encode::Transfer;

@@ -13,7 +13,7 @@ use crate::simd::lanes::{F, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 use std::f32::consts::{LOG2_E, TAU};
 
 /// Largest phase of marble's layers, radians: beyond, floats have less and less of one, and its sine is none.
@@ -67,9 +67,9 @@ pub struct Variation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Palette {
     /// From the first colour at 0 to the second at 1, not clamped.
-    Mix(Vec3, Vec3),
+    Mix(Vec3A, Vec3A),
     /// Four colours at 0, 1/3, 2/3 and 1, clamped at the ends.
-    Ramp([Vec3; 4]),
+    Ramp([Vec3A; 4]),
 }
 
 /// A solid texture.
@@ -81,30 +81,31 @@ pub struct Texture {
     pub palette: Palette,
     /// From world to texture space: a point `p` is looked up at `turn * (p - origin)`. The matrix holds the scale, and
     /// the rotation of the object that the texture is tied to.
-    pub turn: Mat3,
+    pub turn: Mat3A,
     /// Where the origin of texture space lies in the world, metres.
-    pub origin: Vec3,
+    pub origin: Vec3A,
 }
 
 impl Texture {
     /// One colour everywhere, linear light.
-    pub const fn plain(color: Vec3) -> Texture {
+    pub const fn plain(color: Vec3A) -> Texture {
         Texture::new(Pattern::Plain, Palette::Mix(color, color), 1.0)
     }
 
     /// A pattern that is not tied to an object, with `scale` units of texture space per metre.
     pub const fn new(pattern: Pattern, palette: Palette, scale: f32) -> Texture {
-        let turn = Mat3::from_cols(Vec3::new(scale, 0.0, 0.0), Vec3::new(0.0, scale, 0.0), Vec3::new(0.0, 0.0, scale));
-        Texture { pattern, palette, turn, origin: Vec3::ZERO }
+        let turn =
+            Mat3A::from_cols(Vec3A::new(scale, 0.0, 0.0), Vec3A::new(0.0, scale, 0.0), Vec3A::new(0.0, 0.0, scale));
+        Texture { pattern, palette, turn, origin: Vec3A::ZERO }
     }
 
     /// The same texture tied to an object at `origin`, metres, whose rotation from world to object is `turn`.
-    pub fn on(self, origin: Vec3, turn: Mat3) -> Texture {
+    pub fn on(self, origin: Vec3A, turn: Mat3A) -> Texture {
         Texture { turn: self.turn * turn, origin, ..self }
     }
 
     /// The colour that stands for all of the texture where its details are too faint to be seen, linear light.
-    pub fn mean(&self) -> Vec3 {
+    pub fn mean(&self) -> Vec3A {
         self.paint(match self.pattern {
             Pattern::Plain => 0.0,
             Pattern::Turbulence { .. } => 0.2,
@@ -132,7 +133,7 @@ impl Texture {
     }
 
     /// The colour at a point of the world, linear light: the truth that [`shade`] is tested against.
-    pub fn color(&self, p: Vec3) -> Vec3 {
+    pub fn color(&self, p: Vec3A) -> Vec3A {
         let p = self.turn * (p - self.origin);
         let s = match self.pattern {
             Pattern::Plain => 0.0,
@@ -151,7 +152,7 @@ impl Texture {
     }
 
     /// The palette's colour of a value of the field.
-    fn paint(&self, s: f32) -> Vec3 {
+    fn paint(&self, s: f32) -> Vec3A {
         match self.palette {
             Palette::Mix(a, b) => a + (b - a) * s,
             Palette::Ramp(c) => {

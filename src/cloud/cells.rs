@@ -20,7 +20,7 @@ use crate::simd::lanes::{Bits, F, Lane, V3};
 use crate::simd::math::to_f32;
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::SQRT_2;
 
 /// Points along an edge of a tile's lattice: its pixels, and the first ones of the next tile.
@@ -354,7 +354,7 @@ fn cast_block<S: Simd>(
         let length = ray.dot(ray).sqrt();
         let d = ray * Lane(one / length);
         let mut limit = load::<S, F<S>>(simd, depth, i) * length;
-        let mut light = V3::splat(simd, Vec3::ZERO);
+        let mut light = V3::splat(simd, Vec3A::ZERO);
         let (mut transmittance, mut end) = (one, load::<S, F<S>>(simd, &sum[END], i));
         for seen in near {
             // The less nearer clouds let through, the earlier it ends in this one.

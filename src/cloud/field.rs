@@ -9,7 +9,7 @@ use super::world::Cloud;
 use crate::angle;
 use crate::simd::hash::rnd;
 use crate::simd::math::to_f32;
-use glam::{Vec2, Vec3, vec3};
+use glam::{Vec2, Vec3A, vec3a};
 use std::sync::Arc;
 
 /// The clouds of one height.
@@ -42,7 +42,7 @@ impl CloudField {
     }
 
     /// The clouds around `eye` at `time` seconds, each of one of `shapes`.
-    pub fn around(&self, eye: Vec3, time: f32, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
+    pub fn around(&self, eye: Vec3A, time: f32, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
         let mut clouds = Vec::new();
         let drift = self.drift(time);
         let reach = (self.range / self.spacing).ceil() as i32;
@@ -59,7 +59,7 @@ impl CloudField {
                 let swell = 1.0 + 0.06 * angle::sin(0.15 * time + 40.0 * r(5));
                 let size = (self.size[0] + self.size[1] * r(1) * r(1)) * swell;
                 let at = |axis: usize| (place[axis] as f32 + 0.2 + 0.6 * r(2 + axis as u32)) * self.spacing;
-                let centre = vec3(at(0) + drift.x, self.height + 0.45 * size, at(1) + drift.y);
+                let centre = vec3a(at(0) + drift.x, self.height + 0.45 * size, at(1) + drift.y);
                 // By the distance over the ground, so that no cloud comes or goes as the eye climbs.
                 let away = Vec2::new(centre.x - eye.x, centre.z - eye.z).length() / self.range;
                 let extinction = self.extinction * (5.0 - 5.0 * away).clamp(0.0, 1.0);

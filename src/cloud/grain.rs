@@ -9,7 +9,7 @@ use crate::noise::octaves;
 use crate::simd::lanes::{F, V3};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Points along an edge of the table.
 const EDGE: usize = 32;
@@ -21,7 +21,7 @@ const WAVE: f32 = 9.0;
 /// The table.
 pub fn table() -> Voxels {
     let point = |at: usize| {
-        let p = Vec3::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(to_f32));
+        let p = Vec3A::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(to_f32));
         let mut sum = 0.0;
         for (zoom, share) in [(1.0, 560.0), (2.1, 280.0), (4.3, 140.0)] {
             sum += octaves(p * (zoom / WAVE) + zoom, 1, true) * share;

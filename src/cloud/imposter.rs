@@ -11,7 +11,7 @@ use crate::simd::lanes::{F, U, V3};
 use crate::simd::math::to_f32;
 use crate::view::{Camera, View};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 use std::sync::Arc;
 
 /// Where the plane of an imposter is: the share of the way from the cloud's centre to the nearest point that it may
@@ -25,7 +25,7 @@ pub(super) struct ImposterPlan {
     pub extinction: f32,
     pub settings: CloudSettings,
     /// The place that it is made for, from the cloud's centre.
-    pub eye: Vec3,
+    pub eye: Vec3A,
     /// Texels along an edge.
     pub edge: usize,
 }
@@ -43,11 +43,11 @@ pub(super) struct Imposter {
     pub plan: ImposterPlan,
     camera: Camera,
     /// Unit vector towards the plan's eye, and the distance of the plane from the cloud's centre along it.
-    towards: Vec3,
+    towards: Vec3A,
     plane: f32,
     /// Along rows and columns, scaled so that products with places in the plane are texels.
-    right: Vec3,
-    down: Vec3,
+    right: Vec3A,
+    down: Vec3A,
     /// The number of the frame that it was drawn for.
     #[cfg(feature = "full")]
     pub born: u32,
@@ -64,7 +64,7 @@ impl Imposter {
         let towards = plan.eye / way;
         // With a margin of a texel in which nothing is.
         let wide = reach / (way * way - reach * reach).sqrt() * to_f32(edge) / to_f32(edge - 2);
-        let camera = Camera::look_at(plan.eye, Vec3::ZERO, 2.0 * f64::from(wide).atan() as f32, 0.0);
+        let camera = Camera::look_at(plan.eye, Vec3A::ZERO, 2.0 * f64::from(wide).atan() as f32, 0.0);
         let plane = PLANE * reach;
         let texel = to_f32(edge) * 0.5 / (wide * wide * (way - plane));
         let [right, down] = [camera.right * texel, camera.up * -texel];
@@ -110,7 +110,7 @@ impl Imposter {
 
     /// Where rays from `q` along `d` cross the plane: column and row in texels, from 0 to [`Imposter::most`] inside.
     #[inline(always)]
-    pub fn cross<S: Simd>(&self, simd: S, q: Vec3, d: V3<S>) -> [F<S>; 2] {
+    pub fn cross<S: Simd>(&self, simd: S, q: Vec3A, d: V3<S>) -> [F<S>; 2] {
         let n = to_f32(self.plan.edge);
         let way = F::<S>::splat(simd, self.plane - q.dot(self.towards)) / d.dot1(self.towards);
         [

@@ -17,7 +17,7 @@ use crate::frame::cache::keep;
 use crate::frame::{Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::simd::math::smooth1;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -116,13 +116,13 @@ fn needs(clouds: &mut SeenClouds) -> Vec<Need> {
 
 /// Draws new imposters, with the clouds' own rays: light from above is made green, and light of the sun blue.
 fn draw(new: &mut [Imposter], workers: &Workers) {
-    let light = CloudLight { ambient: [Vec3::ZERO, Vec3::Y], towards: Vec3::Y, sun: Vec3::Z, phase: [1.0, 0.0] };
+    let light = CloudLight { ambient: [Vec3A::ZERO, Vec3A::Y], towards: Vec3A::Y, sun: Vec3A::Z, phase: [1.0, 0.0] };
     let mut texels: Vec<_> = new.iter().map(|new| vec![[255, 0, 0, 0]; new.area()]).collect();
     let clouds: Vec<_> = new
         .iter()
         .map(|new| {
             let ImposterPlan { voxels, extinction, settings, .. } = &new.plan;
-            let cloud = Cloud { voxels: voxels.clone(), centre: Vec3::ZERO, size: 1.0, extinction: *extinction };
+            let cloud = Cloud { voxels: voxels.clone(), centre: Vec3A::ZERO, size: 1.0, extinction: *extinction };
             SeenClouds::new(vec![cloud], light, &new.view(), settings)
         })
         .collect();
@@ -151,7 +151,7 @@ fn blend(share: f32) -> [f32; 2] {
 
 /// The places that imposters are made for, with their weights, where the eye is at `q` from the centre of a cloud.
 /// Lengths are in halves of the edge of the cube, `reach` is the cloud's, and `bound` is an angle in radians.
-fn eyes(q: Vec3, reach: f32, bound: f32) -> Vec<(Vec3, f32)> {
+fn eyes(q: Vec3A, reach: f32, bound: f32) -> Vec<(Vec3A, f32)> {
     let mut eyes = Vec::new();
     let way = q.length();
     // As the eye comes nearer, what is `z` before the plane and `x` beside the centre moves by `x z / way^2` per
@@ -173,7 +173,7 @@ fn eyes(q: Vec3, reach: f32, bound: f32) -> Vec<(Vec3, f32)> {
             let column = (f64::from(q.z).atan2(q.x.into()) as f32 / TAU + 0.5) * columns;
             for (column, share) in [column.floor(), column.floor() + 1.0].into_iter().zip(blend(column.fract())) {
                 let (across, along) = angle::sin_cos(column % columns / columns * TAU);
-                let eye = Vec3::new(-sin * along, cos, -sin * across) * way;
+                let eye = Vec3A::new(-sin * along, cos, -sin * across) * way;
                 if weight * share > 0.0 {
                     eyes.push((eye, weight * share));
                 }

@@ -7,24 +7,25 @@ use super::seen::{SeenCloud, SeenClouds};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
 use crate::simd::math::{opacity, to_f32};
+use crate::vector::unit;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::LOG2_E;
 
 /// The ray through a point of the picture: its unit direction, and the distance of a solid, metres.
-pub fn ray(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> (Vec3, f32) {
+pub fn ray(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> (Vec3A, f32) {
     let ray = clouds.view.ray(x as f32 + 0.5, y as f32 + 0.5);
     let at = (y - tile.y) * Tile::SIZE + (x - tile.x);
-    (ray.normalize(), ray.length() / tile.inv_depth[at])
+    (unit(ray), ray.length() / tile.inv_depth[at])
 }
 
 /// Steps that a ray takes in a cloud, up to `limit` metres: those of the loop of `march`, which ends in the same way.
-pub fn steps(seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
+pub fn steps(seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32, opaque: f32) -> u32 {
     dispatch!(Level::baseline(), simd => steps_in(simd, seen, eye, d, limit, opaque))
 }
 
 #[inline(always)]
-fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> u32 {
+fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32, opaque: f32) -> u32 {
     let cloud = &seen.cloud;
     let first = |lanes: F<S>| lanes.as_slice()[0];
     let ways = V3::splat(simd, d);
@@ -33,7 +34,7 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     let clip = |(entry, exit)| (first(entry).max(-way), first(exit).min(limit / cloud.size - way));
     let (met, left) = clip(within(simd, q, ways, cloud.voxels.bounds()));
     let (entry, exit) = clip(within(simd, q, ways, CUBE));
-    let q = Vec3::new(first(q.x), first(q.y), first(q.z));
+    let q = Vec3A::new(first(q.x), first(q.y), first(q.z));
     let steps = first(steps_along::<S>(F::<S>::splat(simd, exit - entry), seen.steps));
     let length = (exit - entry) / steps;
     // Written so that a NaN takes no steps.
@@ -47,7 +48,7 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, 
     while step < ((left - entry) / length).min(steps) {
         taken += 1;
         let p = q + d * (entry + (step + 0.5) * length);
-        let u = (p * half + (half - 0.5)).max(Vec3::ZERO).min(Vec3::splat(most));
+        let u = (p * half + (half - 0.5)).max(Vec3A::ZERO).min(Vec3A::splat(most));
         let u = V3::splat(simd, u);
         let leap = first(cloud.voxels.leap(simd, u));
         if leap < 0.0 {
@@ -83,7 +84,7 @@ pub fn imposters(clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile, x: usize
 
 /// The share of what is behind an imposter that it hides along a ray; 0 where the ray passes by.
 #[inline(always)]
-fn hides<S: Simd>(simd: S, imposter: &Imposter, q: Vec3, d: Vec3) -> f32 {
+fn hides<S: Simd>(simd: S, imposter: &Imposter, q: Vec3A, d: Vec3A) -> f32 {
     let at = imposter.cross(simd, q, V3::splat(simd, d));
     let inside = at.iter().all(|lanes| (0.0..=imposter.most()).contains(&lanes.as_slice()[0]));
     if inside { 1.0 - imposter.look_up(simd, at)[0].as_slice()[0] / 255.0 } else { 0.0 }
@@ -121,7 +122,7 @@ pub fn explain(clouds: &SeenClouds, tile: &Tile, x: usize, y: usize) -> Vec<Stri
 /// The share of what is behind a cloud that it hides, the part of that which the sun lights, of 255, and the share that
 /// comes through.
 #[inline(always)]
-fn met<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3, d: Vec3, limit: f32, opaque: f32) -> (f32, f32, f32) {
+fn met<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32, opaque: f32) -> (f32, f32, f32) {
     let [limit, opaque] = [limit, opaque].map(|number| F::<S>::splat(simd, number));
     let passage = seen.meet(simd, eye, V3::splat(simd, d), limit, opaque);
     let first = |lanes: F<S>| lanes.as_slice()[0];

@@ -14,7 +14,7 @@ use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::CloudSettings;
 use crate::view::View;
 use fearless_simd::Level;
-use glam::Vec3;
+use glam::Vec3A;
 use std::sync::Arc;
 
 /// Clouds before an eye: a layer after the solids and before the sky.
@@ -36,7 +36,7 @@ impl CloudLayer {
 
     /// The same in air of which `range` metres let 1/e of a cloud's light through, and which has the linear light
     /// `light` of a unit direction itself.
-    pub fn in_air(mut self, range: f32, light: impl Fn(Vec3) -> Vec3) -> CloudLayer {
+    pub fn in_air(mut self, range: f32, light: impl Fn(Vec3A) -> Vec3A) -> CloudLayer {
         self.clouds.add_air(range, light);
         self
     }

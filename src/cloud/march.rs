@@ -13,7 +13,7 @@ use crate::simd::lanes::{F, Lane, U, V3};
 use crate::simd::math::{opacity, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 use std::f32::consts::LOG2_E;
 
 /// How much detail below a voxel adds to the density, of its distance to none and to all, and to the light.
@@ -76,7 +76,7 @@ impl<S: Simd> Passage<S> {
 pub fn march<S: Simd>(
     simd: S,
     (cloud, fine): (&Cloud, Option<&Voxels>),
-    eye: Vec3,
+    eye: Vec3A,
     d: V3<S>,
     limit: F<S>,
     steps: f32,
@@ -161,8 +161,8 @@ pub(super) fn steps_along<S: Simd>(way: F<S>, steps: f32) -> F<S> {
 #[inline(always)]
 pub(super) fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
     let short = |x: F<S>| (x.bitcast::<U<S>>() & !0xfff).bitcast::<F<S>>();
-    let eye = q.as_vec3();
-    let rest = (q - eye.as_dvec3()).as_vec3();
+    let eye = q.as_vec3a();
+    let rest = (q - eye.as_dvec3()).as_vec3a();
     let way = short(-d.dot1(eye));
     let go = |eye: f32, rest: f32, d: F<S>| {
         let first = short(d);
@@ -174,11 +174,11 @@ pub(super) fn closest<S: Simd>(q: DVec3, d: V3<S>) -> (V3<S>, F<S>) {
 }
 
 /// The cube that a cloud is in: least and largest coordinates.
-pub(super) const CUBE: [Vec3; 2] = [Vec3::NEG_ONE, Vec3::ONE];
+pub(super) const CUBE: [Vec3A; 2] = [Vec3A::NEG_ONE, Vec3A::ONE];
 
 /// Where rays from `q` along `d` enter and leave a box.
 #[inline(always)]
-pub(super) fn within<S: Simd>(simd: S, q: V3<S>, d: V3<S>, [low, high]: [Vec3; 2]) -> (F<S>, F<S>) {
+pub(super) fn within<S: Simd>(simd: S, q: V3<S>, d: V3<S>, [low, high]: [Vec3A; 2]) -> (F<S>, F<S>) {
     let [x0, x1] = slab(simd, q.x, d.x, low.x, high.x);
     let [y0, y1] = slab(simd, q.y, d.y, low.y, high.y);
     let [z0, z1] = slab(simd, q.z, d.z, low.z, high.z);

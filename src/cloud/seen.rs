@@ -13,7 +13,7 @@ use crate::simd::lanes::{F, V3};
 use crate::simd::math::to_f32;
 use crate::view::{Camera, Cone, View};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 use std::sync::Arc;
 
 /// Distance from the centre of a cube to a corner, halves of its edge: the root of 3.
@@ -37,7 +37,7 @@ pub(super) struct SeenCloud {
     /// The share of its light that comes through the air.
     pub fades: f32,
     /// The light of the air before it, where it hides all that is behind.
-    pub veil: Vec3,
+    pub veil: Vec3A,
     /// The share of the sun's light that reaches it past other clouds.
     pub sunlit: f32,
     /// Imposters that stand for it, with their weights.
@@ -73,7 +73,7 @@ impl SeenClouds {
             let CloudSettings { steps, detail, .. } = settings.built();
             let steps = (steps as f32).min((pixels * detail).max(LEAST_STEPS).ceil());
             let at = seen.iter().position(|other| other.distance > distance).unwrap_or(seen.len());
-            let (fades, veil, sunlit) = (1.0, Vec3::ZERO, 1.0);
+            let (fades, veil, sunlit) = (1.0, Vec3A::ZERO, 1.0);
             let new = SeenCloud {
                 cloud,
                 distance,
@@ -105,7 +105,7 @@ impl SeenClouds {
     }
 
     /// Puts air between the eye and the clouds: see [`CloudLayer::in_air`](super::CloudLayer::in_air).
-    pub fn add_air(&mut self, range: f32, light: impl Fn(Vec3) -> Vec3) {
+    pub fn add_air(&mut self, range: f32, light: impl Fn(Vec3A) -> Vec3A) {
         let eye = self.view.camera().eye;
         for seen in &mut self.clouds {
             seen.fades = f64::from(-seen.distance / range).exp() as f32;
@@ -155,7 +155,7 @@ impl SeenCloud {
     /// What rays from `eye` along unit directions `d` meet of it, up to `limit` metres from the eye: of the cloud
     /// itself or of its imposters. A ray ends where its transmittance falls below `opaque`.
     #[inline(always)]
-    pub fn meet<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
+    pub fn meet<S: Simd>(&self, simd: S, eye: Vec3A, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
         if cuts::IMPOSTERS && !self.imposters.is_empty() {
             self.meet_imposters(simd, eye, d, limit, opaque)
         } else {
@@ -166,7 +166,7 @@ impl SeenCloud {
     /// [`Self::meet`] for a cloud with imposters: their weighted sum, with the cloud's own share where it has one.
     /// Where a solid stands in the cloud, rays are cast.
     #[inline(always)]
-    fn meet_imposters<S: Simd>(&self, simd: S, eye: Vec3, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
+    fn meet_imposters<S: Simd>(&self, simd: S, eye: Vec3A, d: V3<S>, limit: F<S>, opaque: F<S>) -> Passage<S> {
         let zero = F::<S>::splat(simd, 0.0);
         let q = (eye - self.cloud.centre) / self.cloud.size;
         let mut sums = [zero; 3];

@@ -10,7 +10,7 @@ use crate::simd::level;
 use crate::simd::math::exp2;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Radius of the ball that casts a cloud's shadow, halves of the cube's edge.
 const RADIUS: f32 = 0.62;
@@ -20,12 +20,12 @@ const RADIUS: f32 = 0.62;
 /// A cloud counts fully where it is nearer to the sun than a point by half of its cube's edge or more, and less and
 /// less down to 0. So no cloud shades itself, and none begins to with a jump.
 #[inline(never)] // Called from several places and never in a loop; inlined, its dispatch would be there as often.
-pub fn shares(clouds: &[Cloud], towards: Vec3, points: &[Vec3]) -> Vec<f32> {
+pub fn shares(clouds: &[Cloud], towards: Vec3A, points: &[Vec3A]) -> Vec<f32> {
     dispatch!(level::best(), simd => shares_in(simd, clouds, towards, points))
 }
 
 #[simd]
-fn shares_in<S: Simd>(simd: S, clouds: &[Cloud], towards: Vec3, points: &[Vec3]) -> Vec<f32> {
+fn shares_in<S: Simd>(simd: S, clouds: &[Cloud], towards: Vec3A, points: &[Vec3A]) -> Vec<f32> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let lanes = F::<S>::LEN;
     let mut shares = vec![0.0; points.len()];

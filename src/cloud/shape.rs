@@ -17,7 +17,7 @@ use crate::simd::lanes::F;
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use std::f32::consts::TAU;
 
 /// A kind of cloud, in a cube from -1 to 1.
@@ -98,7 +98,7 @@ impl CloudKind {
                     continue;
                 }
                 let base =
-                    base.get_or_insert_with(|| fbm(simd, [px, py, pz], vec3(3.0, 0.0, 3.0), vec3(o, 0.0, 0.0), 4));
+                    base.get_or_insert_with(|| fbm(simd, [px, py, pz], vec3a(3.0, 0.0, 3.0), vec3a(o, 0.0, 0.0), 4));
                 for i in 0..BLOCK {
                     let base = (py[i] * 10.0 + base[i] - lowest).clamp(0.0, 1.0);
                     density[numbers[i]] =
@@ -111,15 +111,15 @@ impl CloudKind {
 
     /// Centres and radii of the puffs of a seed.
     #[inline(always)]
-    fn puffs(&self, seed: u32) -> Vec<(Vec3, f32)> {
-        let mut puffs: Vec<(Vec3, f32)> = Vec::new();
+    fn puffs(&self, seed: u32) -> Vec<(Vec3A, f32)> {
+        let mut puffs: Vec<(Vec3A, f32)> = Vec::new();
         for ring in self.rings {
             for i in 0..ring[0] {
                 let number = 800 + 16 * seed + puffs.len() as u32;
                 let draw = |k: usize, j: u32| (ring[k] as f32 + ring[k + 1] as f32 * rnd(1, number, j)) * 0.01;
                 let (sin, cos) = angle::sin_cos(TAU * (i as f32 / ring[0] as f32 + 0.1 * rnd(1, number, 0)));
                 let way = draw(1, 1);
-                puffs.push((vec3(way * cos, draw(3, 2), way * sin), draw(5, 3)));
+                puffs.push((vec3a(way * cos, draw(3, 2), way * sin), draw(5, 3)));
             }
         }
         puffs
@@ -153,7 +153,7 @@ fn points(first: [usize; 3], edge: usize, at: &mut Block3, inside: &mut [f32; BL
 #[inline(always)]
 fn warp<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], o: f32, warped: &mut Block3) {
     for (warped, a) in warped.iter_mut().zip([0.0, 31.7, 63.1]) {
-        let warp = fbm(simd, points, Vec3::splat(1.6), vec3(o + a, a, -a), 2);
+        let warp = fbm(simd, points, Vec3A::splat(1.6), vec3a(o + a, a, -a), 2);
         for i in 0..BLOCK {
             warped[i] += warp[i] * WARP;
         }
@@ -163,7 +163,7 @@ fn warp<S: Simd>(simd: S, points: [&[f32; BLOCK]; 3], o: f32, warped: &mut Block
 /// Distances of points to the eroded puffs, below 0 inside. False where all points are outside; the distances are not
 /// complete then.
 #[inline(always)]
-fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, distance: &mut [f32; BLOCK]) -> bool {
+fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3A, f32)], o: f32, distance: &mut [f32; BLOCK]) -> bool {
     let mut some = false;
     for i in 0..BLOCK / F::<S>::LEN {
         let [x, y, z]: [F<S>; 3] = [load(simd, &warped[0], i), load(simd, &warped[1], i), load(simd, &warped[2], i)];
@@ -183,7 +183,7 @@ fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, dista
     let [u, v, w] = warped;
     for _ in 0..4 {
         // One octave is half of a noise.
-        let billow = fbm(simd, [u, v, w], Vec3::splat(frequency), vec3(o, 0.0, 0.0), 1);
+        let billow = fbm(simd, [u, v, w], Vec3A::splat(frequency), vec3a(o, 0.0, 0.0), 1);
         for i in 0..BLOCK {
             distance[i] += billow[i].abs() * amplitude;
         }
@@ -194,7 +194,7 @@ fn erode<S: Simd>(simd: S, warped: &Block3, puffs: &[(Vec3, f32)], o: f32, dista
 
 /// [`fbm`](crate::noise::fbm) at the points of a block times `scale` and moved by `offset`.
 #[simd]
-fn fbm<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3, offset: Vec3, octaves: u32) -> [f32; BLOCK] {
+fn fbm<S: Simd>(simd: S, p: [&[f32; BLOCK]; 3], scale: Vec3A, offset: Vec3A, octaves: u32) -> [f32; BLOCK] {
     let mut q = [[0.0; BLOCK]; 3];
     for (axis, q) in q.iter_mut().enumerate() {
         for i in 0..BLOCK / F::<S>::LEN {

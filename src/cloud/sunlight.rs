@@ -14,13 +14,13 @@ use crate::simd::lanes::{F, STEPS, U, float};
 use crate::simd::math::{exp2, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::LOG2_E;
 
 /// Writes the sunlight of all voxels within the [bounds](Voxels::bounds), for a sun in the direction of the unit vector
 /// `towards` and a cloud whose greatest density has that extinction coefficient, per half of the cube's edge.
 #[simd]
-pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3, extinction: f32) {
+pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f32) {
     let (n, lanes) = (voxels.edge(), F::<S>::LEN);
     let (strides, way) = ([1, n, n * n], towards.to_array());
     // Layers lie across the main axis. The ray to the sun goes `du`, `dv` voxels sideways from one to the next.

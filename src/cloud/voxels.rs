@@ -7,7 +7,7 @@
 use crate::simd::lanes::{F, U, V3, float};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 use std::ops::Range;
 
 /// Cells along an edge of a block, for which one leap is stored.
@@ -37,7 +37,7 @@ pub struct Voxels {
     /// See [`Voxels::reach`].
     reach: f32,
     /// See [`Voxels::bounds`].
-    bounds: [Vec3; 2],
+    bounds: [Vec3A; 2],
 }
 
 impl Voxels {
@@ -45,7 +45,7 @@ impl Voxels {
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
         let (cells, leaps) = (Vec::new(), Vec::new());
-        let mut voxels = Voxels { edge, density, light, cells, leaps, reach: 0.0, bounds: [Vec3::ZERO; 2] };
+        let mut voxels = Voxels { edge, density, light, cells, leaps, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
         voxels.measure();
         voxels.pack();
         voxels
@@ -95,7 +95,7 @@ impl Voxels {
 
     /// Least and largest coordinates of the box that holds every point where the density is not 0, halves of the cube's edge
     /// from its centre. Infinite, the least above the largest, where there is none.
-    pub fn bounds(&self) -> [Vec3; 2] {
+    pub fn bounds(&self) -> [Vec3A; 2] {
         self.bounds
     }
 
@@ -154,14 +154,14 @@ impl Voxels {
         let n = self.edge / LEAP;
         let half = to_f32(self.edge) * 0.5;
         let mut full = vec![false; n * n * n];
-        (self.reach, self.bounds) = (0.0, [Vec3::INFINITY, Vec3::NEG_INFINITY]);
+        (self.reach, self.bounds) = (0.0, [Vec3A::INFINITY, Vec3A::NEG_INFINITY]);
         let mut density = self.density.iter();
         for z in 0..self.edge {
             for y in 0..self.edge {
                 for (x, _) in density.by_ref().take(self.edge).enumerate().filter(|(_, density)| **density > 0) {
                     let place = [x, y, z];
                     // Density falls to 0 only at the next point: hence one more.
-                    let at = Vec3::from(place.map(|i| to_f32(i) + 0.5 - half));
+                    let at = Vec3A::from(place.map(|i| to_f32(i) + 0.5 - half));
                     self.reach = self.reach.max((at.abs() + 1.0).length() / half);
                     let [low, high] = self.bounds;
                     self.bounds = [low.min((at - 1.0) / half), high.max((at + 1.0) / half)];

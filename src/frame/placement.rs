@@ -4,7 +4,7 @@
 use super::cache::{Cache, keep};
 use super::parameter::{Parameter, Values};
 use crate::view::{Camera, Pose};
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 
 /// Farthest place, metres: beyond it f32 is coarser than a centimetre.
 const FAR: f64 = 1e5;
@@ -79,9 +79,9 @@ pub fn camera(values: Values, cache: &Cache, own: Camera) -> Camera {
 }
 
 /// The aeroplane where `values` put it: its place, metres, and its turn.
-pub fn plane(values: Values, cache: &Cache, place: Vec3, turn: Mat3) -> (Vec3, Mat3) {
+pub fn plane(values: Values, cache: &Cache, place: Vec3A, turn: Mat3A) -> (Vec3A, Mat3A) {
     let old = Pose::turned(place, turn, CAMERA[6].default);
     let new = replaced(values, &PLANE, old);
     cache.get::<Placed>().lock().plane = Some(new.unwrap_or(old));
-    new.map_or((place, turn), |pose| (pose.eye.as_vec3(), pose.turn()))
+    new.map_or((place, turn), |pose| (pose.eye.as_vec3a(), pose.turn()))
 }

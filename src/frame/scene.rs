@@ -10,7 +10,7 @@ use crate::cuts;
 use crate::settings::Quality;
 use crate::view::{Camera, Eye, View};
 #[cfg(feature = "full")]
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 
 /// A scene: a picture at every instant.
 #[derive(Clone, Copy, Debug)]
@@ -73,7 +73,7 @@ impl FrameSpec<'_> {
     /// The scene's aeroplane, moved to where the values `plane.*` put it: its place, metres, and its turn, from axes to
     /// the right, up and astern.
     #[cfg(feature = "full")]
-    pub fn flown(&self, place: Vec3, turn: Mat3) -> (Vec3, Mat3) {
+    pub fn flown(&self, place: Vec3A, turn: Mat3A) -> (Vec3A, Mat3A) {
         placement::plane(self.values, self.cache, place, turn)
     }
 

@@ -17,7 +17,7 @@ use crate::simd::level::best;
 use fearless_simd::Level;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Standard deviation of noise.
 const SIGMA: f32 = 0.27;
@@ -154,7 +154,7 @@ fn faded<S: Simd>(
 ///
 /// Panics for more than [`BLOCK`] octaves; octaves from the ninth on are 0.
 #[inline(never)] // Called in many places, never in a hot loop.
-pub fn octaves(p: Vec3, octaves: usize, absolute: bool) -> f32 {
+pub fn octaves(p: Vec3A, octaves: usize, absolute: bool) -> f32 {
     // Each octave is one point of the block.
     let [mut x, mut y, mut z, mut n] = [[0.0; BLOCK]; 4];
     let mut zoomed = p;

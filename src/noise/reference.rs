@@ -2,7 +2,7 @@
 //! (<https://mrl.cs.nyu.edu/~perlin/noise/>).
 
 use super::permutation::PERMUTATION;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Entry `i` modulo 256 of the permutation.
 fn permute(i: usize) -> usize {
@@ -54,10 +54,10 @@ pub fn gradient(hash: usize, x: f32, y: f32, z: f32) -> f32 {
 /// It is 0 on the lattice; its standard deviation is 0.27, its absolute value is seldom above 0.9 and never above 1.04.
 /// The period is 256 along each axis. The result is within 4e-7 of exact arithmetic and never -0. From 2^24 on, where a
 /// float has no fraction, it is 0. NaN or infinite coordinates give NaN.
-pub fn noise(p: Vec3) -> f32 {
+pub fn noise(p: Vec3A) -> f32 {
     let corner = p.floor();
     let (ix, iy, iz) = (lattice(corner.x), lattice(corner.y), lattice(corner.z));
-    let Vec3 { x, y, z } = p - corner;
+    let [x, y, z] = (p - corner).to_array();
     let (u, v, w) = (fade(x), fade(y), fade(z));
 
     let a = permute(ix) + iy;
@@ -78,17 +78,17 @@ pub fn noise(p: Vec3) -> f32 {
 /// it, the first at the amplitude 1/2.
 ///
 /// The standard deviation is about 0.16. All octaves vanish together on the integer lattice.
-pub fn fbm(p: Vec3, octaves: u32) -> f32 {
+pub fn fbm(p: Vec3A, octaves: u32) -> f32 {
     sum_octaves(p, octaves, |n| n)
 }
 
 /// The same sum of the noises' absolute values: 0 to 1, with creases where a noise vanishes.
-pub fn turbulence(p: Vec3, octaves: u32) -> f32 {
+pub fn turbulence(p: Vec3A, octaves: u32) -> f32 {
     sum_octaves(p, octaves, f32::abs)
 }
 
 /// The sum over `octaves` of `shape(noise)`.
-fn sum_octaves(p: Vec3, octaves: u32, shape: impl Fn(f32) -> f32) -> f32 {
+fn sum_octaves(p: Vec3A, octaves: u32, shape: impl Fn(f32) -> f32) -> f32 {
     let (mut sum, mut amplitude, mut p) = (0.0, 0.5, p);
     for _ in 0..octaves {
         sum += amplitude * shape(noise(p));

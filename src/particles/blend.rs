@@ -11,7 +11,7 @@ use crate::simd::lanes::F;
 use crate::simd::math::{exp2, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::LOG2_E;
 
 /// The middles of the first pixels of a row.
@@ -74,7 +74,7 @@ fn range(at: f32, reach: f32, corner: usize) -> [usize; 2] {
 /// Puts planes over the light of a tile: `color` takes the place of what does not pass. Of added light x the share
 /// `1 - exp(-exposure x)` is seen, as on film, and it bleaches what is behind.
 #[simd]
-pub fn blend<S: Simd>(simd: S, planes: &[[f32; Tile::AREA]], color: Vec3, exposure: f32, tile: &mut Tile) {
+pub fn blend<S: Simd>(simd: S, planes: &[[f32; Tile::AREA]], color: Vec3A, exposure: f32, tile: &mut Tile) {
     let one = F::<S>::splat(simd, 1.0);
     let passes = planes[PASSES].as_chunks::<BLOCK>().0;
     for (k, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {

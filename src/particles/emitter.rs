@@ -8,7 +8,7 @@ use super::strokes::Strokes;
 use crate::simd::lanes::{F, STEPS, U};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Particles of one kind.
 pub enum Emitter {
@@ -57,9 +57,9 @@ pub fn emit<S: Simd>(simd: S, emitter: &Emitter, [first, end]: [u32; 2], screen:
     while i < end {
         let numbers = U::<S>::from_slice(simd, &STEPS[..F::<S>::LEN]) + i;
         let (batch, lens, eye) = match emitter {
-            Emitter::Snow(snow) => (snow.batch(simd, numbers), &snow.flakes.lens, Vec3::ZERO),
+            Emitter::Snow(snow) => (snow.batch(simd, numbers), &snow.flakes.lens, Vec3A::ZERO),
             Emitter::Fire(fire) => (fire.batch(simd, numbers), &fire.lens, screen.eye),
-            Emitter::Strokes(strokes) => (strokes.batch(simd, numbers), &strokes.lens, Vec3::ZERO),
+            Emitter::Strokes(strokes) => (strokes.batch(simd, numbers), &strokes.lens, Vec3A::ZERO),
         };
         let wanted = (1 << lanes.min(end - i)) - 1;
         screen.push(simd, batch, lens, eye, wanted, sprites);

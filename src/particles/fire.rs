@@ -13,7 +13,7 @@ use crate::simd::lanes::{F, Lane, U, V3, float};
 use crate::simd::math::sin;
 use crate::view::View;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 /// What a fire is made of. Pairs are the least and what chance adds at most or, where it says so, from birth to death.
@@ -38,7 +38,7 @@ pub struct Flame {
     /// Radius from birth to death, metres.
     pub radius: [f32; 2],
     /// Linear light from birth to death. After a share x of the life it is multiplied by `30 x (1 - x)^2`.
-    pub light: [Vec3; 2],
+    pub light: [Vec3A; 2],
 }
 
 /// A fire at an instant.
@@ -47,7 +47,7 @@ pub struct Fire {
     /// What it is made of.
     pub flame: Flame,
     /// The centre of its ring, metres.
-    pub place: Vec3,
+    pub place: Vec3A,
     /// Factor of all lengths.
     pub scale: f32,
     /// Seconds.
@@ -61,7 +61,7 @@ pub struct Fire {
     /// Factor of the light of each: one that stands for several has the light of all.
     pub weight: f32,
     /// Wind that carries its particles along, metres per second. None in the 64 kB build.
-    pub wind: Vec3,
+    pub wind: Vec3A,
     /// How they are seen.
     pub lens: Lens,
 }
@@ -84,7 +84,7 @@ impl Fire {
         // The height that a middling particle rises in its life.
         let height = ((speed[0] + 0.5 * speed[1]) * (0.5 + 0.5 * slows) + life * lift) * life * self.scale;
         // The distance from its middle, and not along the view axis: a fire beside the view is as large as one in it.
-        let away = view.camera().eye.distance(self.place + Vec3::Y * (0.5 * height));
+        let away = view.camera().eye.distance(self.place + Vec3A::Y * (0.5 * height));
         let (pixels, half) = (height / (view.pixel() * away), view.screen().0.1);
         let share = (pixels.min(2.0 * half * half / pixels) * detail).max(LEAST / self.count).min(1.0);
         Fire { count: self.count * share, weight: self.weight / share, ..self }

@@ -13,7 +13,7 @@ use crate::frame::{Cache, Layer, Stats, Tile, Workers};
 use crate::settings::ParticleSettings;
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Sprites of a pixel that are told of one by one, nearest first.
 #[cfg(feature = "full")]
@@ -29,7 +29,7 @@ pub struct ParticleLayer {
     /// Made by `prepare`.
     chunks: Vec<Chunk>,
     /// See [`ParticleLayer::colored`] and [`ParticleLayer::exposed`].
-    color: Vec3,
+    color: Vec3A,
     exposure: f32,
     /// The planes that sprites change: the first, and the one after the last.
     planes: (usize, usize),
@@ -43,10 +43,10 @@ impl ParticleLayer {
     /// Fires have the detail of the settings. Writing is in front of all that is there.
     pub fn new(mut emitters: Vec<Emitter>, view: &View, settings: &ParticleSettings) -> ParticleLayer {
         // Sparks let all of the light behind pass; with black in place of the rest it keeps its bits.
-        let (mut planes, mut solids, mut color) = ((LIGHT, PLANES), true, Vec3::ZERO);
+        let (mut planes, mut solids, mut color) = ((LIGHT, PLANES), true, Vec3A::ZERO);
         for emitter in &mut emitters {
             match emitter {
-                Emitter::Snow(_) => (planes, color) = ((PASSES, LIGHT), Vec3::ONE),
+                Emitter::Snow(_) => (planes, color) = ((PASSES, LIGHT), Vec3A::ONE),
                 Emitter::Fire(fire) => *fire = fire.detailed(view, settings.built().detail),
                 Emitter::Strokes(_) => solids = false,
             }
@@ -57,7 +57,7 @@ impl ParticleLayer {
 
     /// The same with flakes of a colour, linear light, which takes the place of the light that they take; white
     /// without.
-    pub fn colored(self, color: Vec3) -> ParticleLayer {
+    pub fn colored(self, color: Vec3A) -> ParticleLayer {
         ParticleLayer { color, ..self }
     }
 

@@ -9,7 +9,7 @@ use crate::simd::lanes::{Bits, F, Lane};
 use crate::simd::math::{smooth, to_f32};
 use crate::view::View;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Distance along the view axis within which nothing is drawn, metres.
 const NEAREST: f32 = 0.25;
@@ -17,11 +17,11 @@ const NEAREST: f32 = 0.25;
 /// The screen that sprites are on.
 pub struct Screen {
     /// The eye.
-    pub eye: Vec3,
+    pub eye: Vec3A,
     /// Unit vector along the view axis; along rows and columns, pixels per metre at one metre.
-    forward: Vec3,
-    right: Vec3,
-    down: Vec3,
+    forward: Vec3A,
+    right: Vec3A,
+    down: Vec3A,
     /// The middle of the screen, and its size, pixels.
     middle: [f32; 2],
     size: [f32; 2],
@@ -88,7 +88,7 @@ impl Screen {
         simd: S,
         batch: Batch<S>,
         lens: &Lens,
-        eye: Vec3,
+        eye: Vec3A,
         wanted: u64,
         sprites: &mut Vec<Sprite>,
     ) {

@@ -13,7 +13,7 @@ use crate::simd::hash::{STEP, wide};
 use crate::simd::lanes::{F, U, V3, float};
 use crate::simd::math::{exp2, sin};
 use fearless_simd::prelude::*;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3A};
 use std::f32::consts::{LOG2_E, TAU};
 
 /// A field of flakes, and how they move. Pairs are the least and what chance adds at most.
@@ -24,7 +24,7 @@ pub struct Flakes {
     /// The number of flakes in the box.
     pub count: u32,
     /// Edges of the box, metres.
-    pub extent: Vec3,
+    pub extent: Vec3A,
     /// Radius of the upright cylinder around the eye beyond which no flakes are drawn, metres.
     pub reach: f32,
     /// Share of the light behind that a flake takes at the axis of the cylinder. It falls to 0 at its surface.
@@ -61,7 +61,7 @@ pub struct Snow {
     /// The calm near the ground; none by default.
     pub calm: Calm,
     /// Half of the way of the slowest flakes while the shutter is open, metres.
-    pub streak: Vec3,
+    pub streak: Vec3A,
 }
 
 /// The wind near the ground: at height h it has the share `1 - exp(-h / depth)` of the wind above.
@@ -131,7 +131,7 @@ impl Snow {
             turned: wrapped(flakes.pace[0] * pace),
             turns: Phase::new(flakes.pace[1] * pace),
             calm: Calm { wind: Vec2::ZERO, height: 0.0, depth: 1.0 },
-            streak: Vec3::ZERO,
+            streak: Vec3A::ZERO,
         }
     }
 
@@ -173,7 +173,7 @@ impl Snow {
         if cuts::STREAKS {
             streak.y *= faster * (1.0 / flakes.fall[0] as f32) + 1.0;
         }
-        Batch { at, radius, light: V3::splat(simd, Vec3::ZERO), alpha: alpha.max(zero), turn, streak }
+        Batch { at, radius, light: V3::splat(simd, Vec3A::ZERO), alpha: alpha.max(zero), turn, streak }
     }
 }
 

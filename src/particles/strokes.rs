@@ -5,13 +5,13 @@ use super::lens::Lens;
 use crate::simd::hash::{STEP, wide};
 use crate::simd::lanes::{F, Lane, U, V3, float};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Lines of sparks at an instant.
 #[derive(Clone, Debug)]
 pub struct Strokes {
     /// Both ends of each line from the eye, metres.
-    pub lines: Vec<[Vec3; 2]>,
+    pub lines: Vec<[Vec3A; 2]>,
     /// Sparks per line.
     pub each: u32,
     /// How far sparks are scattered around their line: by at most three times this along each axis, metres.
@@ -19,7 +19,7 @@ pub struct Strokes {
     /// Radius of a spark, metres.
     pub radius: f32,
     /// Linear light of a spark.
-    pub light: Vec3,
+    pub light: Vec3A,
     /// How they are seen.
     pub lens: Lens,
 }

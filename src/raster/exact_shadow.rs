@@ -10,7 +10,8 @@ use super::rasters::LightView;
 use super::triangle::SUB;
 use crate::frame::Tile;
 use crate::simd::block::Block3;
-use glam::Vec3;
+use crate::vector::cross;
+use glam::Vec3A;
 
 /// Whether a point at pixel coordinates (`x`, `y`) of a light's view and at that depth is hidden by a triangle. The point
 /// has to lie within the view.
@@ -41,9 +42,9 @@ pub fn lifted(context: &ShadeContext, queue: &FragmentQueue) -> Block3 {
         }
         let face = &body.mesh.faces[context.raster.meshes[number].triangles[triangle].face as usize];
         let index = face.corners.map(usize::from);
-        let corners = index.map(|i| body.place.transform_point3(body.mesh.points[i]));
-        let normals = index.map(|i| body.place.transform_vector3(body.mesh.normals[i]).normalize_or_zero());
-        let point = Vec3::from_array([0, 1, 2].map(|axis| queue.places[POINTS][axis][i]));
+        let corners = index.map(|i| body.place.transform_point3a(body.mesh.points[i]));
+        let normals = index.map(|i| body.place.transform_vector3a(body.mesh.normals[i]).normalize_or_zero());
+        let point = Vec3A::from_array([0, 1, 2].map(|axis| queue.places[POINTS][axis][i]));
         let up = above(point, corners, normals);
         for axis in 0..3 {
             points[axis][i] += up[axis];
@@ -54,15 +55,15 @@ pub fn lifted(context: &ShadeContext, queue: &FragmentQueue) -> Block3 {
 
 /// How far the smooth surface lies above a point of a flat face: the mean, by barycentric weights, of the ways up to the
 /// planes of the corners' normals.
-fn above(point: Vec3, corners: [Vec3; 3], normals: [Vec3; 3]) -> Vec3 {
+fn above(point: Vec3A, corners: [Vec3A; 3], normals: [Vec3A; 3]) -> Vec3A {
     let [a, b, c] = corners;
-    let cross = (b - a).cross(c - a);
-    let share = |from: Vec3, to: Vec3| (from - point).cross(to - point).dot(cross) / cross.length_squared();
+    let area = cross(b - a, c - a);
+    let share = |from: Vec3A, to: Vec3A| cross(from - point, to - point).dot(area) / area.length_squared();
     let weights = [share(b, c), share(c, a), share(a, b)];
-    let mut up = Vec3::ZERO;
+    let mut up = Vec3A::ZERO;
     for k in 0..3 {
         let below = (corners[k] - point).dot(normals[k]).max(0.0);
         up += normals[k] * (below * weights[k].clamp(0.0, 1.0));
     }
-    if up.is_finite() { up } else { Vec3::ZERO }
+    if up.is_finite() { up } else { Vec3A::ZERO }
 }

@@ -2,7 +2,7 @@
 
 use super::project::Projection;
 use crate::view::Camera;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Cascaded shadow maps of a sun in the direction `towards` (unit): parallel projections of `size` x `size` texels, the
 /// finest first. The first covers what the camera sees up to `ends[0]` metres along its axis, each other one from a
@@ -10,7 +10,7 @@ use glam::Vec3;
 ///
 /// Each map holds the ball around its slice of the view frustum, whose size stays the same when the camera turns, and
 /// moves by whole texels: while the light rests, so do the edges of shadows `[Valient08]`.
-pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size: u32) -> Vec<Projection> {
+pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3A, ends: &[f32], size: u32) -> Vec<Projection> {
     // Squared tangent of the angle between the view's axis and the farther of its corners.
     let wide = aspect + camera.shift.abs();
     let corner2 = camera.up.length_squared() * (1.0 + wide * wide);
@@ -36,7 +36,7 @@ pub fn cascades(camera: &Camera, aspect: f32, towards: Vec3, ends: &[f32], size:
 
 /// The six faces of the cube around a lamp at `position`, `size` x `size` texels each, in the order +x, -x, +y, -y, +z,
 /// -z.
-pub fn cube(position: Vec3, size: u32) -> Vec<Projection> {
+pub fn cube(position: Vec3A, size: u32) -> Vec<Projection> {
     let mut views = Vec::new();
     for face in 0..6 {
         views.push(Projection::face(face, position, size));

@@ -6,7 +6,8 @@
 use super::mesh::{Face, Mesh, Paint};
 use crate::angle;
 use crate::noise;
-use glam::{Mat3, Vec3, vec3};
+use crate::vector::{cross, unit};
+use glam::{Mat3A, Vec3A, vec3a};
 use std::f32::consts::{PI, TAU};
 
 /// A stack of rings of one outline, one ring per row.
@@ -79,7 +80,7 @@ impl Mesh {
     /// Adds a stack of rings, its local coordinates multiplied by `turn`, which may scale and shear, and moved to `at`.
     /// `paint` is the number that its rows' digits are added to.
     #[inline(never)]
-    pub fn rings(&mut self, rings: &Rings, turn: &Mat3, at: Vec3, paint: u16) {
+    pub fn rings(&mut self, rings: &Rings, turn: &Mat3A, at: Vec3A, paint: u16) {
         let first = self.points.len();
         let sides = rings.sides as u32;
         // A rectangle has its corners on the diagonals, not the middles of its sides.
@@ -93,7 +94,7 @@ impl Mesh {
                 let round = |x: f32| (x + 8.0) - 8.0;
                 let x = round(sin * (1.0 + rings.swell * cos * cos) * (1.0 - rings.taper * cos));
                 let z = round(cos * (1.0 + rings.swell * sin * sin));
-                let p = vec3(row[3] as f32 * x, row[0] as f32, row[1] as f32 + row[2] as f32 * z);
+                let p = vec3a(row[3] as f32 * x, row[0] as f32, row[1] as f32 + row[2] as f32 * z);
                 self.points.push(at + *turn * p);
             }
         }
@@ -101,7 +102,7 @@ impl Mesh {
     }
 
     /// Adds a box of 12 triangles around `at`. The columns of `half` are its half axes, a right-handed system.
-    pub fn block(&mut self, half: &Mat3, at: Vec3, paint: u16) {
+    pub fn block(&mut self, half: &Mat3A, at: Vec3A, paint: u16) {
         self.rings(&CUBE, half, at, paint);
     }
 
@@ -110,8 +111,8 @@ impl Mesh {
     pub fn mirror(&mut self) {
         let (points, faces) = (self.points.len(), self.faces.len());
         for i in 0..points {
-            let Vec3 { x, y, z } = self.points[i];
-            self.points.push(vec3(0.0 - x, y, z));
+            let [x, y, z] = self.points[i].to_array();
+            self.points.push(vec3a(0.0 - x, y, z));
         }
         for i in 0..faces {
             let Face { corners, paint } = self.faces[i];
@@ -127,7 +128,7 @@ impl Mesh {
         for p in &mut self.points[first..] {
             let q = *p * scale;
             let by = |away: f32| 2.0 * noise::octaves(q + away, 1, false);
-            *p += amount * vec3(by(0.0), by(17.3), by(31.7));
+            *p += amount * vec3a(by(0.0), by(17.3), by(31.7));
         }
     }
 
@@ -138,12 +139,12 @@ impl Mesh {
     /// x = 0 is taken to have a mirror image on the other side.
     #[inline(never)]
     pub fn smooth(&mut self) {
-        self.normals = vec![Vec3::ZERO; self.points.len()];
+        self.normals = vec![Vec3A::ZERO; self.points.len()];
         for i in 0..3 * self.faces.len() {
             let corner = |k: usize| self.faces[i / 3].corners[(i + k) % 3] as usize;
             let side = |k: usize| self.points[corner(k)] - self.points[corner(0)];
             let (u, v) = (side(1), side(2));
-            let n = u.cross(v) / (u.length_squared() * v.length_squared()).sqrt();
+            let n = cross(u, v) / (u.length_squared() * v.length_squared()).sqrt();
             self.normals[corner(0)] += n;
         }
         for (n, p) in self.normals.iter_mut().zip(&self.points) {
@@ -151,7 +152,7 @@ impl Mesh {
                 n.x = 0.0;
             }
             // A point without a face gets a normal too.
-            *n = (*n + Vec3::Y * 1e-9).normalize();
+            *n = unit(*n + Vec3A::Y * 1e-9);
         }
     }
 }

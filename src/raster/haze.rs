@@ -2,26 +2,26 @@
 
 use crate::simd::lanes::{F, Lane, V3};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Air that hides what is far: light fades exponentially with the distance, into a colour that depends on the direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Haze {
     /// Colour of the haze, linear light.
-    pub color: Vec3,
+    pub color: Vec3A,
     /// Extinction per metre: `exp(-density d)` of the light is left after d metres.
     pub density: f32,
     /// A direction (unit), and light that is added to the colour around it, by the eighth power of the cosine.
-    pub glow: (Vec3, Vec3),
+    pub glow: (Vec3A, Vec3A),
     /// The direction of sun or moon projected to the horizon (unit), and the light of their image in a mirror there, by
     /// the 512th power of the cosine.
-    pub image: (Vec3, Vec3),
+    pub image: (Vec3A, Vec3A),
 }
 
 impl Haze {
     /// Haze of one colour in all directions. A `density` of 0 is clear air.
-    pub const fn even(color: Vec3, density: f32) -> Haze {
-        Haze { color, density, glow: (Vec3::Y, Vec3::ZERO), image: (Vec3::Y, Vec3::ZERO) }
+    pub const fn even(color: Vec3A, density: f32) -> Haze {
+        Haze { color, density, glow: (Vec3A::Y, Vec3A::ZERO), image: (Vec3A::Y, Vec3A::ZERO) }
     }
 
     /// The colour of the haze in a direction (unit).
@@ -40,13 +40,13 @@ impl Haze {
 /// Clear air before a black sky.
 impl Default for Haze {
     fn default() -> Haze {
-        Haze::even(Vec3::ZERO, 0.0)
+        Haze::even(Vec3A::ZERO, 0.0)
     }
 }
 
 /// A Phong lobe of light around a direction: the cosine is squared `squarings` times.
 #[inline(always)]
-fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3, Vec3), squarings: u32) -> V3<S> {
+fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3A, Vec3A), squarings: u32) -> V3<S> {
     let mut power = d.dot1(towards).max(F::<S>::splat(simd, 0.0));
     for _ in 0..squarings {
         power *= power;

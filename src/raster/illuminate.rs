@@ -11,7 +11,7 @@ use crate::frame::Tile;
 use crate::simd::block::{BLOCK, Block3};
 use crate::simd::lanes::{Bits, F, V3};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Steps from one end of a run to the other, where the next run begins. Of five, seven and nine none is faster by more than
 /// 2 %, and shadows as narrow as that, which pass between both ends, become ladders.
@@ -93,7 +93,7 @@ pub fn illuminate<S: Simd>(simd: S, context: &ShadeContext, queue: &mut Fragment
 /// Boxes around the points of a block, one per lane.
 #[inline(always)]
 fn bounds<S: Simd>(simd: S, points: &Block3) -> (V3<S>, V3<S>) {
-    let (mut low, mut high) = (V3::splat(simd, Vec3::INFINITY), V3::splat(simd, Vec3::NEG_INFINITY));
+    let (mut low, mut high) = (V3::splat(simd, Vec3A::INFINITY), V3::splat(simd, Vec3A::NEG_INFINITY));
     let mut i = 0;
     while i < BLOCK / F::<S>::LEN {
         let p = V3::load(simd, points, i);

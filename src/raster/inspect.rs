@@ -14,18 +14,18 @@ use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// What a point of the picture shows.
 pub struct Shown {
     /// Index of the body, and the number of the triangle among those of it that are set up.
     pub triangle: (usize, usize),
     /// Place on the surface, metres.
-    pub point: Vec3,
+    pub point: Vec3A,
     /// The same on the smooth surface that the normals describe, where shadow maps are looked up.
-    pub lifted: Vec3,
+    pub lifted: Vec3A,
     /// Unit normal.
-    pub normal: Vec3,
+    pub normal: Vec3A,
     /// Distance along the view axis, metres.
     pub depth: f32,
 }
@@ -62,7 +62,7 @@ pub fn visible(raster: &Raster, view: &View, x: f32, y: f32) -> Option<Shown> {
     }
     let (inv_depth, id, Triangle { anchor, at, by, bulge, .. }) = nearest?;
     let value = *at + by[0] * (x - anchor[0]) + by[1] * (y - anchor[1]);
-    let (depth, normal) = (1.0 / inv_depth, value.truncate().normalize_or_zero());
+    let (depth, normal) = (1.0 / inv_depth, Vec3A::from_vec4(value).normalize_or_zero());
     let point = view.camera().eye + view.ray(x, y) * depth;
     Some(Shown { triangle: parts(id), point, lifted: point + normal * *bulge, normal, depth })
 }
@@ -90,11 +90,11 @@ fn view_in<S: Simd>(simd: S, light: &Light, shown: &Shown) -> Option<usize> {
 }
 
 /// The light that a light gives to a point, clouds aside.
-fn given(light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3 {
+fn given(light: &Light, lookup: &ShadowLookup, shown: &Shown) -> Vec3A {
     dispatch!(Level::baseline(), simd => {
         let places = (V3::splat(simd, shown.point), V3::splat(simd, shown.lifted));
         let light = light_at(simd, light, lookup, places, V3::splat(simd, shown.normal));
-        Vec3::new(light.x.as_slice()[0], light.y.as_slice()[0], light.z.as_slice()[0])
+        Vec3A::new(light.x.as_slice()[0], light.y.as_slice()[0], light.z.as_slice()[0])
     })
 }
 

@@ -23,7 +23,7 @@ use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::F;
 use crate::view::View;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A world seen by a camera: the first layer of a picture, which clears its tiles.
 pub struct RasterLayer {
@@ -123,7 +123,7 @@ impl RasterLayer {
 
 /// Adds the background to what solids leave open in a tile.
 #[inline(always)]
-fn behind<S: Simd>(simd: S, color: Vec3, tile: &mut Tile) {
+fn behind<S: Simd>(simd: S, color: Vec3A, tile: &mut Tile) {
     let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
     for (plane, light) in planes.into_iter().zip(color.to_array()) {
         let coverage = tile.coverage.as_chunks::<BLOCK>().0;

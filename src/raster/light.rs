@@ -4,17 +4,17 @@ use super::project::Projection;
 use super::shadow_views::ShadowViews;
 use crate::simd::lanes::{F, V3};
 use fearless_simd::prelude::*;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3A};
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// From a direction (unit), the same everywhere.
-    Sun(Vec3),
+    Sun(Vec3A),
     /// From a point.
     Lamp {
         /// Place of the lamp, metres.
-        position: Vec3,
+        position: Vec3A,
         /// How its light fades: `1 / (1 + x d + y d^2)` of it is left after d metres, where `falloff` is (x, y).
         falloff: Vec2,
         /// Distance beyond which nothing is left, metres; infinite for no end. Light that fades at all reaches 0 there
@@ -30,7 +30,7 @@ pub struct Light {
     /// Where it comes from.
     pub source: Source,
     /// Light that a white surface facing it sends back before any fading, linear.
-    pub color: Vec3,
+    pub color: Vec3A,
     /// The views for its shadows, if it casts any.
     pub shadow: Option<ShadowViews>,
 }
@@ -38,14 +38,14 @@ pub struct Light {
 impl Light {
     /// A sun in the direction `towards` (unit), without shadows. It is not normalised: a longer one is a brighter sun.
     #[inline(always)]
-    pub fn sun(towards: Vec3, color: Vec3) -> Light {
+    pub fn sun(towards: Vec3A, color: Vec3A) -> Light {
         Light { source: Source::Sun(towards), color, shadow: None }
     }
 
     /// A lamp at `position` that fades as [`Source::Lamp`] says, without shadows. `falloff` of (0, 1) and an infinite
     /// `reach` are near to the inverse square law. What lies at the very place of the lamp gets no light.
     #[inline(always)]
-    pub fn lamp(position: Vec3, color: Vec3, falloff: Vec2, reach: f32) -> Light {
+    pub fn lamp(position: Vec3A, color: Vec3A, falloff: Vec2, reach: f32) -> Light {
         Light { source: Source::Lamp { position, falloff, reach }, color, shadow: None }
     }
 
@@ -61,7 +61,7 @@ impl Light {
     }
 
     /// Whether it may reach into a sphere.
-    pub fn reaches(&self, center: Vec3, radius: f32) -> bool {
+    pub fn reaches(&self, center: Vec3A, radius: f32) -> bool {
         match self.source {
             Source::Sun(_) => true,
             Source::Lamp { position, reach, .. } => center.distance(position) <= reach + radius,

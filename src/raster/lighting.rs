@@ -17,7 +17,7 @@ use crate::simd::lanes::{Bits, F, Lane, M, V3};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3A, Vec4};
 
 /// Texels along a map's border where it is not looked up: a coarser map has the same point farther inside.
 const MARGIN: f32 = 2.0;
@@ -177,7 +177,7 @@ pub(super) fn locate<S: Simd>(
                 Source::Sun(_) => apply(rows[2], p) + bias,
                 Source::Lamp { .. } => one / (w - bias).max(F::<S>::splat(simd, 1e-6)),
             };
-            let fall = normal.dot1(rows[1].truncate() * -(texel * texel)) * grazing;
+            let fall = normal.dot1(Vec3A::from_vec4(rows[1]) * -(texel * texel)) * grazing;
             (x, y) = (here.select(px, x), here.select(py, y));
             slope = here.select(fall, slope);
             (inv_depth, view) = (here.select(z, inv_depth), here.select(number, view));
@@ -229,5 +229,5 @@ fn unshadowed<S: Simd>(simd: S, shadow: &ShadowViews, lookup: &ShadowLookup, poi
 /// A row of a matrix times points.
 #[inline(always)]
 fn apply<S: Simd>(row: Vec4, p: V3<S>) -> F<S> {
-    p.dot1(row.truncate()) + row.w
+    p.dot1(Vec3A::from_vec4(row)) + row.w
 }

@@ -21,7 +21,7 @@
 //! coverage is decided in whole numbers. The files of `tests/raster/` hold the stages against formulas in f64.
 //!
 //! ```
-//! use glam::{Affine3A, Mat3, Vec3, vec3};
+//! use glam::{Affine3A, Mat3A, Vec3A, vec3a};
 //! use paprsek::frame::encode::Transfer;
 //! use paprsek::frame::{Frame, Picture, Renderer};
 //! use paprsek::raster::{Bias, Body, Light, Mesh, Paint, RasterLayer, ShadowViews, World, fit};
@@ -30,13 +30,13 @@
 //! use std::sync::Arc;
 //!
 //! // A cube under a sun whose shadows are looked up in two maps, up to 5 and up to 20 metres away.
-//! let mut cube = Mesh::painted(&[Paint { albedo: Vec3::splat(0.7), texture: None, gloss: 0.0 }]);
-//! cube.block(&Mat3::IDENTITY, Vec3::ZERO, 0);
-//! let camera = Camera::look_at(vec3(3.0, 2.0, 4.0), Vec3::ZERO, 0.8, 0.0);
-//! let towards = vec3(0.4, 0.8, 0.45).normalize();
+//! let mut cube = Mesh::painted(&[Paint { albedo: Vec3A::splat(0.7), texture: None, gloss: 0.0 }]);
+//! cube.block(&Mat3A::IDENTITY, Vec3A::ZERO, 0);
+//! let camera = Camera::look_at(vec3a(3.0, 2.0, 4.0), Vec3A::ZERO, 0.8, 0.0);
+//! let towards = vec3a(0.4, 0.8, 0.45).normalize();
 //! let views = fit::cascades(&camera, 64.0 / 48.0, towards, &[5.0, 20.0], 512);
 //! let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
-//! let sun = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(views, bias));
+//! let sun = Light::sun(towards, Vec3A::ONE).with_shadow(ShadowViews::new(views, bias));
 //! let world = World { lights: vec![sun], ..World::new(vec![Body::new(Arc::new(cube), Affine3A::IDENTITY)]) };
 //!
 //! let layer = RasterLayer::new(world, &View::new(camera, 64, 48), &Quality::DEFAULT.raster);

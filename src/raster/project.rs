@@ -1,8 +1,9 @@
 //! From points in space to the pixels of a picture or of a shadow map.
 
 use crate::frame::Tile;
+use crate::vector::cross;
 use crate::view::View;
-use glam::{Affine3A, Mat4, Vec3, Vec4};
+use glam::{Affine3A, Mat4, Vec3A, Vec4};
 
 /// A projection onto a raster, in homogeneous pixels from its top left corner.
 ///
@@ -39,29 +40,29 @@ impl Projection {
     ///
     /// Its `inv_depth` is metres from `middle` towards the light. Rows of pixels are level, whatever the direction; seen
     /// straight from above or below they run along x.
-    pub fn parallel(towards: Vec3, middle: Vec3, width: f32, size: u32) -> Projection {
+    pub fn parallel(towards: Vec3A, middle: Vec3A, width: f32, size: u32) -> Projection {
         Projection::square(towards, middle, [row(towards, middle), Vec4::W], size as f32 / width, size)
     }
 
     /// Face `index` of the cube around `eye`, 90 degrees wide, on `size` x `size` pixels. The order of faces is +x, -x,
     /// +y, -y, +z, -z.
-    pub fn face(index: usize, eye: Vec3, size: u32) -> Projection {
-        let look = Vec3::AXES[index / 2] * if index.is_multiple_of(2) { 1.0 } else { -1.0 };
+    pub fn face(index: usize, eye: Vec3A, size: u32) -> Projection {
+        let look = Vec3A::AXES[index / 2] * if index.is_multiple_of(2) { 1.0 } else { -1.0 };
         Projection::square(-look, eye, [Vec4::W, row(look, eye)], 0.5 * size as f32, size)
     }
 
     /// A square raster seen from the direction `towards`, with `origin` in its middle and `pixels` per metre where w is
     /// 1. `depth` holds the rows of `inv_depth` and w.
-    fn square(towards: Vec3, origin: Vec3, depth: [Vec4; 2], pixels: f32, size: u32) -> Projection {
-        let right = Vec3::Y.cross(towards).try_normalize().unwrap_or(Vec3::X);
+    fn square(towards: Vec3A, origin: Vec3A, depth: [Vec4; 2], pixels: f32, size: u32) -> Projection {
+        let right = cross(Vec3A::Y, towards).try_normalize().unwrap_or(Vec3A::X);
         let half = 0.5 * size as f32;
-        Projection::new([right, towards.cross(right)], origin, depth, pixels, (half, half), [size; 2])
+        Projection::new([right, cross(towards, right)], origin, depth, pixels, (half, half), [size; 2])
     }
 
     /// The general case: any directions to the right and up, and `origin` at the pixel `middle`.
     fn new(
-        [right, up]: [Vec3; 2],
-        origin: Vec3,
+        [right, up]: [Vec3A; 2],
+        origin: Vec3A,
         [inv_depth, w]: [Vec4; 2],
         pixels: f32,
         middle: (f32, f32),
@@ -84,7 +85,7 @@ impl Projection {
     }
 
     /// Whether a sphere certainly lies outside of the raster or before the near plane. False for a NaN.
-    pub fn misses(&self, center: Vec3, radius: f32) -> bool {
+    pub fn misses(&self, center: Vec3A, radius: f32) -> bool {
         let [x, y, _, w] = self.rows;
         let [width, height] = self.size.map(|n| n as f32);
         [x, w * width - x, y, w * height - y, w - Vec4::W * NEAR]
@@ -93,7 +94,7 @@ impl Projection {
     }
 
     /// First and last column, first and last row of the tiles that a sphere may touch. In perspective they are all.
-    pub fn tiles(&self, center: Vec3, radius: f32) -> [f32; 4] {
+    pub fn tiles(&self, center: Vec3A, radius: f32) -> [f32; 4] {
         let [x, y, _, w] = self.rows;
         if w != Vec4::W {
             return [f32::NEG_INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::INFINITY];
@@ -107,6 +108,6 @@ impl Projection {
 }
 
 /// The affine function that is 0 at `origin` and grows by 1 per metre along a unit `direction`.
-fn row(direction: Vec3, origin: Vec3) -> Vec4 {
+fn row(direction: Vec3A, origin: Vec3A) -> Vec4 {
     direction.extend(-direction.dot(origin))
 }

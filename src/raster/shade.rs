@@ -32,7 +32,7 @@ use crate::simd::math;
 use crate::texture::{self, Texture};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 
 /// Least `inv_depth` of a surface, 1 / metres: squares of greater distances are infinite.
 const FARTHEST: f32 = 1e-18;
@@ -45,7 +45,7 @@ const RISE: f32 = 4.0;
 const SHORE: [f32; 2] = [0.1, 8.0];
 
 /// The light of the shore, for water whose own light has a green of 1.
-const LAND: Vec3 = vec3(1.0, 1.3, 0.5);
+const LAND: Vec3A = vec3a(1.0, 1.3, 0.5);
 
 /// How much of the horizon's light is before the mirrored shore, as haze.
 const HAZY: f32 = 0.2;
@@ -154,7 +154,7 @@ struct Surface<S: Simd> {
 fn surfaces<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id; BLOCK], i: usize, x: F<S>, y: F<S>) -> Surface<S> {
     let one = F::<S>::splat(simd, 1.0);
     let all: U<S> = load(simd, ids, i);
-    let zero = V3::splat(simd, Vec3::ZERO);
+    let zero = V3::splat(simd, Vec3A::ZERO);
     let mut out = Surface { normal: zero, albedo: zero, inv_depth: one, gloss: one, bulge: one };
     let mut todo = all.simd_eq(all).to_bitmask();
     while todo != 0 {

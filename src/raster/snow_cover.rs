@@ -12,7 +12,7 @@ use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
 use crate::texture::{Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
-use glam::{Mat3, Vec2, Vec3, vec3};
+use glam::{Mat3A, Vec2, Vec3A, vec3a};
 
 /// Snow on all surfaces that keep it.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub struct SnowCover {
     /// How it falls: as a light of colour 1 from above would, in whose shadows there is none.
     pub fall: Light,
     /// Light that comes the same way, as from an overcast sky, on a surface that faces it; linear.
-    pub sky: Vec3,
+    pub sky: Vec3A,
     /// Someone has walked from here to there, straight on: x and z, metres. Nobody has where both are one place.
     pub track: [Vec2; 2],
 }
@@ -37,7 +37,7 @@ pub const PRINT: [f32; 2] = [0.17, 0.075];
 pub const SINKS: f32 = 0.4;
 
 /// Albedo of snow where [`GRAIN`] is 0.
-pub const WHITE: Vec3 = vec3(0.8, 0.83, 0.88);
+pub const WHITE: Vec3A = vec3a(0.8, 0.83, 0.88);
 /// Relative change of the albedo where [`GRAIN`] is 1: the relief that wind leaves.
 pub const RELIEF: f32 = 0.3;
 /// Openness, as the cosine of a slope times the share of the sky, at which snow begins to stay (75 degrees), and from which
@@ -48,8 +48,8 @@ pub const ROUGH: f32 = 4.5;
 /// Variation, around 0, of roughness and of the snow itself: 0.62 cells per metre. It is noise at the lattice's own height,
 /// which takes two thirds of its time, and leans, so that what stands upright has other grain higher up.
 pub static GRAIN: Texture = Texture {
-    turn: Mat3::from_cols(vec3(0.62, 0.0, 0.0), vec3(0.2, 0.0, 0.3), vec3(0.0, 0.0, 0.62)),
-    ..Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(Vec3::splat(-0.8), Vec3::splat(0.8)), 1.0)
+    turn: Mat3A::from_cols(vec3a(0.62, 0.0, 0.0), vec3a(0.2, 0.0, 0.3), vec3a(0.0, 0.0, 0.62)),
+    ..Texture::new(Pattern::Clouds { octaves: 3 }, Palette::Mix(Vec3A::splat(-0.8), Vec3A::splat(0.8)), 1.0)
 };
 /// Depth between the first flakes in a place and the last gap.
 pub const EDGE: f32 = 0.25;

@@ -9,7 +9,8 @@ use super::id::TRIANGLES;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
 use crate::cuts;
-use glam::{Affine3A, Vec3, Vec3A, Vec4, vec4};
+use crate::vector::cross;
+use glam::{Affine3A, Vec3A, Vec4, vec4};
 
 /// Steps per pixel of the grid that corners are snapped to, along x and along y.
 pub const SUB: i32 = 256;
@@ -120,7 +121,7 @@ impl TriangleSetup {
                 normal = turned(place, mesh.normals[i]);
             }
             let mut corner = self.corner(matrix * p.extend(1.0), normal);
-            corner.place = place.transform_point3a(Vec3A::from(*p));
+            corner.place = place.transform_point3a(*p);
             corners.push(corner);
         }
         let mut out = SetupMesh::default();
@@ -147,8 +148,8 @@ impl TriangleSetup {
                     let mut normals = fan.map(|corner| corner.normal);
                     if self.shaded && mesh.normals.is_empty() {
                         // Vec3A's cross product is fused where the target can.
-                        let [a, b, c] = index.map(|i| Vec3::from(corners[i].place));
-                        normals = [Vec3A::from((b - a).cross(c - a)).normalize_or_zero(); 3];
+                        let [a, b, c] = index.map(|i| corners[i].place);
+                        normals = [cross(b - a, c - a).normalize_or_zero(); 3];
                     }
                     // Where a point of the smooth surface is the mean, by barycentric weights, of its places on the planes of
                     // the corners' normals `[Hanika21]`, its height in the mean is this sum over the edges.
@@ -271,8 +272,8 @@ fn nearest(x: f32) -> i32 {
 }
 
 /// A normal of a body, turned into the world: of length 1, or 0.
-fn turned(place: &Affine3A, normal: Vec3) -> Vec3A {
-    (place.matrix3 * Vec3A::from(normal)).normalize_or_zero()
+fn turned(place: &Affine3A, normal: Vec3A) -> Vec3A {
+    (place.matrix3 * normal).normalize_or_zero()
 }
 
 /// Twice the area of a triangle, in squares of 1 / [`SUB`] pixel; positive where its corners turn clockwise on the raster.

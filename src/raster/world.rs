@@ -6,7 +6,7 @@ use super::light::Light;
 use super::mesh::Mesh;
 use super::snow_cover::SnowCover;
 use crate::texture::Texture;
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec3A};
 use std::sync::Arc;
 
 /// A mesh in the world.
@@ -17,13 +17,13 @@ pub struct Body {
     /// From its own space to the world.
     pub(super) place: Affine3A,
     /// Centre and radius of a bounding sphere in the world, metres.
-    pub(super) bound: (Vec3, f32),
+    pub(super) bound: (Vec3A, f32),
 }
 
 impl Body {
     /// A mesh at `place`, which may turn and move it, and scale it by the same factor along all axes.
     pub fn new(mesh: Arc<Mesh>, place: Affine3A) -> Body {
-        let mut body = Body { mesh, place, bound: (Vec3::ZERO, 0.0) };
+        let mut body = Body { mesh, place, bound: (Vec3A::ZERO, 0.0) };
         body.put(place);
         body
     }
@@ -32,7 +32,7 @@ impl Body {
     pub fn put(&mut self, place: Affine3A) {
         let (center, radius) = self.mesh.bound();
         let scale = place.matrix3.x_axis.length();
-        (self.bound, self.place) = ((place.transform_point3(center), radius * scale), place);
+        (self.bound, self.place) = ((place.transform_point3a(center), radius * scale), place);
     }
 }
 
@@ -58,16 +58,16 @@ pub struct World {
     pub snow: Option<SnowCover>,
     /// Light from all around, linear: that on a vertical surface, and what is added to it for one that faces the zenith
     /// and subtracted for one that faces the ground.
-    pub ambient: [Vec3; 2],
+    pub ambient: [Vec3A; 2],
     /// The air between the eye and surfaces, and the sky at the horizon that glossy surfaces mirror.
     pub haze: Haze,
     /// Light of the sky at the zenith, for glossy surfaces.
-    pub zenith: Vec3,
+    pub zenith: Vec3A,
     /// Whether light is compressed by `1 - exp(-light)`, as on film. Haze and zenith are taken to be compressed already.
     /// Always so in the 64 kB build.
     pub film: bool,
     /// Light behind everything, linear; `None` leaves open pixels to later layers, as the 64 kB build always does.
-    pub background: Option<Vec3>,
+    pub background: Option<Vec3A>,
 }
 
 impl World {
@@ -80,9 +80,9 @@ impl World {
             lights: Vec::new(),
             cloud_shadow: None,
             snow: None,
-            ambient: [Vec3::ZERO; 2],
+            ambient: [Vec3A::ZERO; 2],
             haze: Haze::default(),
-            zenith: Vec3::ZERO,
+            zenith: Vec3A::ZERO,
             film: false,
             background: None,
         }

@@ -45,7 +45,7 @@ pub fn altered(flakes: &Flakes, height: f64, radius: f64, count: f64, faster: f6
     let (height, reach) = (height as f32, radius as f32);
     Flakes {
         count: count as u32,
-        extent: glam::vec3(2.0 * reach, height, 2.0 * reach),
+        extent: glam::vec3a(2.0 * reach, height, 2.0 * reach),
         reach,
         fall: flakes.fall.map(|speed| speed * faster),
         radius: flakes.radius.map(|radius| radius * larger as f32),

@@ -21,7 +21,7 @@
 
 use crate::angle;
 use crate::texture::{Palette, Pattern, Texture};
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 
 /// An instruction. From -25.6 to 25.595 it is a number: one byte for tenths from -4 to 11.9, two bytes for other
 /// multiples of 1/200. Greater values are [`instruction`]s without an operand.
@@ -407,8 +407,8 @@ pub const fn pattern(kind: u8, [r, g, b]: [Word; 3], [x, y, z]: [Word; 3], scale
 
 /// The texture of those operands `n`, turned by `turn` (world to texture) around `at`.
 #[inline(never)]
-pub fn texture(n: &[f32; 17], turn: &Mat3, at: Vec3) -> Texture {
-    let color = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
+pub fn texture(n: &[f32; 17], turn: &Mat3A, at: Vec3A) -> Texture {
+    let color = |i: usize| vec3a(n[i], n[i + 1], n[i + 2]);
     let (a, b, warp, of) = (color(0), color(3), n[7], n[8] as u8);
     let octaves = warp as u32;
     let pattern = match of {

@@ -4,7 +4,7 @@
 
 use crate::simd::block::{Block3, load, store};
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A SIMD level's native vector of `f32`: 4, 8 or 16 lanes.
@@ -28,7 +28,7 @@ pub struct V3<S: Simd> {
 impl<S: Simd> V3<S> {
     /// The same vector in every lane.
     #[inline(always)]
-    pub fn splat(simd: S, v: Vec3) -> V3<S> {
+    pub fn splat(simd: S, v: Vec3A) -> V3<S> {
         V3 { x: F::<S>::splat(simd, v.x), y: F::<S>::splat(simd, v.y), z: F::<S>::splat(simd, v.z) }
     }
 
@@ -54,13 +54,13 @@ impl<S: Simd> V3<S> {
 
     /// The dot product with the same vector in every lane.
     #[inline(always)]
-    pub fn dot1(self, o: Vec3) -> F<S> {
+    pub fn dot1(self, o: Vec3A) -> F<S> {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
     /// The difference to the same vector in every lane.
     #[inline(always)]
-    pub fn sub1(self, o: Vec3) -> V3<S> {
+    pub fn sub1(self, o: Vec3A) -> V3<S> {
         V3 { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 
@@ -78,8 +78,8 @@ impl<S: Simd> V3<S> {
 
     /// The vector of the first lane.
     #[inline(always)]
-    pub fn first(self) -> Vec3 {
-        Vec3::new(self.x[0], self.y[0], self.z[0])
+    pub fn first(self) -> Vec3A {
+        Vec3A::new(self.x[0], self.y[0], self.z[0])
     }
 
     /// `a` where the mask is set, else `b`.

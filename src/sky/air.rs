@@ -16,7 +16,7 @@ use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::exp3;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Radius of the earth, km.
@@ -31,9 +31,9 @@ const THIN: [f32; 2] = [8.0, 1.2];
 /// Heights between which ozone is, km. `[Bruneton08]` has as much of it in a tent: 15 km at its densest.
 const OZONE: [f32; 2] = [17.5, 32.5];
 /// What gas scatters, 1/km at its densest.
-const GAS: Vec3 = vec3(5.802e-3, 13.558e-3, 33.1e-3);
+const GAS: Vec3A = vec3a(5.802e-3, 13.558e-3, 33.1e-3);
 /// What ozone absorbs, 1/km at its densest.
-const ABSORBED: Vec3 = vec3(0.650e-3, 1.881e-3, 0.085e-3);
+const ABSORBED: Vec3A = vec3a(0.650e-3, 1.881e-3, 0.085e-3);
 /// What the haze of a clear day scatters, 1/km at its densest.
 const HAZE: f32 = 3.996e-3;
 /// What haze takes from light over what it scatters.
@@ -67,7 +67,7 @@ impl Air {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistantLight {
     /// Unit vector towards it.
-    pub direction: Vec3,
+    pub direction: Vec3A,
     /// Its light outside of the air; the sun's is 1. At 0 it is left out.
     pub strength: f32,
 }
@@ -130,7 +130,7 @@ fn thinned<S: Simd>(simd: S, height: F<S>) -> V3<S> {
 #[simd]
 fn left<S: Simd>(simd: S, air: &Air, c: V3<S>) -> V3<S> {
     let depth = V3::splat(simd, GAS) * Lane(c.x)
-        + V3::splat(simd, Vec3::splat(HAZE * HAZE_LOSS * air.haze)) * Lane(c.y)
+        + V3::splat(simd, Vec3A::splat(HAZE * HAZE_LOSS * air.haze)) * Lane(c.y)
         + V3::splat(simd, ABSORBED * air.ozone) * Lane(c.z);
     exp3(simd, depth, -1.0)
 }
@@ -228,9 +228,9 @@ impl Points {
 ///     sum += light that is left at the point, and then at the eye * gas and haze there * their phase functions
 /// ```
 #[simd]
-pub fn scattered<S: Simd>(simd: S, air: &Air, lights: &[DistantLight], again: Vec3, steps: u32, d: V3<S>) -> V3<S> {
+pub fn scattered<S: Simd>(simd: S, air: &Air, lights: &[DistantLight], again: Vec3A, steps: u32, d: V3<S>) -> V3<S> {
     let path = Path::new(simd, d);
-    let opaque = V3::splat(simd, Vec3::ONE) - left(simd, air, path.whole);
+    let opaque = V3::splat(simd, Vec3A::ONE) - left(simd, air, path.whole);
     let mut sum = opaque.mulv(V3::splat(simd, again));
     for light in lights {
         if light.strength == 0.0 {

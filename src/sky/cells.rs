@@ -13,7 +13,7 @@ use crate::simd::math::to_f32;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// How finely the dome is evaluated on the screen, and what has been.
@@ -128,7 +128,7 @@ fn evaluate_run<S: Simd>(simd: S, dome: &Dome, view: &View, cells: &Cells, run: 
     for at in (0..RUN).step_by(lanes) {
         let number = S::u32s::from_slice(simd, &STEPS[..lanes]) + (run * RUN + at) as u32;
         let x = float(simd, number * size);
-        let mut light = V3::splat(simd, Vec3::ZERO);
+        let mut light = V3::splat(simd, Vec3A::ZERO);
         for sample in 0..grid * grid {
             let dx = ((sample % grid) as f32 + 0.5) * step - cells.middle();
             let dy = ((sample / grid) as f32 + 0.5) * step - cells.middle();

@@ -11,43 +11,44 @@ use crate::noise;
 use crate::simd::block::{BLOCK, Block3, load};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::{exp3, to_f32};
+use crate::vector::{cross, unit};
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 
 /// The disc of the sun or the moon.
 #[derive(Clone, Copy, Debug)]
 pub struct Disc {
     /// Unit vectors: towards its middle, to its right, and to its top.
-    axes: [Vec3; 3],
+    axes: [Vec3A; 3],
     /// Radius, radians.
     radius: f32,
     /// Distance from the middle up to which anything is drawn, in radii.
     reach: f32,
     /// Its light before the shoulder.
-    color: Vec3,
+    color: Vec3A,
     /// The share of that which is seen on the disc: all of the moon's, and so much of the sun's that its colour can be
     /// told.
     seen: f32,
     /// The glare at its rim over its light; 0 for the moon.
     glare: f32,
     /// Unit vector from the moon to the sun, along right, up and towards the eye. The sun's disc does not use it.
-    sun: Vec3,
+    sun: Vec3A,
     /// The share of the moon's light that its dark part has.
     unlit: f32,
 }
 
 /// Axes of a disc in the direction `d` whose top is towards `pole`; unit vectors.
-fn axes(d: Vec3, pole: Vec3) -> [Vec3; 3] {
-    let right = d.cross(pole).normalize_or(Vec3::X);
-    [d, right, right.cross(d)]
+fn axes(d: Vec3A, pole: Vec3A) -> [Vec3A; 3] {
+    let right = cross(d, pole).normalize_or(Vec3A::X);
+    [d, right, cross(right, d)]
 }
 
 impl Dome {
     /// The sun's disc. Near the horizon it is up to 1.6 times as large, as it seems there. `gaze`, a unit vector, is
     /// where the eye looks: into the sun the glare is strongest.
-    pub fn sun_disc(&self, gaze: Vec3) -> Disc {
+    pub fn sun_disc(&self, gaze: Vec3A) -> Disc {
         let d = self.sky.sun;
         let near = d.y * 8.0;
         // Never 0, which is the moon.
@@ -55,13 +56,13 @@ impl Dome {
         let color = self.through(d) * self.exposure;
         let radius = sun::RADIUS as f32 * self.sun_size * (1.0 + 0.6 / (1.0 + near * near));
         Disc {
-            axes: axes(d, Vec3::Y),
+            axes: axes(d, Vec3A::Y),
             radius,
             reach: 0.35 / radius,
             color,
             seen: (3.0 / color.max_element()).min(1.0),
             glare: 0.12 * into * into * into * into,
-            sun: Vec3::ZERO,
+            sun: Vec3A::ZERO,
             unlit: 0.0,
         }
     }
@@ -73,7 +74,7 @@ impl Dome {
         // A surface of albedo 0.12 in sunlight. The eye adapts to it too, more than to the sky.
         let light = 0.04 * self.exposure;
         let color = self.through(sky.moon) * (1.4 * light / (1.0 + light));
-        let sun = vec3(sky.moon_to_sun.dot(axes[1]), sky.moon_to_sun.dot(axes[2]), -sky.moon_to_sun.dot(axes[0]));
+        let sun = vec3a(sky.moon_to_sun.dot(axes[1]), sky.moon_to_sun.dot(axes[2]), -sky.moon_to_sun.dot(axes[0]));
         let radius = sky.moon_radius * self.moon_size;
         Disc { axes, radius, reach: 1.1, color, seen: 1.0, glare: 0.0, sun, unlit: 0.03 * (1.0 - sky.lit) }
     }
@@ -96,7 +97,7 @@ const AROUND: f32 = 46.0;
 pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
     let (left, top) = (to_f32(tile.x) + 0.5, to_f32(tile.y) + 0.5);
     // A pixel in the middle of the view is the widest.
-    let away = view.ray(left + HALF, top + HALF).normalize().distance(disc.axes[0]);
+    let away = unit(view.ray(left + HALF, top + HALF)).distance(disc.axes[0]);
     if away > AROUND * view.pixel() + disc.reach * disc.radius || disc.color.max_element() < 1e-5 {
         return;
     }
@@ -125,7 +126,7 @@ pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
                 light += glare(simd, disc, p, squared, distance);
             }
             // The shoulder of the dome, of both lights together.
-            let shown = V3::splat(simd, Vec3::ONE) - exp3(simd, V3::splat(simd, disc.color) * Lane(light), -1.0);
+            let shown = V3::splat(simd, Vec3A::ONE) - exp3(simd, V3::splat(simd, disc.color) * Lane(light), -1.0);
             // The dome's light is shown too bright beside the sun to leave the low disc its colour.
             let hides = if moon { zero } else { covers * shown.x * 0.6 };
             put(simd, shown, Some(hides), row, i, tile);

@@ -13,12 +13,12 @@ use crate::simd::level;
 use crate::simd::math::exp3;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 
 /// Light of a full moon over that of the sun: sixteen times what it is in nature.
 const MOONLIGHT: f32 = 4e-5;
 /// Light of the night itself over that of the sun, into which the dusk fades: a hundred times the airglow.
-const NIGHT: Vec3 = vec3(1.5e-7, 2.2e-7, 4.5e-7);
+const NIGHT: Vec3A = vec3a(1.5e-7, 2.2e-7, 4.5e-7);
 /// The exposure for a sky of a level `l` is `KEY / l^(ADAPTION / 256)`, so what is shown falls as `l^((256 - ADAPTION)
 /// / 256)`.
 const KEY: f32 = 0.95;
@@ -28,17 +28,17 @@ const ADAPTION: u32 = 189;
 #[derive(Clone, Copy, Debug)]
 pub struct Sky {
     /// Unit vector towards where the sun is seen, which refraction lifts.
-    pub sun: Vec3,
+    pub sun: Vec3A,
     /// Unit vector towards where the moon is seen, which refraction lifts.
-    pub moon: Vec3,
+    pub moon: Vec3A,
     /// Unit vector from the moon to the sun.
-    pub moon_to_sun: Vec3,
+    pub moon_to_sun: Vec3A,
     /// Share of the moon's disc that is lit, 0 to 1.
     pub lit: f32,
     /// Radius of the moon's disc, radians.
     pub moon_radius: f32,
     /// The rotation from equatorial axes to the world's. Its z axis is the celestial pole.
-    pub turn: Mat3,
+    pub turn: Mat3A,
     /// The air.
     pub air: Air,
 }
@@ -50,12 +50,12 @@ impl Sky {
         let moon = Moon::new(days, place);
         let turn = place.turn(days);
         Sky {
-            sun: refracted(sun::direction(days, place)).as_vec3(),
-            moon: refracted(moon.direction).as_vec3(),
-            moon_to_sun: moon.to_sun.as_vec3(),
+            sun: refracted(sun::direction(days, place)).as_vec3a(),
+            moon: refracted(moon.direction).as_vec3a(),
+            moon_to_sun: moon.to_sun.as_vec3a(),
             lit: moon.lit as f32,
             moon_radius: moon.radius as f32,
-            turn: turn.as_mat3(),
+            turn: turn.as_mat3().into(),
             air: Air::of_season(days, place),
         }
     }
@@ -79,7 +79,7 @@ pub struct Dome {
     /// Points along a direction at which scattered light is summed.
     steps: u32,
     /// Light from all around that is scattered again.
-    again: Vec3,
+    again: Vec3A,
     /// Sun and moon; of strength 0 where they do not count.
     pub(super) lights: [DistantLight; 2],
 }
@@ -106,17 +106,17 @@ impl Dome {
             moon_size: 2.0,
             shimmer: 0.0,
             steps: settings.built().steps,
-            again: Vec3::ZERO,
+            again: Vec3A::ZERO,
             lights,
         };
-        let level = vec3(sky.sun.x, 0.0, sky.sun.z).normalize_or(Vec3::X);
-        let mut mean = Vec3::ZERO;
+        let level = vec3a(sky.sun.x, 0.0, sky.sun.z).normalize_or(Vec3A::X);
+        let mut mean = Vec3A::ZERO;
         for (side, up) in [(0.0, 1.0), (0.9, 0.44), (-0.9, 0.44), (0.995, 0.1)] {
-            mean += dome.light(level * side + Vec3::Y * up) * 0.25;
+            mean += dome.light(level * side + Vec3A::Y * up) * 0.25;
         }
         // More of blue, which is scattered most often.
-        dome.again = mean * vec3(0.5, 1.0, 2.5) * sky.air.again;
-        dome.level = mean.dot(vec3(0.21, 0.72, 0.07));
+        dome.again = mean * vec3a(0.5, 1.0, 2.5) * sky.air.again;
+        dome.level = mean.dot(vec3a(0.21, 0.72, 0.07));
         let level = dome.level.max(1e-9);
         // The eye adapts to moonlight less, or no night would be lighter than another.
         let moon = lights[1].strength * sky.moon.y.max(0.0) * 0.02 / level;
@@ -139,23 +139,23 @@ impl Dome {
 
     /// A quantity of one direction, a unit vector.
     #[inline(never)] // One instance of the kernel for all that ask about single directions.
-    fn ask(&self, d: Vec3, quantity: Quantity) -> Vec3 {
+    fn ask(&self, d: Vec3A, quantity: Quantity) -> Vec3A {
         dispatch!(level::best(), simd => evaluate(simd, self, V3::splat(simd, d), quantity).first())
     }
 
     /// The light of the sky from a unit direction, over the sun's outside of the air.
-    pub fn light(&self, d: Vec3) -> Vec3 {
+    pub fn light(&self, d: Vec3A) -> Vec3A {
         self.ask(d, Quantity::Light)
     }
 
     /// The light of the sky from a unit direction as it is shown, linear light of 0 to 1: for fog, and for what mirrors
     /// the sky.
-    pub fn radiance(&self, d: Vec3) -> Vec3 {
+    pub fn radiance(&self, d: Vec3A) -> Vec3A {
         self.ask(d, Quantity::Shown)
     }
 
     /// The share of light from outside of the air, out of a unit direction, that the air lets through, by colour.
-    pub fn through(&self, d: Vec3) -> Vec3 {
+    pub fn through(&self, d: Vec3A) -> Vec3A {
         self.ask(d, Quantity::Through)
     }
 }
@@ -185,7 +185,7 @@ pub(super) fn evaluate<S: Simd>(simd: S, dome: &Dome, d: V3<S>, quantity: Quanti
         return light;
     }
     // A shoulder instead of a clamp: what is brighter than the screen turns white, not yellow and cyan.
-    V3::splat(simd, Vec3::ONE) - exp3(simd, light, -dome.exposure)
+    V3::splat(simd, Vec3A::ONE) - exp3(simd, light, -dome.exposure)
 }
 
 /// `x^(n / 256)` for `n` below 256, by roots: without the standard library's tables.

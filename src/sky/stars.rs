@@ -12,7 +12,7 @@ use crate::frame::Tile;
 use crate::simd::hash::rnd;
 use crate::simd::math::to_f32;
 use crate::view::View;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 
 /// The number of stars, of which the faintest has the magnitude 6.
 const COUNT: f32 = 5000.0;
@@ -29,7 +29,7 @@ pub struct Star {
     /// Its place in the picture, pixels from the top left corner.
     pub at: (f32, f32),
     /// Its linear light, in a spot that is as bright as about four pixels.
-    pub color: Vec3,
+    pub color: Vec3A,
 }
 
 impl Dome {
@@ -40,7 +40,7 @@ impl Dome {
         let end = 6295.0 * power(3e-7 / self.level.max(1e-9), 230);
         let moon = self.sky.moon_radius * self.moon_size;
         for n in 0..end.min(COUNT) as u32 {
-            let place = 2.0 * vec3(rnd(SEED, n, 0), rnd(SEED, n, 1), rnd(SEED, n, 2)) - 1.0;
+            let place = 2.0 * vec3a(rnd(SEED, n, 0), rnd(SEED, n, 1), rnd(SEED, n, 2)) - 1.0;
             // Points of a cube outside of its ball are left out, or stars would crowd towards its corners.
             let length = place.length();
             let d = self.sky.turn * place / length;
@@ -64,7 +64,7 @@ impl Dome {
             let seen = power(end / (n as f32 + 0.5), 64) - 1.0;
             let light = (0.38 * seen).clamp(0.0, 1.8) * twinkle * (1.0 - low);
             // Colours from orange to blue, as black bodies have them.
-            stars.push(Star { at: (x, y), color: vec3(1.0 + 0.5 * hue, 1.0, 1.0 - 0.5 * hue) * light });
+            stars.push(Star { at: (x, y), color: vec3a(1.0 + 0.5 * hue, 1.0, 1.0 - 0.5 * hue) * light });
         }
         stars
     }

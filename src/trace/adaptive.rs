@@ -30,7 +30,7 @@ use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// The number of sizes of squares, from 16 pixels down to one.
 const LEVELS: usize = 5;
@@ -371,12 +371,12 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
 
 /// Whether the light of a pixel's corners differs so little that the shares of its surfaces need not be exact.
 fn faint(job: &Job, corners: [&Sample; 4]) -> bool {
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (mut low, mut high) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
     for corner in corners {
-        let mut light = Vec3::from_slice(&corner.numbers);
+        let mut light = Vec3A::from_slice(&corner.numbers);
         for (object, hit) in corner.hits() {
             light +=
-                Vec3::from_slice(&hit[GAIN..]) * Vec3::from_slice(&job.context.surfaces[object as usize][ALBEDO..]);
+                Vec3A::from_slice(&hit[GAIN..]) * Vec3A::from_slice(&job.context.surfaces[object as usize][ALBEDO..]);
         }
         (low, high) = (low.min(light), high.max(light));
     }

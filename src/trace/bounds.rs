@@ -16,7 +16,7 @@ use crate::cuts;
 use crate::simd::block::{BLOCK, load};
 use crate::simd::lanes::{Bits, F, M, V3};
 use fearless_simd::{f32x8, prelude::*};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// By how much boxes (as a share of their size and their distance from the origin) and directions are taken larger than
 /// they are. Roundings are a hundredth of it.
@@ -62,7 +62,7 @@ impl Bounds {
         while first < extents.len() {
             let mut boxes = [[0.0; BLOCK]; SIDES];
             let (mut all, mut casters) = (0, 0);
-            let mut whole = Extent { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+            let mut whole = Extent { low: Vec3A::INFINITY, high: Vec3A::NEG_INFINITY };
             for bit in 0..WORD.min(extents.len() - first) {
                 let index = bounds.index(first + bit);
                 let extent = extents[index];
@@ -96,12 +96,12 @@ impl Bounds {
     }
 
     /// Centre and radius of a ball around the bodies of a word.
-    pub fn around(&self, word: usize) -> (Vec3, f32) {
+    pub fn around(&self, word: usize) -> (Vec3A, f32) {
         let (row, bit) = (&self.words[word / WORD], word % WORD);
-        let low = Vec3::new(row[0][bit], row[1][bit], row[2][bit]);
-        let high = Vec3::new(row[3][bit], row[4][bit], row[5][bit]);
+        let low = Vec3A::new(row[0][bit], row[1][bit], row[2][bit]);
+        let high = Vec3A::new(row[3][bit], row[4][bit], row[5][bit]);
         let radius = 0.5 * low.distance(high);
-        if radius.is_finite() { (0.5 * (low + high), radius) } else { (Vec3::ZERO, f32::INFINITY) }
+        if radius.is_finite() { (0.5 * (low + high), radius) } else { (Vec3A::ZERO, f32::INFINITY) }
     }
 
     /// The bits of the words, of which 64 make a row, that hold bodies which a ray of a shaft may meet; of all words
@@ -140,9 +140,9 @@ fn gather(extents: &[Extent], order: &mut [u32]) {
     let middle = |&index: &u32| {
         let Extent { low, high } = extents[index as usize];
         let middle = 0.5 * (low + high);
-        if middle.is_finite() { middle } else { Vec3::ZERO }
+        if middle.is_finite() { middle } else { Vec3A::ZERO }
     };
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (mut low, mut high) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
     for index in &*order {
         low = low.min(middle(index));
         high = high.max(middle(index));
@@ -159,28 +159,28 @@ fn gather(extents: &[Extent], order: &mut [u32]) {
 /// The box around a body, a little larger. It has no end where the body has none.
 fn around(shape: &Shape) -> Extent {
     let (center, half) = match *shape {
-        Shape::Sphere { center, radius } => (center, Vec3::splat(radius)),
+        Shape::Sphere { center, radius } => (center, Vec3A::splat(radius)),
         Shape::Block { center, half, .. } if !cuts::ASKEW => (center, half),
         Shape::Block { center, half, turn } => {
             let turn = turn.transpose();
             let reach = |axis: usize| turn.row(axis).abs().dot(half);
-            (center, Vec3::new(reach(0), reach(1), reach(2)))
+            (center, Vec3A::new(reach(0), reach(1), reach(2)))
         }
-        Shape::Cylinder { center, half, radius, .. } if !cuts::ASKEW => (center, Vec3::new(radius, half, radius)),
+        Shape::Cylinder { center, half, radius, .. } if !cuts::ASKEW => (center, Vec3A::new(radius, half, radius)),
         Shape::Cylinder { center, axis, half, radius } => {
-            let across = (Vec3::ONE - axis * axis).max(Vec3::ZERO);
-            (center, axis.abs() * half + Vec3::new(across.x.sqrt(), across.y.sqrt(), across.z.sqrt()) * radius)
+            let across = (Vec3A::ONE - axis * axis).max(Vec3A::ZERO);
+            (center, axis.abs() * half + Vec3A::new(across.x.sqrt(), across.y.sqrt(), across.z.sqrt()) * radius)
         }
         // A level plane ends at its own height.
         Shape::Plane { normal, offset } => {
-            let mut high = Vec3::INFINITY;
-            if normal == Vec3::Y {
+            let mut high = Vec3A::INFINITY;
+            if normal == Vec3A::Y {
                 high.y = offset + offset.abs() * SLACK;
             }
-            return Extent { low: Vec3::NEG_INFINITY, high };
+            return Extent { low: Vec3A::NEG_INFINITY, high };
         }
         #[cfg(feature = "full")]
-        Shape::Globe { .. } => return Extent { low: Vec3::NEG_INFINITY, high: Vec3::INFINITY },
+        Shape::Globe { .. } => return Extent { low: Vec3A::NEG_INFINITY, high: Vec3A::INFINITY },
     };
     let half = half + (half.max_element() + center.abs().max_element()) * SLACK;
     Extent { low: center - half, high: center + half }
@@ -189,13 +189,13 @@ fn around(shape: &Shape) -> Extent {
 /// A box: least and largest coordinates.
 #[derive(Clone, Copy)]
 pub struct Extent {
-    low: Vec3,
-    high: Vec3,
+    low: Vec3A,
+    high: Vec3A,
 }
 
 impl Extent {
     /// A point.
-    pub const fn point(at: Vec3) -> Extent {
+    pub const fn point(at: Vec3A) -> Extent {
         Extent { low: at, high: at }
     }
 
@@ -207,8 +207,8 @@ impl Extent {
             V3 { x: active.select(v.x, least), y: active.select(v.y, least), z: active.select(v.z, least) };
         let high: V3<S> = V3 { x: active.select(v.x, most), y: active.select(v.y, most), z: active.select(v.z, most) };
         Extent {
-            low: Vec3::new(low.x.reduce_min(), low.y.reduce_min(), low.z.reduce_min()),
-            high: Vec3::new(high.x.reduce_max(), high.y.reduce_max(), high.z.reduce_max()),
+            low: Vec3A::new(low.x.reduce_min(), low.y.reduce_min(), low.z.reduce_min()),
+            high: Vec3A::new(high.x.reduce_max(), high.y.reduce_max(), high.z.reduce_max()),
         }
     }
 }
@@ -253,7 +253,7 @@ impl Shaft {
 
     /// The shaft of rays that end at one point.
     #[inline(always)]
-    pub fn to<S: Simd>(simd: S, start: Start, target: Vec3) -> Shaft {
+    pub fn to<S: Simd>(simd: S, start: Start, target: Vec3A) -> Shaft {
         // With its own length for the unit, each of them is there at 1.
         let origins = start.origins;
         let (low, high) = (target - origins.low, target - origins.high);
@@ -269,7 +269,7 @@ impl Shaft {
 
     /// At the distance t the rays are between `origins.low + low t` and `origins.high + high t`.
     #[inline(always)]
-    fn between<S: Simd>(simd: S, start: Start, low: Vec3, high: Vec3, reach: f32) -> Shaft {
+    fn between<S: Simd>(simd: S, start: Start, low: Vec3A, high: Vec3A, reach: f32) -> Shaft {
         let Start { origins, leaves } = start;
         // The high end of the rays meets a box's low side, and the other way round.
         let edge =

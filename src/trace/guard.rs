@@ -21,7 +21,7 @@ use crate::simd::level;
 use crate::view::View;
 use fearless_simd::{dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Edge of the blocks of the picture that the guard keeps apart, pixels.
 const BLOCK: usize = 8;
@@ -103,20 +103,20 @@ impl Guard {
         view: &View,
         caster: usize,
         light: &Light,
-        center: Vec3,
+        center: Vec3A,
         radius: f32,
     ) {
         let source = position(light, view.camera().eye);
-        let toward = |point: Vec3| match light.emitter {
-            Emitter::Point(_) => (point - source).normalize_or(Vec3::NEG_Y),
+        let toward = |point: Vec3A| match light.emitter {
+            Emitter::Point(_) => (point - source).normalize_or(Vec3A::NEG_Y),
             Emitter::Directional(direction) => -direction,
         };
         let aim = toward(center);
         // The middle of the shadow; and where that is small its rim, which may fall on another body.
         let (u, v) = aim.any_orthonormal_pair();
         let mut small = true;
-        for offset in [Vec3::ZERO, u, -u, v, -v] {
-            if !small || radius == 0.0 && offset != Vec3::ZERO {
+        for offset in [Vec3A::ZERO, u, -u, v, -v] {
+            if !small || radius == 0.0 && offset != Vec3A::ZERO {
                 break;
             }
             let through = center + offset * radius;
@@ -131,7 +131,7 @@ impl Guard {
     }
 
     /// Cuts the squares under the highlight that a light at `source` makes on a body.
-    fn highlight(&mut self, view: &View, body: &Object, source: Vec3) {
+    fn highlight(&mut self, view: &View, body: &Object, source: Vec3A) {
         let material = &body.material;
         if material.specular == 0.0 {
             return;
@@ -148,7 +148,7 @@ impl Guard {
     }
 
     /// Cuts the squares under the picture of a ball. Returns whether it is small enough for that to be needed.
-    fn protect(&mut self, view: &View, center: Vec3, radius: f32, rim: Rim) -> bool {
+    fn protect(&mut self, view: &View, center: Vec3A, radius: f32, rim: Rim) -> bool {
         let Some((x, y, metre)) = view.project(center) else { return false };
         let pixels = radius * metre;
         let finest = match rim {
@@ -181,9 +181,9 @@ fn landing<S: Simd>(
     world: &World,
     bounds: &Bounds,
     from: usize,
-    origin: Vec3,
-    direction: Vec3,
-) -> Option<(Vec3, Vec3)> {
+    origin: Vec3A,
+    direction: Vec3A,
+) -> Option<(Vec3A, Vec3A)> {
     let from = from as u32;
     let inward = M::<S>::splat(simd, false);
     let (start, along) = (V3::splat(simd, origin), V3::splat(simd, direction));
@@ -206,7 +206,7 @@ fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
 }
 
 /// Position of a light. A directional one is put far away.
-fn position(light: &Light, eye: Vec3) -> Vec3 {
+fn position(light: &Light, eye: Vec3A) -> Vec3A {
     match light.emitter {
         Emitter::Point(position) => position,
         Emitter::Directional(direction) => eye + direction * 1e6,
@@ -217,9 +217,9 @@ fn position(light: &Light, eye: Vec3) -> Vec3 {
 ///
 /// The first ones cover the body and are no wider than it, except for plates. Then follow the corners of a block as balls
 /// of radius 0, because they reach into squares whose corners all lie outside.
-fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
+fn ball(shape: &Shape, n: u32) -> Option<(Vec3A, f32)> {
     let (center, axis, half, radius) = match *shape {
-        Shape::Sphere { center, radius } => (center, Vec3::ZERO, 0.0, radius),
+        Shape::Sphere { center, radius } => (center, Vec3A::ZERO, 0.0, radius),
         Shape::Cylinder { center, axis, half, radius } => (center, axis, half, radius),
         Shape::Block { center, half, turn } => {
             let long = half.max_position();
@@ -239,14 +239,14 @@ fn ball(shape: &Shape, n: u32) -> Option<(Vec3, f32)> {
     match *shape {
         Shape::Block { center, half, turn } if n < 8 => {
             let sign = |axis: u32| if n >> axis & 1 == 0 { -1.0 } else { 1.0 };
-            Some((center + turn.transpose() * (half * Vec3::new(sign(0), sign(1), sign(2))), 0.0))
+            Some((center + turn.transpose() * (half * Vec3A::new(sign(0), sign(1), sign(2))), 0.0))
         }
         _ => None,
     }
 }
 
 /// The point of a body in which the eye sees `target` mirrored; none where it cannot, or where no simple formula gives it.
-fn mirror_point(eye: Vec3, shape: &Shape, target: Vec3) -> Option<Vec3> {
+fn mirror_point(eye: Vec3A, shape: &Shape, target: Vec3A) -> Option<Vec3A> {
     match *shape {
         Shape::Plane { normal, offset } => {
             let (above, height) = (normal.dot(eye) - offset, normal.dot(target) - offset);
@@ -274,7 +274,7 @@ fn mirrors_light(material: &Material) -> bool {
 
 /// The image of a ball in a mirror: a point that is seen in the same direction, and the radius that it appears to have
 /// there; none where its shape makes none that is simple.
-fn reflected(eye: Vec3, mirror: &Object, center: Vec3, radius: f32) -> Option<(Vec3, f32)> {
+fn reflected(eye: Vec3A, mirror: &Object, center: Vec3A, radius: f32) -> Option<(Vec3A, f32)> {
     match mirror.shape {
         Shape::Plane { normal, offset } if normal.dot(eye) > offset => {
             Some((center - normal * (2.0 * (normal.dot(center) - offset)), radius))

@@ -3,7 +3,7 @@
 use super::reference::{Exits, Ray, background, first, fresnel, local, through, toward};
 use super::world::World;
 use crate::frame::Tile;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Squares of a tile, each a column, a row and an edge in pixels, as the edge at each pixel.
 pub fn squares(squares: impl Iterator<Item = (usize, usize, f32)>) -> Vec<f32> {
@@ -21,8 +21,8 @@ pub fn squares(squares: impl Iterator<Item = (usize, usize, f32)>) -> Vec<f32> {
 struct Hit {
     index: usize,
     distance: f32,
-    point: Vec3,
-    normal: Vec3,
+    point: Vec3A,
+    normal: Vec3A,
     inside: bool,
     cosine: f32,
 }
@@ -43,7 +43,7 @@ fn meet(world: &World, ray: &Ray) -> Option<Hit> {
 }
 
 /// The rays that leave a hit, each with what it is and its weight.
-fn next(world: &World, ray: &Ray, hit: &Hit) -> Vec<(&'static str, Ray, Vec3)> {
+fn next(world: &World, ray: &Ray, hit: &Hit) -> Vec<(&'static str, Ray, Vec3A)> {
     let Hit { index, point, normal, inside, cosine, .. } = *hit;
     let material = &world.objects[index].material;
     let direction = ray.direction + normal * (2.0 * cosine);
@@ -51,12 +51,12 @@ fn next(world: &World, ray: &Ray, hit: &Hit) -> Vec<(&'static str, Ray, Vec3)> {
     if material.is_glass() {
         let eta = if inside { material.ior } else { 1.0 / material.ior };
         let Some((share, through)) = fresnel(eta, cosine) else {
-            return vec![("all reflected", mirrored, Vec3::ONE)];
+            return vec![("all reflected", mirrored, Vec3A::ONE)];
         };
         let direction = ray.direction * eta + normal * (eta * cosine - through);
         let refracted = Ray { origin: point, direction, from: Some((index, !inside)) };
         return vec![
-            ("reflected", mirrored, Vec3::splat(share)),
+            ("reflected", mirrored, Vec3A::splat(share)),
             ("refracted", refracted, material.filter * (1.0 - share)),
         ];
     }
@@ -65,10 +65,10 @@ fn next(world: &World, ray: &Ray, hit: &Hit) -> Vec<(&'static str, Ray, Vec3)> {
 }
 
 /// The share of each colour that an opaque surface mirrors.
-fn mirror(world: &World, hit: &Hit) -> Vec3 {
+fn mirror(world: &World, hit: &Hit) -> Vec3A {
     let material = &world.objects[hit.index].material;
     let grazing = (1.0 - hit.cosine.min(1.0)).powi(5);
-    material.reflectance + (Vec3::ONE - material.reflectance) * (material.fresnel * grazing)
+    material.reflectance + (Vec3A::ONE - material.reflectance) * (material.fresnel * grazing)
 }
 
 /// Rays in the longest path that begins with a ray, which is the one of that number in its path.
@@ -81,7 +81,7 @@ pub fn depth(world: &World, ray: Ray, level: u32) -> u32 {
 }
 
 /// Tells the path of a ray: what it meets, which lights that sees, and what comes back, times its weight in the pixel.
-pub fn trail(world: &World, (what, ray, weight): (&str, Ray, Vec3), level: u32, lines: &mut Vec<String>) {
+pub fn trail(world: &World, (what, ray, weight): (&str, Ray, Vec3A), level: u32, lines: &mut Vec<String>) {
     let indent = "  ".repeat(level as usize - 1);
     if level > world.max_level {
         lines.push(format!("{indent}ray {level}, {what}: deeper than the scene's {} rays, black", world.max_level));
@@ -108,7 +108,7 @@ pub fn trail(world: &World, (what, ray, weight): (&str, Ray, Vec3), level: u32, 
     let own = if body.material.is_glass() {
         shine
     } else {
-        (diffuse * body.material.albedo.color(hit.point) + shine) * (Vec3::ONE - mirror(world, &hit))
+        (diffuse * body.material.albedo.color(hit.point) + shine) * (Vec3A::ONE - mirror(world, &hit))
     };
     lines.push(format!("{indent}  the surface contributes {}", triple(own * weight)));
     for (what, ray, share) in next(world, &ray, &hit) {
@@ -124,17 +124,17 @@ fn state(world: &World, hit: &Hit, ray: &Ray, light: &super::world::Light) -> St
         return "behind the surface".into();
     }
     let seen = through(world, hit.index, hit.point, aim, reach);
-    if seen == Vec3::ZERO {
+    if seen == Vec3A::ZERO {
         return format!("in shadow, cosine {cosine:.3}");
     }
     let glint = (aim - hit.normal * (2.0 * cosine)).dot(ray.direction);
     let shines = glint > 0.0 && world.objects[hit.index].material.specular > 0.0;
-    let glass = if seen == Vec3::ONE { String::new() } else { format!(" {} times through glass", triple(seen)) };
+    let glass = if seen == Vec3A::ONE { String::new() } else { format!(" {} times through glass", triple(seen)) };
     format!("lit{glass}{}, cosine {cosine:.3}", if shines { " with a highlight" } else { "" })
 }
 
 /// A colour as words.
-fn triple(light: Vec3) -> String {
+fn triple(light: Vec3A) -> String {
     format!("{:.4} {:.4} {:.4}", light.x, light.y, light.z)
 }
 
@@ -154,12 +154,12 @@ mod tests {
                 let direction = (camera.forward + camera.right * x + camera.up * y).normalize();
                 let ray = Ray::new(camera.eye, direction);
                 let mut lines = Vec::new();
-                trail(&world, ("from the eye", ray, Vec3::ONE), 1, &mut lines);
+                trail(&world, ("from the eye", ray, Vec3A::ONE), 1, &mut lines);
                 let told = |line: &String| line.split_once("contributes ").map(|told| told.1.to_owned());
-                let mut sum = Vec3::ZERO;
+                let mut sum = Vec3A::ZERO;
                 for told in lines.iter().filter_map(told) {
                     let numbers: Vec<f32> = told.split(' ').map(|word| word.parse().unwrap()).collect();
-                    sum += Vec3::from_slice(&numbers);
+                    sum += Vec3A::from_slice(&numbers);
                 }
                 let truth = radiance(&world, ray, 1);
                 // Each line is rounded to four places.

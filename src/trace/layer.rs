@@ -20,9 +20,10 @@ use crate::settings::TraceSettings;
 use crate::simd::lanes::Bits;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
+use crate::vector::unit;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A world as a view shows it. The layer fills every pixel and writes inverse depth and coverage, so it comes first.
 pub struct TraceLayer {
@@ -70,7 +71,7 @@ impl TraceLayer {
         visible.clear();
         for (word, &all) in self.bounds.all.iter().enumerate() {
             let mut bits = 0;
-            let meets = |(center, radius): (Vec3, f32)| cone.may_meet(center - eye, radius);
+            let meets = |(center, radius): (Vec3A, f32)| cone.may_meet(center - eye, radius);
             if !cuts::MANY_BODIES || self.bounds.all.len() == 1 || meets(self.bounds.around(word)) {
                 for bit in Bits(all) {
                     let body = &self.world.objects[self.bounds.index(word * WORD + bit)];
@@ -179,9 +180,9 @@ impl Layer for TraceLayer {
             _ => format!("{count} eye rays here"),
         }];
         lines.push("through its middle, without thresholds, lights as points:".into());
-        let middle = self.view.ray(x as f32 + 0.5, y as f32 + 0.5).normalize();
+        let middle = unit(self.view.ray(x as f32 + 0.5, y as f32 + 0.5));
         let ray = Ray::new(self.view.camera().eye, middle);
-        inspect::trail(&self.world, ("from the eye", ray, Vec3::ONE), 1, &mut lines);
+        inspect::trail(&self.world, ("from the eye", ray, Vec3A::ONE), 1, &mut lines);
         lines
     }
 }

@@ -9,7 +9,7 @@ use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::simd::math;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// The way from points to a light.
 #[derive(Clone, Copy)]
@@ -68,7 +68,7 @@ pub fn visibility<S: Simd>(
         u = u * Lane(F::<S>::splat(simd, light.radius) / u.dot(u).sqrt());
         v = cross(aim.direction, u);
     }
-    let mut seen = V3::splat(simd, Vec3::ZERO);
+    let mut seen = V3::splat(simd, Vec3A::ZERO);
     for k in 0..samples {
         if soft {
             let (a, b) = disc_point(k, samples);

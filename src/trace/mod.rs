@@ -20,25 +20,25 @@
 //! A shining ball on a floor, one tile of it:
 //!
 //! ```
-//! use glam::{Vec3, vec3};
+//! use glam::{Vec3A, vec3a};
 //! use paprsek::frame::{Layer, Tile};
 //! use paprsek::settings::Quality;
 //! use paprsek::simd::level;
 //! use paprsek::trace::{Background, Light, Material, Object, Shape, TraceLayer, World};
 //! use paprsek::view::{Camera, View};
 //!
-//! let ball = Shape::Sphere { center: Vec3::Y, radius: 1.0 };
-//! let floor = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
+//! let ball = Shape::Sphere { center: Vec3A::Y, radius: 1.0 };
+//! let floor = Shape::Plane { normal: Vec3A::Y, offset: 0.0 };
 //! let world = World {
-//!     lights: vec![Light::point(vec3(3.0, 5.0, 4.0), Vec3::ONE)],
-//!     ambient: Vec3::splat(0.1),
-//!     background: Background::gradient(vec3(0.7, 0.8, 0.9), vec3(0.2, 0.4, 0.7)),
+//!     lights: vec![Light::point(vec3a(3.0, 5.0, 4.0), Vec3A::ONE)],
+//!     ambient: Vec3A::splat(0.1),
+//!     background: Background::gradient(vec3a(0.7, 0.8, 0.9), vec3a(0.2, 0.4, 0.7)),
 //!     ..World::new(vec![
-//!         Object::new(ball, Material::plain(vec3(0.8, 0.1, 0.1)).polished(0.2, 0.5, 50.0)),
-//!         Object::new(floor, Material::plain(Vec3::splat(0.5))).without_shadow(),
+//!         Object::new(ball, Material::plain(vec3a(0.8, 0.1, 0.1)).polished(0.2, 0.5, 50.0)),
+//!         Object::new(floor, Material::plain(Vec3A::splat(0.5))).without_shadow(),
 //!     ])
 //! };
-//! let camera = Camera::look_at(vec3(0.0, 1.5, 6.0), Vec3::Y, 0.8, 0.0);
+//! let camera = Camera::look_at(vec3a(0.0, 1.5, 6.0), Vec3A::Y, 0.8, 0.0);
 //! let layer = TraceLayer::new(world, &View::new(camera, 64, 64), &Quality::DEFAULT.trace);
 //! let mut tile = Tile::at(0, 0, 64, 64);
 //! layer.draw(level::best(), &mut tile);

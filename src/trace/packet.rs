@@ -29,7 +29,7 @@ use crate::texture;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// What a packet reads of the frame and the tile.
 #[derive(Clone, Copy)]
@@ -165,7 +165,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
     let lanes = M::<S>::from_bitmask(simd, (1u64 << out.len()) - 1);
     let step = ray.dot(ray).sqrt();
     let mut path_signature = U::<S>::splat(simd, 0);
-    let mut light = V3::splat(simd, Vec3::ZERO);
+    let mut light = V3::splat(simd, Vec3A::ZERO);
     // The light so far if all textures were white: what `min_detail` is a share of.
     let mut gathered = zero;
     let mut first_inv_depth = zero;
@@ -238,7 +238,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
 impl<S: Simd> Node<S> {
     /// The eye rays.
     #[inline(always)]
-    fn root(simd: S, eye: Vec3, direction: V3<S>, active: M<S>) -> Node<S> {
+    fn root(simd: S, eye: Vec3A, direction: V3<S>, active: M<S>) -> Node<S> {
         let one = F::<S>::splat(simd, 1.0);
         let nothing = M::<S>::splat(simd, false);
         let from = U::<S>::splat(simd, NOWHERE);
@@ -299,7 +299,7 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let shininess = hit.surface.numbers[SPECULAR];
     let mut diffuse = V3::splat(simd, world.ambient);
-    let mut specular = V3::splat(simd, Vec3::ZERO);
+    let mut specular = V3::splat(simd, Vec3A::ZERO);
     let mut states = U::<S>::splat(simd, UNLIT);
     if !shaded.any_true() {
         return Lit { diffuse, specular, states };

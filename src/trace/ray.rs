@@ -10,7 +10,7 @@ use crate::cuts;
 use crate::simd::lanes::{Bits, F, M, U, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// One ray per lane, and the body whose surface it leaves.
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ pub fn nearest<S: Simd>(
     let shadow = search == Search::Shadow;
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
     let (mut best, mut object) = (if shadow { one } else { reach }, U::<S>::splat(simd, NOWHERE));
-    let mut tint = V3::splat(simd, Vec3::ONE);
+    let mut tint = V3::splat(simd, Vec3A::ONE);
     let leaves = shaft.map_or(NOWHERE, |shaft| shaft.leaves);
     let rows = if cuts::MANY_BODIES { list.len().div_ceil(WORD) } else { 1 };
     let mut row = 0;
@@ -139,7 +139,7 @@ pub(super) const GATHERS: f32 = 128.0;
 /// The share of each colour that gets through a ball of glass: what both surfaces let through of it, and what they do not
 /// mirror, which for an index of 1.5 is 0.84 over the whole of the ball.
 #[inline(always)]
-pub(super) fn passes(material: &Material) -> Vec3 {
+pub(super) fn passes(material: &Material) -> Vec3A {
     material.filter * material.filter * 0.84375
 }
 
@@ -173,7 +173,7 @@ fn apart<S: Simd>(
     search: Search,
 ) -> (U<S>, F<S>, V3<S>) {
     let (mut object, mut best) = (U::<S>::splat(simd, NOWHERE), reach);
-    let mut tint = V3::splat(simd, Vec3::ONE);
+    let mut tint = V3::splat(simd, Vec3A::ONE);
     for lane in Bits(active.to_bitmask()) {
         let one = M::<S>::from_bitmask(simd, 1 << lane);
         let start = Start { origins: Extent::new(simd, ray.origin, one), leaves: shaft.leaves };

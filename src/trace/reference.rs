@@ -7,13 +7,14 @@ use super::ray::{GATHERS, passes};
 use super::shape::{FAR, Shape};
 use super::surface::DENSE;
 use super::world::{Background, Emitter, Light, World};
-use glam::{Mat3, Vec3};
+use crate::vector::unit;
+use glam::{Mat3A, Vec3A};
 
 /// The interval in which the line `o + t d` with `|d| = 1` is inside a body; none where it never is.
 ///
 /// A line that only touches a round body is not inside it. Distances may be negative, and reach to minus or plus [`FAR`].
 /// The rest of the contract is that of [`Shape::span`]: `d` has to have the length 1, and is not normalised.
-pub fn span(shape: &Shape, o: Vec3, d: Vec3) -> Option<(f32, f32)> {
+pub fn span(shape: &Shape, o: Vec3A, d: Vec3A) -> Option<(f32, f32)> {
     let (t0, t1) = match *shape {
         Shape::Sphere { center, radius } => {
             let q = o - center;
@@ -77,22 +78,22 @@ fn slab(o: f32, d: f32, half: f32) -> (f32, f32) {
 
 impl Shape {
     /// Unit outward normal at a point of the surface, in scalar code.
-    pub fn normal_at(&self, p: Vec3) -> Vec3 {
+    pub fn normal_at(&self, p: Vec3A) -> Vec3A {
         match *self {
-            Shape::Sphere { center, .. } => (p - center).normalize(),
+            Shape::Sphere { center, .. } => unit(p - center),
             Shape::Plane { normal, .. } => normal,
             #[cfg(feature = "full")]
-            Shape::Globe { touch, normal, radius } => ((p - touch) / radius + normal).normalize(),
+            Shape::Globe { touch, normal, radius } => unit((p - touch) / radius + normal),
             Shape::Block { center, half, turn } => {
                 let q = turn * (p - center);
                 let axis = (q / half).abs().max_position();
-                Mat3::transpose(&turn).col(axis) * q[axis].signum()
+                Mat3A::transpose(&turn).col(axis) * q[axis].signum()
             }
             Shape::Cylinder { center, axis, half, radius } => {
                 let q = p - center;
                 let h = q.dot(axis);
                 let round = q - axis * h;
-                if h.abs() / half >= round.length() / radius { axis * h.signum() } else { round.normalize() }
+                if h.abs() / half >= round.length() / radius { axis * h.signum() } else { unit(round) }
             }
         }
     }
@@ -103,7 +104,7 @@ impl Shape {
 ///
 /// Only distances above 0 and below [`FAR`] count. Inside a body, its far side is in front; on its surface, what is ahead.
 /// A direction of another length is not normalised, see [`Shape::span`].
-pub fn nearest(world: &World, o: Vec3, d: Vec3, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
+pub fn nearest(world: &World, o: Vec3A, d: Vec3A, counts: impl Fn(usize) -> bool) -> Option<(usize, f32)> {
     first(world, o, d, |index| if counts(index) { Exits::Both } else { Exits::None })
 }
 
@@ -115,7 +116,7 @@ pub(super) enum Exits {
 }
 
 /// Index and distance of the first crossing in front of a point that counts.
-pub(super) fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
+pub(super) fn first(world: &World, o: Vec3A, d: Vec3A, exits: impl Fn(usize) -> Exits) -> Option<(usize, f32)> {
     let mut best = None;
     for (index, body) in world.objects.iter().enumerate() {
         let Some((t0, t1)) = span(&body.shape, o, d) else { continue };
@@ -136,16 +137,16 @@ pub(super) fn first(world: &World, o: Vec3, d: Vec3, exits: impl Fn(usize) -> Ex
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
     /// Start, metres.
-    pub origin: Vec3,
+    pub origin: Vec3A,
     /// Unit direction.
-    pub direction: Vec3,
+    pub direction: Vec3A,
     /// Index of the body whose surface it leaves, and whether it goes into that body.
     pub from: Option<(usize, bool)>,
 }
 
 impl Ray {
     /// A ray that leaves no body.
-    pub fn new(origin: Vec3, direction: Vec3) -> Ray {
+    pub fn new(origin: Vec3A, direction: Vec3A) -> Ray {
         Ray { origin, direction, from: None }
     }
 }
@@ -166,9 +167,9 @@ pub fn fresnel(eta: f32, cosine: f32) -> Option<(f32, f32)> {
 
 /// The linear light that comes back along a ray, whose direction has to have the length 1. `level` counts the rays of the
 /// path, 1 for an eye ray; beyond [`World::max_level`] it is black.
-pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
+pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3A {
     if level > world.max_level {
-        return Vec3::ZERO;
+        return Vec3A::ZERO;
     }
     let Ray { origin, direction, from } = ray;
     let hit = first(world, origin, direction, |index| match from {
@@ -208,10 +209,10 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
             + radiance(world, refracted, level + 1) * material.filter * (1.0 - share);
     }
     let grazing = (1.0 - cosine.min(1.0)).powi(5);
-    let mirror = material.reflectance + (Vec3::ONE - material.reflectance) * (material.fresnel * grazing);
+    let mirror = material.reflectance + (Vec3A::ONE - material.reflectance) * (material.fresnel * grazing);
     let (diffuse, shine) = local(world, index, point, normal, direction);
     let shaded = diffuse * material.albedo.color(point) + shine;
-    let mut sum = shaded * (Vec3::ONE - mirror);
+    let mut sum = shaded * (Vec3A::ONE - mirror);
     if mirror.max_element() > 0.0 {
         sum += radiance(world, mirrored, level + 1) * mirror;
     }
@@ -219,9 +220,9 @@ pub fn radiance(world: &World, ray: Ray, level: u32) -> Vec3 {
 }
 
 /// Light of the lights at a point of the body `index`: off a white surface, and highlights.
-pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, direction: Vec3) -> (Vec3, Vec3) {
+pub(super) fn local(world: &World, index: usize, point: Vec3A, normal: Vec3A, direction: Vec3A) -> (Vec3A, Vec3A) {
     let material = &world.objects[index].material;
-    let (mut diffuse, mut specular) = (world.ambient, Vec3::ZERO);
+    let (mut diffuse, mut specular) = (world.ambient, Vec3A::ZERO);
     if material.is_glass() && material.specular == 0.0 {
         return (diffuse, specular);
     }
@@ -229,7 +230,7 @@ pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, dire
         let (aim, reach) = toward(light, point);
         let cosine = normal.dot(aim);
         let seen = through(world, index, point, aim, reach);
-        if cosine <= 0.0 || seen == Vec3::ZERO {
+        if cosine <= 0.0 || seen == Vec3A::ZERO {
             continue;
         }
         let glint = (aim - normal * (2.0 * cosine)).dot(direction);
@@ -243,17 +244,17 @@ pub(super) fn local(world: &World, index: usize, point: Vec3, normal: Vec3, dire
 }
 
 /// Unit direction and distance to a light.
-pub(super) fn toward(light: &Light, point: Vec3) -> (Vec3, f32) {
+pub(super) fn toward(light: &Light, point: Vec3A) -> (Vec3A, f32) {
     match light.emitter {
-        Emitter::Point(position) => ((position - point).normalize(), (position - point).length()),
+        Emitter::Point(position) => (unit(position - point), (position - point).length()),
         Emitter::Directional(direction) => (direction, FAR),
     }
 }
 
 /// The light that bodies other than `from` let through between a point and a light, in multiples of what there is of each
 /// colour without them: 0 in the shadow of anything but a ball of glass.
-pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach: f32) -> Vec3 {
-    let mut light = Vec3::ONE;
+pub(super) fn through(world: &World, from: usize, point: Vec3A, aim: Vec3A, reach: f32) -> Vec3A {
+    let mut light = Vec3A::ONE;
     for (index, body) in world.objects.iter().enumerate() {
         if !body.casts_shadow || index == from {
             continue;
@@ -265,7 +266,7 @@ pub(super) fn through(world: &World, from: usize, point: Vec3, aim: Vec3, reach:
             Shape::Sphere { radius, .. } if body.material.is_glass() => {
                 passes(&body.material) * gathered((t0 + t1) / (2.0 * radius), (t1 - t0) / (2.0 * radius))
             }
-            _ => Vec3::ZERO,
+            _ => Vec3A::ZERO,
         };
     }
     light
@@ -280,7 +281,7 @@ fn gathered(z: f32, half: f32) -> f32 {
 }
 
 /// The background's light in a unit direction.
-pub fn background(world: &World, d: Vec3) -> Vec3 {
+pub fn background(world: &World, d: Vec3A) -> Vec3A {
     let Background { horizon, zenith, glow } = world.background;
     let base = horizon + (zenith - horizon) * d.y.max(0.0);
     if glow.exponent == 0.0 {

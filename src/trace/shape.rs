@@ -10,7 +10,7 @@ use crate::cuts;
 use crate::simd::lanes::{F, Lane, M, V3};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 
 /// A convex body's shape and place. Lengths are metres and above 0; what is called unit or a rotation has to be one.
 #[derive(Clone, Copy, Debug)]
@@ -18,14 +18,14 @@ pub enum Shape {
     /// A ball.
     Sphere {
         /// Centre.
-        center: Vec3,
+        center: Vec3A,
         /// Radius.
         radius: f32,
     },
     /// The half-space below a plane: `normal . p <= offset`.
     Plane {
         /// Unit normal, outwards.
-        normal: Vec3,
+        normal: Vec3A,
         /// Distance from the origin along the normal.
         offset: f32,
     },
@@ -34,27 +34,27 @@ pub enum Shape {
     #[cfg(feature = "full")]
     Globe {
         /// A point of the surface.
-        touch: Vec3,
+        touch: Vec3A,
         /// Unit normal there, outwards.
-        normal: Vec3,
+        normal: Vec3A,
         /// Radius.
         radius: f32,
     },
     /// A box of any orientation.
     Block {
         /// Centre.
-        center: Vec3,
+        center: Vec3A,
         /// Half of each edge.
-        half: Vec3,
+        half: Vec3A,
         /// Rotation from world to box.
-        turn: Mat3,
+        turn: Mat3A,
     },
     /// A capped cylinder.
     Cylinder {
         /// Centre.
-        center: Vec3,
+        center: Vec3A,
         /// Unit axis.
-        axis: Vec3,
+        axis: Vec3A,
         /// Half of its length.
         half: f32,
         /// Radius.
@@ -76,14 +76,14 @@ pub const FAR: f32 = 1e30;
 
 impl Shape {
     /// Centre and radius of a ball around the body. The radius is infinite for planes and globes.
-    pub fn bound(&self) -> (Vec3, f32) {
+    pub fn bound(&self) -> (Vec3A, f32) {
         match *self {
             Shape::Sphere { center, radius } => (center, radius),
             Shape::Block { center, half, .. } => (center, half.length()),
             Shape::Cylinder { center, half, radius, .. } => (center, (half * half + radius * radius).sqrt()),
-            Shape::Plane { .. } => (Vec3::ZERO, f32::INFINITY),
+            Shape::Plane { .. } => (Vec3A::ZERO, f32::INFINITY),
             #[cfg(feature = "full")]
-            Shape::Globe { .. } => (Vec3::ZERO, f32::INFINITY),
+            Shape::Globe { .. } => (Vec3A::ZERO, f32::INFINITY),
         }
     }
 
@@ -208,7 +208,7 @@ fn roots<S: Simd>(b: F<S>, disc: F<S>, product: F<S>) -> (F<S>, F<S>) {
 /// How a line passes a point: the vector from the point to the line's origin, the distance along the line at which it is
 /// nearest, and the square of the distance between them there.
 #[inline(always)]
-fn past<S: Simd>(o: V3<S>, d: V3<S>, center: Vec3) -> (V3<S>, F<S>, F<S>) {
+fn past<S: Simd>(o: V3<S>, d: V3<S>, center: Vec3A) -> (V3<S>, F<S>, F<S>) {
     let q = o.sub1(center);
     let b = -q.dot(d);
     let m = q + d * Lane(b);
@@ -235,7 +235,7 @@ fn slab<S: Simd>(simd: S, o: F<S>, d: F<S>, half: f32) -> (F<S>, F<S>) {
 
 /// The part of the vector of every lane along a unit axis, and the vector across it that is left.
 #[inline(always)]
-fn split<S: Simd>(simd: S, v: V3<S>, axis: Vec3) -> (F<S>, V3<S>) {
+fn split<S: Simd>(simd: S, v: V3<S>, axis: Vec3A) -> (F<S>, V3<S>) {
     if !cuts::ASKEW {
         return (v.y, V3 { y: F::<S>::splat(simd, 0.0), ..v });
     }
@@ -245,7 +245,7 @@ fn split<S: Simd>(simd: S, v: V3<S>, axis: Vec3) -> (F<S>, V3<S>) {
 
 /// The vector of every lane, through one matrix.
 #[inline(always)]
-fn turned<S: Simd>(m: Mat3, v: V3<S>) -> V3<S> {
+fn turned<S: Simd>(m: Mat3A, v: V3<S>) -> V3<S> {
     if !cuts::ASKEW {
         return v;
     }

@@ -9,7 +9,7 @@ use super::world::{Material, NOWHERE, World};
 use crate::simd::lanes::{F, Lane, M, U, V3};
 use crate::texture::Pattern;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Where the mean colour stands among the numbers of a surface (three numbers).
 pub const ALBEDO: usize = 0;
@@ -96,7 +96,7 @@ pub fn resolve<S: Simd>(
     hit: M<S>,
 ) -> (F<S>, V3<S>, Surface<S>, u32) {
     let zero = F::<S>::splat(simd, 0.0);
-    let black = V3::splat(simd, Vec3::ZERO);
+    let black = V3::splat(simd, Vec3A::ZERO);
     let mut point = black;
     let mut surface = Surface { normal: black, numbers: [zero; SURFACE] };
     let mut todo = hit.to_bitmask();

@@ -6,7 +6,7 @@
 
 use super::shape::Shape;
 use crate::texture::Texture;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// The index that stands for no body.
 pub const NOWHERE: u32 = u32::MAX;
@@ -21,7 +21,7 @@ pub struct Material {
     /// Colour of the surface by position. Glass ignores it.
     pub albedo: Texture,
     /// Share of each colour that is mirrored at normal incidence, 0 to 1; the rest is shaded locally. Glass ignores it.
-    pub reflectance: Vec3,
+    pub reflectance: Vec3A,
     /// How much of what lacks to a full mirror is added at grazing angles, 0 to 1, by the fifth power of Schlick's
     /// approximation `[Schlick94]`. Glass ignores it.
     pub fresnel: f32,
@@ -32,34 +32,42 @@ pub struct Material {
     /// Index of refraction, relative to what surrounds the body; 0 for an opaque surface.
     pub ior: f32,
     /// Share of each colour that one crossing of a glass surface leaves, 0 to 1. Opaque surfaces ignore it.
-    pub filter: Vec3,
+    pub filter: Vec3A,
 }
 
 impl Material {
     /// A surface that scatters light evenly: no mirror, no highlight.
     pub const fn matte(albedo: Texture) -> Material {
-        let black = Vec3::ZERO;
-        Material { albedo, reflectance: black, fresnel: 0.0, specular: 0.0, exponent: 1.0, ior: 0.0, filter: Vec3::ONE }
+        let black = Vec3A::ZERO;
+        Material {
+            albedo,
+            reflectance: black,
+            fresnel: 0.0,
+            specular: 0.0,
+            exponent: 1.0,
+            ior: 0.0,
+            filter: Vec3A::ONE,
+        }
     }
 
     /// A matte surface of one colour.
-    pub const fn plain(color: Vec3) -> Material {
+    pub const fn plain(color: Vec3A) -> Material {
         Material::matte(Texture::plain(color))
     }
 
     /// A mirror over black: it shows nothing but `reflectance` times what it mirrors.
-    pub const fn mirror(reflectance: Vec3) -> Material {
-        Material { reflectance, ..Material::plain(Vec3::ZERO) }
+    pub const fn mirror(reflectance: Vec3A) -> Material {
+        Material { reflectance, ..Material::plain(Vec3A::ZERO) }
     }
 
     /// Clear glass with the index of refraction `ior`, above 0. Each crossing of the surface leaves `filter` of the light.
-    pub const fn glass(ior: f32, filter: Vec3) -> Material {
-        Material { ior, filter, ..Material::plain(Vec3::ZERO) }
+    pub const fn glass(ior: f32, filter: Vec3A) -> Material {
+        Material { ior, filter, ..Material::plain(Vec3A::ZERO) }
     }
 
     /// The same material with a colourless mirror and a highlight.
     pub const fn polished(self, reflectance: f32, specular: f32, exponent: f32) -> Material {
-        Material { reflectance: Vec3::splat(reflectance), ..self.shiny(specular, exponent) }
+        Material { reflectance: Vec3A::splat(reflectance), ..self.shiny(specular, exponent) }
     }
 
     /// The same material with a highlight of the weight `specular`.
@@ -107,9 +115,9 @@ impl Object {
 #[derive(Clone, Copy, Debug)]
 pub enum Emitter {
     /// A point in space. Its light does not fall off with distance `[Intro07]`.
-    Point(Vec3),
+    Point(Vec3A),
     /// The unit direction towards a light that is infinitely far away.
-    Directional(Vec3),
+    Directional(Vec3A),
 }
 
 /// A light.
@@ -118,7 +126,7 @@ pub struct Light {
     /// Where it is.
     pub emitter: Emitter,
     /// Light on a white surface that faces it.
-    pub color: Vec3,
+    pub color: Vec3A,
     /// Radius of the luminous ball, for soft shadows: metres, or for a directional light the sine of its angular radius.
     /// 0 for hard shadows. The 64 kB build takes every light as a point.
     pub radius: f32,
@@ -126,12 +134,12 @@ pub struct Light {
 
 impl Light {
     /// A light at a point, with hard shadows.
-    pub const fn point(position: Vec3, color: Vec3) -> Light {
+    pub const fn point(position: Vec3A, color: Vec3A) -> Light {
         Light { emitter: Emitter::Point(position), color, radius: 0.0 }
     }
 
     /// A light in a unit direction, with hard shadows. It is not normalised: a longer one is a brighter light.
-    pub const fn directional(towards: Vec3, color: Vec3) -> Light {
+    pub const fn directional(towards: Vec3A, color: Vec3A) -> Light {
         Light { emitter: Emitter::Directional(towards), color, radius: 0.0 }
     }
 
@@ -145,37 +153,37 @@ impl Light {
 #[derive(Clone, Copy, Debug)]
 pub struct Glow {
     /// Unit direction of its middle.
-    pub direction: Vec3,
+    pub direction: Vec3A,
     /// Light that it adds in its middle.
-    pub color: Vec3,
+    pub color: Vec3A,
     /// Exponent of the cosine by which it falls off; 0 for no glow.
     pub exponent: f32,
 }
 
 impl Glow {
     /// No glow.
-    pub const NONE: Glow = Glow { direction: Vec3::Y, color: Vec3::ZERO, exponent: 0.0 };
+    pub const NONE: Glow = Glow { direction: Vec3A::Y, color: Vec3A::ZERO, exponent: 0.0 };
 }
 
 /// What a ray sees that meets no body: a vertical gradient, and a glow on top.
 #[derive(Clone, Copy, Debug)]
 pub struct Background {
     /// Light at the horizon and below.
-    pub horizon: Vec3,
+    pub horizon: Vec3A,
     /// Light straight up. In between, light is linear in the y of the direction.
-    pub zenith: Vec3,
+    pub zenith: Vec3A,
     /// What is added around one direction.
     pub glow: Glow,
 }
 
 impl Background {
     /// The same light from everywhere.
-    pub const fn even(color: Vec3) -> Background {
+    pub const fn even(color: Vec3A) -> Background {
         Background::gradient(color, color)
     }
 
     /// From the light at the horizon to that at the zenith.
-    pub const fn gradient(horizon: Vec3, zenith: Vec3) -> Background {
+    pub const fn gradient(horizon: Vec3A, zenith: Vec3A) -> Background {
         Background { horizon, zenith, glow: Glow::NONE }
     }
 }
@@ -188,7 +196,7 @@ pub struct World {
     /// The lights, at most [`World::MAX_LIGHTS`].
     pub lights: Vec<Light>,
     /// Light that reaches every point from everywhere.
-    pub ambient: Vec3,
+    pub ambient: Vec3A,
     /// What lies behind the bodies.
     pub background: Background,
     /// Number of rays in the longest path: 1 for eye rays alone, 2 with one reflection or refraction, and so on.
@@ -203,8 +211,8 @@ impl World {
     pub const EMPTY: World = World {
         objects: Vec::new(),
         lights: Vec::new(),
-        ambient: Vec3::ZERO,
-        background: Background::even(Vec3::ZERO),
+        ambient: Vec3A::ZERO,
+        background: Background::even(Vec3A::ZERO),
         max_level: 5,
     };
 

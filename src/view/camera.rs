@@ -4,7 +4,8 @@
 
 use crate::angle;
 use crate::cuts;
-use glam::Vec3;
+use crate::vector::{cross, unit};
+use glam::Vec3A;
 
 /// A pinhole camera.
 ///
@@ -13,13 +14,13 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     /// Where rays start, metres.
-    pub eye: Vec3,
+    pub eye: Vec3A,
     /// Unit vector along the view axis.
-    pub forward: Vec3,
+    pub forward: Vec3A,
     /// Direction to the right of the picture, as long as half of its height is at a distance of one metre.
-    pub right: Vec3,
+    pub right: Vec3A,
     /// Direction to the top of the picture, as long as `right`.
-    pub up: Vec3,
+    pub up: Vec3A,
     /// How far the picture is shifted to the right of the view axis, halves of its height: 0 but for the two eyes of a
     /// stereo pair.
     pub shift: f32,
@@ -62,11 +63,11 @@ impl Camera {
     ///
     /// The axes are never degenerate: where `eye` equals `target` the camera looks along -z, and where it looks
     /// straight down (up) the top of its picture is towards -z (+z).
-    pub fn look_at(eye: Vec3, target: Vec3, fov: f32, roll: f32) -> Camera {
-        let forward = (target - eye).try_normalize().unwrap_or(Vec3::NEG_Z);
-        let side = forward.cross(Vec3::Y);
-        let right = if side.length_squared() > 1e-12 { side.normalize() } else { Vec3::X };
-        let up = right.cross(forward);
+    pub fn look_at(eye: Vec3A, target: Vec3A, fov: f32, roll: f32) -> Camera {
+        let forward = (target - eye).try_normalize().unwrap_or(Vec3A::NEG_Z);
+        let side = cross(forward, Vec3A::Y);
+        let right = if side.length_squared() > 1e-12 { unit(side) } else { Vec3A::X };
+        let up = cross(right, forward);
         let scale = angle::tan(0.5 * fov);
         let (sin, cos) = angle::sin_cos(roll);
         Camera {

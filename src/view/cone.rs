@@ -1,13 +1,13 @@
 //! The cone of eye rays through a rectangle of the picture.
 
 use super::View;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A cone with its apex at the eye that holds every ray through a rectangle of pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     /// Unit vector along the axis.
-    axis: Vec3,
+    axis: Vec3A,
     /// Cosine and sine of the half angle.
     cosine: f32,
     sine: f32,
@@ -28,7 +28,7 @@ impl Cone {
 
     /// Whether a ray of the cone may meet a ball: its centre from the eye, and its radius, metres. Never false where one
     /// does: the ball is taken a thousandth larger, and farther, than it is.
-    pub fn may_meet(&self, centre: Vec3, radius: f32) -> bool {
+    pub fn may_meet(&self, centre: Vec3A, radius: f32) -> bool {
         let along = centre.dot(self.axis);
         let across = centre.distance(self.axis * along);
         // How far the centre lies outside of the cone, unless it is behind the eye. A tile that is much larger than its
@@ -49,7 +49,7 @@ mod tests {
     fn what_a_ray_meets_may_be_met() {
         const HALF: f32 = 32.0;
         for (width, height) in [(640, 360), (97, 55), (31, 17), (3, 129), (1, 1)] {
-            let camera = Camera::look_at(Vec3::new(3.0, 2.0, 1.0), Vec3::ZERO, 1.1, 0.2);
+            let camera = Camera::look_at(Vec3A::new(3.0, 2.0, 1.0), Vec3A::ZERO, 1.1, 0.2);
             let view = View::new(camera, width, height);
             let cone = Cone::new(&view, (HALF, HALF), HALF);
             for pixel in 0..64 * 64 {

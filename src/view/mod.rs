@@ -16,8 +16,9 @@ pub use pose::Pose;
 
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::to_f32;
+use crate::vector::unit;
 use fearless_simd::prelude::*;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A camera and the size of its picture.
 #[derive(Clone, Copy, Debug)]
@@ -67,12 +68,12 @@ impl View {
     }
 
     /// Unit normals, to the inside, of the planes through the eye and the picture's left, right, lower and upper edges.
-    pub fn sides(&self) -> [Vec3; 4] {
+    pub fn sides(&self) -> [Vec3A; 4] {
         let c = &self.camera;
         let aspect = self.half.0 + c.shift;
-        let side = |across: Vec3, most: f32| {
+        let side = |across: Vec3A, most: f32| {
             let length = across.length();
-            (across / length + c.forward * (most * length)).normalize()
+            unit(across / length + c.forward * (most * length))
         };
         [side(c.right, aspect - c.shift), side(-c.right, aspect + c.shift), side(c.up, 1.0), side(-c.up, 1.0)]
     }
@@ -88,19 +89,19 @@ impl View {
 
     /// The unit direction of the eye ray through one point of the picture.
     #[inline(never)] // Five calls make a cone: 0.2 kB packed.
-    pub fn direction(&self, x: f32, y: f32) -> Vec3 {
-        self.ray(x, y).normalize()
+    pub fn direction(&self, x: f32, y: f32) -> Vec3A {
+        unit(self.ray(x, y))
     }
 
     /// The unnormalised eye ray through one point of the picture.
-    pub fn ray(&self, x: f32, y: f32) -> Vec3 {
+    pub fn ray(&self, x: f32, y: f32) -> Vec3A {
         let c = &self.camera;
         c.forward + c.right * (x * self.pixel - self.half.0) + c.up * (self.half.1 - y * self.pixel)
     }
 
     /// Where a point in space appears, in pixels, and the pixels that a metre takes there; none behind the eye.
     /// Places out of the picture are given too.
-    pub fn project(&self, p: Vec3) -> Option<(f32, f32, f32)> {
+    pub fn project(&self, p: Vec3A) -> Option<(f32, f32, f32)> {
         let c = &self.camera;
         let q = p - c.eye;
         let depth = q.dot(c.forward);

@@ -1,7 +1,8 @@
 //! Where a camera stands and how it is turned, as numbers that a person can read and write.
 
 use super::Camera;
-use glam::{DVec3, Mat3, Vec3};
+use crate::vector::unit;
+use glam::{DVec3, Mat3A, Vec3A};
 
 /// Place, angles and field of view of a camera. Angles are in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +25,7 @@ impl Pose {
     pub fn of(camera: &Camera) -> Pose {
         let Camera { eye, forward, right, up, .. } = *camera;
         let scale = right.length() as f64;
-        let (heading, pitch, roll) = angles(right.normalize(), up.normalize(), forward);
+        let (heading, pitch, roll) = angles(unit(right), unit(up), forward);
         Pose { eye: eye.as_dvec3(), heading, pitch, roll, fov: (2.0 * scale.atan()).to_degrees() }
     }
 
@@ -33,7 +34,7 @@ impl Pose {
         let scale = (0.5 * self.fov.to_radians()).tan() as f32;
         let turn = self.turn();
         Camera {
-            eye: self.eye.as_vec3(),
+            eye: self.eye.as_vec3a(),
             forward: -turn.z_axis,
             right: turn.x_axis * scale,
             up: turn.y_axis * scale,
@@ -42,7 +43,7 @@ impl Pose {
     }
 
     /// The turn of something that looks along this pose: from axes to the right, up and astern.
-    pub fn turn(&self) -> Mat3 {
+    pub fn turn(&self) -> Mat3A {
         let [heading, pitch, roll] = [self.heading, self.pitch, self.roll].map(f64::to_radians);
         let (sin, cos) = heading.sin_cos();
         let forward = DVec3::new(sin * pitch.cos(), pitch.sin(), -cos * pitch.cos());
@@ -50,18 +51,18 @@ impl Pose {
         let above = level.cross(forward);
         let (sin, cos) = roll.sin_cos();
         let (right, up) = (level * cos + above * sin, above * cos - level * sin);
-        Mat3::from_cols(right.as_vec3(), up.as_vec3(), -forward.as_vec3())
+        Mat3A::from_cols(right.as_vec3a(), up.as_vec3a(), -forward.as_vec3a())
     }
 
     /// The pose of something at `place`, metres, that is turned like that, with a field of view in degrees.
-    pub fn turned(place: Vec3, turn: Mat3, fov: f64) -> Pose {
+    pub fn turned(place: Vec3A, turn: Mat3A, fov: f64) -> Pose {
         let (heading, pitch, roll) = angles(turn.x_axis, turn.y_axis, -turn.z_axis);
         Pose { eye: place.as_dvec3(), heading, pitch, roll, fov }
     }
 }
 
 /// Heading, pitch and roll, degrees, of three unit vectors.
-fn angles(right: Vec3, up: Vec3, forward: Vec3) -> (f64, f64, f64) {
+fn angles(right: Vec3A, up: Vec3A, forward: Vec3A) -> (f64, f64, f64) {
     let [right, up, forward] = [right, up, forward].map(|v| v.as_dvec3());
     let pitch = forward.y.clamp(-1.0, 1.0).asin();
     let heading = if forward.x.hypot(forward.z) > 1e-6 { forward.x.atan2(-forward.z) } else { 0.0 };
@@ -87,7 +88,7 @@ mod tests {
                 assert!((a - b).abs() < 1e-3, "{pose:?} {same:?}");
             }
             let [h, p] = [heading, pitch].map(|angle: f64| angle.to_radians() as f32);
-            let ahead = Vec3::new(h.sin() * p.cos(), p.sin(), -h.cos() * p.cos());
+            let ahead = Vec3A::new(h.sin() * p.cos(), p.sin(), -h.cos() * p.cos());
             let look = Camera::look_at(camera.eye, camera.eye + ahead, 50f32.to_radians(), (roll as f32).to_radians());
             assert!((look.right - camera.right).length() < 1e-4, "{pose:?} {look:?} {camera:?}");
             assert!((look.up - camera.up).length() < 1e-4 && (look.forward - camera.forward).length() < 1e-4);

@@ -1,7 +1,7 @@
 //! Clouds in a tile: solids before, in and behind them, cells of pixels, and one cloud before another.
 
 use fearless_simd::Level;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{Cloud, CloudLayer, CloudLight};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::scenes;
@@ -16,7 +16,7 @@ use testkit::voxels::{DAY, FURNACE, ball, cloud, filled, span, truth};
 const EXACT: f64 = 3e-5;
 
 fn view() -> View {
-    View::new(Camera::look_at(vec3(0.0, 0.0, 3.0), Vec3::ZERO, 0.9, 0.0), 64, 64)
+    View::new(Camera::look_at(vec3a(0.0, 0.0, 3.0), Vec3A::ZERO, 0.9, 0.0), 64, 64)
 }
 
 /// Every pixel, nothing left out.
@@ -56,7 +56,7 @@ fn thin_clouds_far_away_show_the_air() {
     for extinction in [1e-12, 1e-9, 1e-7, 1e-5, 1e-3, 1.0f32] {
         let clouds = vec![cloud(filled(32, |_| 255), extinction)];
         // The air has the light 1 too, so its share does not matter.
-        let layer = CloudLayer::new(clouds, FURNACE, &view(), &exact()).in_air(2.0, |_| Vec3::ONE);
+        let layer = CloudLayer::new(clouds, FURNACE, &view(), &exact()).in_air(2.0, |_| Vec3A::ONE);
         let mut tile = Tile::at(0, 0, 64, 64);
         layer.draw(Level::new(), &mut tile);
         // Through the pixels in the middle the way is 2, but for a hundredth of a degree's cosine.
@@ -90,7 +90,7 @@ fn solids_end_rays_by_their_depth() {
         let ray = view().ray((at % 64) as f32 + 0.5, (at / 64) as f32 + 0.5).as_dvec3();
         let (covers, depth) = solid(at);
         let (covers, length) = (covers as f64, ray.length());
-        let (entry, exit) = span(vec3(0.0, 0.0, 3.0).as_dvec3(), ray / length).unwrap_or((0.0, 0.0));
+        let (entry, exit) = span(vec3a(0.0, 0.0, 3.0).as_dvec3(), ray / length).unwrap_or((0.0, 0.0));
         let [behind, before] =
             [exit, exit.min(depth as f64 * length)].map(|end| (-EXTINCTION as f64 * (end - entry).max(0.0)).exp());
         seen += (before > behind && before < 1.0 && covers > 0.0) as u32;
@@ -112,7 +112,7 @@ fn solids_end_rays_by_their_depth() {
 #[test]
 fn clouds_hide_each_other_in_any_order() {
     let at = |z: f32, x: f32, extinction: f32| Cloud {
-        centre: vec3(x, 0.1, z),
+        centre: vec3a(x, 0.1, z),
         size: 0.6,
         ..cloud(ball(32, 3.0), extinction)
     };
@@ -129,10 +129,10 @@ fn clouds_hide_each_other_in_any_order() {
         let d = view().ray((at % 64) as f32 + 0.5, (at / 64) as f32 + 0.5).normalize();
         let (mut light, mut left) = (glam::DVec3::ZERO, 1.0);
         for cloud in &clouds {
-            let (own, passes) = truth(cloud, &DAY, vec3(0.0, 0.0, 3.0), d, 100);
+            let (own, passes) = truth(cloud, &DAY, vec3a(0.0, 0.0, 3.0), d, 100);
             (light, left) = (light + own * left, left * passes);
         }
-        let error = (vec3(found.red[at], found.green[at], found.blue[at]).as_dvec3() - light).abs().max_element();
+        let error = (vec3a(found.red[at], found.green[at], found.blue[at]).as_dvec3() - light).abs().max_element();
         assert!(
             error < EXACT && (found.coverage[at] as f64 - 1.0 + left).abs() < EXACT,
             "pixel {at}: off by {error:.1e}"
@@ -203,11 +203,11 @@ fn fast_is_close_to_exact_at_the_size_that_is_played() {
 
 fn levels_agree(settings: CloudSettings) {
     let clouds =
-        || vec![cloud(ball(32, 4.0), 5.0), Cloud { centre: vec3(0.5, 0.5, -1.0), ..cloud(ball(16, 2.0), 3.0) }];
+        || vec![cloud(ball(32, 4.0), 5.0), Cloud { centre: vec3a(0.5, 0.5, -1.0), ..cloud(ball(16, 2.0), 3.0) }];
     let mut first = None;
     for (name, level) in levels() {
         let layer = CloudLayer::new(clouds(), DAY, &view(), &CloudSettings { steps: 100, ..settings })
-            .in_air(100.0, |_| Vec3::ONE);
+            .in_air(100.0, |_| Vec3A::ONE);
         let mut tile = Tile::at(0, 0, 64, 50);
         for at in 0..Tile::AREA {
             tile.coverage[at] = (at % 3) as f32 * 0.5;

@@ -1,7 +1,7 @@
 //! What grows, and what the sun lights of it.
 
 use fearless_simd::{Level, dispatch};
-use glam::vec3;
+use glam::vec3a;
 use paprsek::cloud::{CloudKind, sunlight};
 use paprsek::scenes::bench::cumulus_set::{shape, sun};
 use testkit::levels;
@@ -42,7 +42,7 @@ fn the_sweep_s_light_is_that_of_a_ray_a_voxel() {
         let mut voxels = dispatch!(Level::new(), simd => CloudKind::grow(simd, kind, 0, 64));
         let full = voxels.density().iter().filter(|density| **density > 0).count();
         assert!((8_000..180_000).contains(&full), "{full} voxels of {kind:?}");
-        for towards in [vec3(0.6, 0.55, 0.45), vec3(-0.3, 0.9, 0.1), vec3(0.2, 0.05, -0.97), vec3(0.0, 1.0, 0.0)] {
+        for towards in [vec3a(0.6, 0.55, 0.45), vec3a(-0.3, 0.9, 0.1), vec3a(0.2, 0.05, -0.97), vec3a(0.0, 1.0, 0.0)] {
             let towards = towards.normalize();
             dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, towards, 20.0));
             let (mut sum, mut worst, mut count) = (0.0, 0.0f64, 0.0);
@@ -70,7 +70,7 @@ fn a_slab_s_light_is_exact() {
     for axis in 0..3 {
         for sign in [-1.0, 1.0] {
             let mut voxels = testkit::voxels::filled(64, |place| (place[axis] * 4) as u8);
-            let mut towards = glam::Vec3::ZERO;
+            let mut towards = glam::Vec3A::ZERO;
             towards[axis] = sign;
             dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, towards, 20.0));
             for i in 0..64 {
@@ -91,7 +91,7 @@ fn every_level_grows_and_lights_the_same_bytes() {
         let mut first = None;
         for (name, level) in levels() {
             let mut voxels = dispatch!(level, simd => CloudKind::grow(simd, kind, seed, 32));
-            dispatch!(level, simd => sunlight::bake(simd, &mut voxels, vec3(0.4, 0.3, -0.7).normalize(), 20.0));
+            dispatch!(level, simd => sunlight::bake(simd, &mut voxels, vec3a(0.4, 0.3, -0.7).normalize(), 20.0));
             let found = (voxels.density().to_vec(), voxels.light().to_vec());
             assert!(*first.get_or_insert_with(|| found.clone()) == found, "{kind:?} at {name}");
         }

@@ -1,7 +1,7 @@
 //! One cloud, ray by ray.
 
 use fearless_simd::{Level, dispatch};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::grain;
 use paprsek::cloud::{CloudKind, Voxels, sunlight};
 use proptest::prelude::*;
@@ -26,10 +26,10 @@ fn grown(kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
 #[test]
 fn a_homogeneous_cloud_follows_beer_and_lambert() {
     let rays = [
-        (vec3(0.0, 0.0, 5.0), Vec3::NEG_Z, 2.0),
-        (Vec3::ZERO, Vec3::X, 1.0),
-        (Vec3::splat(-3.0), Vec3::ONE.normalize(), 12f32.sqrt()),
-        (vec3(0.25, 0.5, 0.0), Vec3::NEG_Y, 1.5),
+        (vec3a(0.0, 0.0, 5.0), Vec3A::NEG_Z, 2.0),
+        (Vec3A::ZERO, Vec3A::X, 1.0),
+        (Vec3A::splat(-3.0), Vec3A::ONE.normalize(), 12f32.sqrt()),
+        (vec3a(0.25, 0.5, 0.0), Vec3A::NEG_Y, 1.5),
     ];
     let (mut worst, mut relative) = (0.0f64, 0.0f64);
     for extinction in [0.0, 1e-30, 1e-7, 1e-3, 0.1, 1.0, 2.5, 10.0, 100.0, 1000.0] {
@@ -62,7 +62,7 @@ fn a_homogeneous_cloud_follows_beer_and_lambert() {
 fn thin_clouds_hide_what_they_should() {
     // Each step's product and sum may round, and the length of the way.
     const THIN: f64 = 2e-5;
-    let (eye, d) = (vec3(0.25, 0.5, 4.0), vec3(-0.05, 0.1, -1.0).normalize());
+    let (eye, d) = (vec3a(0.25, 0.5, 4.0), vec3a(-0.05, 0.1, -1.0).normalize());
     let (entry, exit) = span(eye.as_dvec3(), d.as_dvec3()).expect("the ray meets the cube");
     let mut worst = 0.0f64;
     for k in 0..=130 {
@@ -88,7 +88,8 @@ fn a_ray_ends_where_too_little_comes_through() {
     for extinction in [10.0, 100.0, 1000.0] {
         let cloud = cloud(filled(32, |_| 255), extinction);
         let cut = [100.0, 1.0 / 256.0];
-        let (light, left) = rays(Level::new(), &cloud, &FURNACE, vec3(0.0, 0.0, 3.0), &[Vec3::NEG_Z; 16], 9.0, cut)[0];
+        let (light, left) =
+            rays(Level::new(), &cloud, &FURNACE, vec3a(0.0, 0.0, 3.0), &[Vec3A::NEG_Z; 16], 9.0, cut)[0];
         // Not before the share is reached, and a step behind that at the latest.
         let step = (-extinction / 50.0).exp();
         assert!(left < 1.0 / 256.0 && left as f64 > 0.99 * step as f64 / 256.0 - ROUNDING, "{left}");
@@ -101,10 +102,10 @@ fn a_linear_ramp_is_exact_between_centres_of_voxels() {
     // Density 8 i at the i-th of 32 points along an axis: linear between the first centre and the last.
     for axis in 0..3 {
         let cloud = cloud(filled(32, |place| 8 * place[axis] as u8), 1.0);
-        let mut eye = vec3(0.1, 0.2, 0.3);
+        let mut eye = vec3a(0.1, 0.2, 0.3);
         eye[axis] = -1.0 + 0.5 / 16.0;
         for voxels in [4.0, 10.0, 31.0] {
-            let d = Vec3::AXES[axis];
+            let d = Vec3A::AXES[axis];
             let (_, left) = ray(&cloud, &FURNACE, eye, d, voxels / 16.0, 2.0 * voxels);
             // The mean density of the way is half of that at its end.
             let exact = (-(voxels as f64) / 16.0 * 4.0 * voxels as f64 / 255.0).exp();
@@ -120,9 +121,9 @@ fn a_gaussian_is_met_to_a_ten_thousandth() {
     let cloud = cloud(ball(voxels, narrow), extinction);
     let (mut worst, mut formula) = (0.0f64, 0.0f64);
     for (x, y) in [(0.0, 0.0), (0.1, -0.2), (0.33, 0.21), (-0.4, 0.4)] {
-        let eye = vec3(x, y, 4.0);
-        let (_, left) = ray(&cloud, &FURNACE, eye, Vec3::NEG_Z, FOREVER, 64.0);
-        let (_, exact) = truth(&cloud, &FURNACE, eye, Vec3::NEG_Z, 6400);
+        let eye = vec3a(x, y, 4.0);
+        let (_, left) = ray(&cloud, &FURNACE, eye, Vec3A::NEG_Z, FOREVER, 64.0);
+        let (_, exact) = truth(&cloud, &FURNACE, eye, Vec3A::NEG_Z, 6400);
         worst = worst.max((left as f64 - exact).abs() / exact);
         // The integral over all z, of which the cube holds all but a thousandth.
         let r2 = (x * x + y * y) as f64;
@@ -155,7 +156,7 @@ fn half_the_step_makes_a_quarter_of_the_error() {
 #[test]
 fn it_is_what_f64_says() {
     let mut voxels = grown(&CloudKind::CUMULUS, 3, 64);
-    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3(0.6, 0.5, 0.3).normalize(), 20.0));
+    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3a(0.6, 0.5, 0.3).normalize(), 20.0));
     let cloud = cloud(voxels, 20.0);
     let mut worst = 0.0f64;
     for k in 0..1000 {
@@ -172,7 +173,7 @@ fn it_is_what_f64_says() {
 #[test]
 fn detail_is_what_f64_says() {
     let mut voxels = grown(&CloudKind::CUMULUS.with_rise(0.05), 3, 96);
-    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3(0.6, 0.5, 0.3).normalize(), 20.0));
+    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3a(0.6, 0.5, 0.3).normalize(), 20.0));
     let cloud = cloud(voxels, 20.0);
     let table = grain::table();
     // Its mean is about 0, and it uses its range.
@@ -263,10 +264,10 @@ fn leaps_leave_nothing_out() {
     for k in 0..60usize {
         let needle = [(k * 7) % 32, (k * 11) % 32, (k * 13) % 32];
         let cloud = cloud(filled(32, |place| if place == needle { 255 } else { 0 }), 50.0);
-        let target = Vec3::from(needle.map(|i| (i as f32 + 0.5) / 16.0 - 1.0));
+        let target = Vec3A::from(needle.map(|i| (i as f32 + 0.5) / 16.0 - 1.0));
         for side in 0..20 {
             let a = side as f32;
-            let eye = target + vec3((a * 2.1).sin(), (a * 1.3).cos(), (a * 0.7).sin()).normalize() * 4.0;
+            let eye = target + vec3a((a * 2.1).sin(), (a * 1.3).cos(), (a * 0.7).sin()).normalize() * 4.0;
             let d = (target - eye).normalize();
             let (light, left) = ray(&cloud, &DAY, eye, d, FOREVER, 100.0);
             let (exact, exact_left) = truth(&cloud, &DAY, eye, d, 100);
@@ -286,12 +287,12 @@ fn what_is_written_later_is_seen() {
     let mut written = early.clone();
     written.set_density(late.density().to_vec());
     // Density falls from 1 at the voxel's middle to 0 at those of its neighbours, along each axis.
-    let bounds = |at: f32| [at - 0.5, at + 1.5].map(|at| Vec3::splat(at / 16.0 - 1.0));
+    let bounds = |at: f32| [at - 0.5, at + 1.5].map(|at| Vec3A::splat(at / 16.0 - 1.0));
     assert_eq!((early.bounds(), late.bounds()), (bounds(3.0), bounds(25.0)));
     assert_eq!((written.reach(), written.bounds()), (late.reach(), late.bounds()));
     assert_eq!(late.reach(), late.bounds()[1].length());
-    let target = Vec3::splat(25.5 / 16.0 - 1.0);
-    let (eye, d) = (target + Vec3::Y * 4.0, Vec3::NEG_Y);
+    let target = Vec3A::splat(25.5 / 16.0 - 1.0);
+    let (eye, d) = (target + Vec3A::Y * 4.0, Vec3A::NEG_Y);
     let [early, late, written] = [early, late, written].map(|voxels| cloud(voxels, 50.0));
     let [early, late, written] = [&early, &late, &written].map(|cloud| ray(cloud, &FURNACE, eye, d, FOREVER, 100.0));
     assert!(early.1 == 1.0 && late.1 < 0.9, "{early:?} {late:?}");
@@ -306,31 +307,31 @@ fn emptiness_hides_nothing() {
     assert!(low.cmpgt(high).all(), "{low} {high}");
     for k in 0..100 {
         let (eye, d) = aim(k);
-        assert_eq!(ray(&empty, &DAY, eye, d, FOREVER, 100.0), (Vec3::ZERO, 1.0));
+        assert_eq!(ray(&empty, &DAY, eye, d, FOREVER, 100.0), (Vec3A::ZERO, 1.0));
     }
 }
 
 #[test]
 fn cameras_in_awkward_places_see_what_they_should() {
     let solid = cloud(filled(32, |_| 255), 1.0);
-    let diagonal = Vec3::ONE.normalize();
+    let diagonal = Vec3A::ONE.normalize();
     let s = 1.0 - 1e-6;
     let cases = [
-        ("behind", vec3(0.0, 0.0, 2.0), Vec3::Z, 0.0),
-        ("on a face, inwards", Vec3::Z, Vec3::NEG_Z, 2.0),
-        ("on a face, outwards", Vec3::Z, Vec3::Z, 0.0),
-        ("on an edge, inwards", vec3(1.0, 0.0, 1.0), vec3(-1.0, 0.0, -1.0).normalize(), 8f64.sqrt()),
-        ("on an edge, outwards", vec3(1.0, 0.0, 1.0), vec3(1.0, 0.0, 1.0).normalize(), 0.0),
-        ("on a corner, inwards", Vec3::ONE, -diagonal, 12f64.sqrt()),
-        ("on a corner, outwards", Vec3::ONE, diagonal, 0.0),
-        ("in the middle", Vec3::ZERO, Vec3::Y, 1.0),
-        ("just inside of an edge, along it", vec3(2.0, s, s), Vec3::NEG_X, 2.0),
-        ("just past it", vec3(2.0, 1.0 + 1e-5, 0.0), Vec3::NEG_X, 0.0),
-        ("across a corner, a sliver", vec3(1.0, 0.999, 0.0), vec3(-1.0, 1.0, 0.0).normalize(), 0.001 * 2f64.sqrt()),
-        ("negative zeros", vec3(-0.0, -0.0, 3.0), vec3(-0.0, -0.0, -1.0), 2.0),
-        ("denormal slopes", vec3(0.5, -0.5, 3.0), vec3(1e-42, -1e-42, -1.0), 2.0),
-        ("denormal slopes on a face", vec3(0.5, -1.0, 3.0), vec3(1e-42, 1e-42, -1.0), 2.0),
-        ("far away", vec3(0.0, 0.0, 1024.0), Vec3::NEG_Z, 2.0),
+        ("behind", vec3a(0.0, 0.0, 2.0), Vec3A::Z, 0.0),
+        ("on a face, inwards", Vec3A::Z, Vec3A::NEG_Z, 2.0),
+        ("on a face, outwards", Vec3A::Z, Vec3A::Z, 0.0),
+        ("on an edge, inwards", vec3a(1.0, 0.0, 1.0), vec3a(-1.0, 0.0, -1.0).normalize(), 8f64.sqrt()),
+        ("on an edge, outwards", vec3a(1.0, 0.0, 1.0), vec3a(1.0, 0.0, 1.0).normalize(), 0.0),
+        ("on a corner, inwards", Vec3A::ONE, -diagonal, 12f64.sqrt()),
+        ("on a corner, outwards", Vec3A::ONE, diagonal, 0.0),
+        ("in the middle", Vec3A::ZERO, Vec3A::Y, 1.0),
+        ("just inside of an edge, along it", vec3a(2.0, s, s), Vec3A::NEG_X, 2.0),
+        ("just past it", vec3a(2.0, 1.0 + 1e-5, 0.0), Vec3A::NEG_X, 0.0),
+        ("across a corner, a sliver", vec3a(1.0, 0.999, 0.0), vec3a(-1.0, 1.0, 0.0).normalize(), 0.001 * 2f64.sqrt()),
+        ("negative zeros", vec3a(-0.0, -0.0, 3.0), vec3a(-0.0, -0.0, -1.0), 2.0),
+        ("denormal slopes", vec3a(0.5, -0.5, 3.0), vec3a(1e-42, -1e-42, -1.0), 2.0),
+        ("denormal slopes on a face", vec3a(0.5, -1.0, 3.0), vec3a(1e-42, 1e-42, -1.0), 2.0),
+        ("far away", vec3a(0.0, 0.0, 1024.0), Vec3A::NEG_Z, 2.0),
     ];
     for (name, eye, d, length) in cases {
         let (light, left) = ray(&solid, &FURNACE, eye, d, FOREVER, 100.0);
@@ -340,7 +341,7 @@ fn cameras_in_awkward_places_see_what_they_should() {
     }
     // What runs in a face or an edge is in the cloud or is not, and nothing else.
     for sides in [[1.0, 0.3], [-1.0, 0.3], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]] {
-        let (_, left) = ray(&solid, &FURNACE, vec3(sides[0], sides[1], 3.0), Vec3::NEG_Z, FOREVER, 100.0);
+        let (_, left) = ray(&solid, &FURNACE, vec3a(sides[0], sides[1], 3.0), Vec3A::NEG_Z, FOREVER, 100.0);
         let inside = (left as f64 - (-2f64).exp()).abs() < PLACES;
         assert!(inside || left == 1.0, "{sides:?}: {left}");
     }
@@ -356,14 +357,14 @@ proptest! {
         extinction in prop_oneof![Just(0.0), 0f32..1000.0, 1e-8f32..1e-3],
         limit in prop_oneof![Just(FOREVER), Just(0.0), 0f32..5.0],
     ) {
-        let (eye, d) = (Vec3::from(eye), Vec3::from(d).normalize_or(Vec3::Z));
+        let (eye, d) = (Vec3A::from(eye), Vec3A::from(d).normalize_or(Vec3A::Z));
         let solid = cloud(filled(8, |[i, j, l]| (i * 31 + j * 17 + l * 7) as u8), extinction);
         let (light, left) = ray(&solid, &FURNACE, eye, d, limit, 100.0);
         prop_assert!((0.0..=1.0).contains(&left), "transmittance {}", left);
         prop_assert!((light.x + left - 1.0).abs() < 1e-5, "{} and {}", light.x, left);
         if limit == FOREVER && span(eye.as_dvec3(), d.as_dvec3()).is_none_or(|(entry, exit)| exit - entry < 1e-6) {
             // In a face either is right.
-            prop_assert!(left > 0.99 || eye.abs().cmpeq(Vec3::ONE).any(), "it misses, but {} is left", left);
+            prop_assert!(left > 0.99 || eye.abs().cmpeq(Vec3A::ONE).any(), "it misses, but {} is left", left);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Sines, cosines, tangents and turns of single numbers: correctly rounded, also far from zero and beside the zeros.
 
-use glam::{Mat3, Vec3};
+use glam::{Mat3A, Vec3A};
 use paprsek::angle::{sin, sin_cos, tan, turn_x, turn_y, turn_z};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -65,16 +65,16 @@ fn what_is_no_angle_gives_nan() {
 #[test]
 fn turns_lead_from_axis_to_axis() {
     for (turn, axis, from, to) in [
-        (turn_x as fn(f32) -> Mat3, Vec3::X, Vec3::Y, Vec3::Z),
-        (turn_y, Vec3::Y, Vec3::Z, Vec3::X),
-        (turn_z, Vec3::Z, Vec3::X, Vec3::Y),
+        (turn_x as fn(f32) -> Mat3A, Vec3A::X, Vec3A::Y, Vec3A::Z),
+        (turn_y, Vec3A::Y, Vec3A::Z, Vec3A::X),
+        (turn_z, Vec3A::Z, Vec3A::X, Vec3A::Y),
     ] {
         assert!((turn(FRAC_PI_2) * from).distance(to) < 1e-7);
         for x in [-7.0, -0.3, 0.0, 1e-3, 0.5, 2.0, 100.0] {
             assert_eq!(turn(x) * axis, axis);
             assert!((turn(x).determinant() - 1.0).abs() < 3e-7);
-            assert!((turn(x) * turn(-x)).abs_diff_eq(Mat3::IDENTITY, 3e-7));
-            assert!(turn(x).abs_diff_eq(Mat3::from_axis_angle(axis, x), 3e-7));
+            assert!((turn(x) * turn(-x)).abs_diff_eq(Mat3A::IDENTITY, 3e-7));
+            assert!(turn(x).abs_diff_eq(Mat3A::from_axis_angle(axis.into(), x), 3e-7));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Fog against Beer and Lambert's law in f64.
 
 use fearless_simd::Level;
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::effects::{Fog, FogLayer};
 use paprsek::frame::{Layer, Tile};
 use paprsek::view::Camera;
@@ -11,11 +11,11 @@ use testkit::random::Random;
 const SIZE: [usize; 2] = [150, 100];
 
 fn camera() -> Camera {
-    Camera::look_at(vec3(3.0, 2.0, -1.0), vec3(4.0, 2.7, 5.0), 0.9, 0.1)
+    Camera::look_at(vec3a(3.0, 2.0, -1.0), vec3a(4.0, 2.7, 5.0), 0.9, 0.1)
 }
 
 fn fog(density: f32, end: f32) -> Fog {
-    let light = vec3(0.5, 0.6, 0.8);
+    let light = vec3a(0.5, 0.6, 0.8);
     Fog { light, density, end }
 }
 
@@ -69,7 +69,7 @@ fn light_fades_into_fog_by_distance() {
                 let solid = through(ray.length() / before.inv_depth[at] as f64);
                 let clear = covered * solid + (1.0 - covered) * through(f64::INFINITY);
                 let light = fog.light.as_dvec3();
-                let of = |tile: &Tile| Vec3::new(tile.red[at], tile.green[at], tile.blue[at]).as_dvec3();
+                let of = |tile: &Tile| Vec3A::new(tile.red[at], tile.green[at], tile.blue[at]).as_dvec3();
                 let truth: DVec3 = of(&before) * clear + light * (1.0 - clear);
                 let gap = (of(&found) - truth).abs().max_element();
                 assert!(gap <= EXACT, "{density} a metre, ({x}, {y}): off by {gap}");
@@ -100,7 +100,7 @@ fn every_level_gives_the_same_bits() {
 /// Nothing is darker behind more fog of a light that is brighter than all, and nothing is lighter than that.
 #[test]
 fn more_fog_is_nearer_to_its_light() {
-    let white = |density: f32| Fog { light: Vec3::splat(2.0), ..fog(density, 4e3) };
+    let white = |density: f32| Fog { light: Vec3A::splat(2.0), ..fog(density, 4e3) };
     let mut last = tile();
     for density in [1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 10.0] {
         let next = drawn(white(density), Level::new());

@@ -1,6 +1,6 @@
 //! What layers tell of themselves is what they do.
 
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::frame::inspect::Aspect;
 use paprsek::frame::probe::probe;
 use paprsek::frame::{Frame, Layer, Options, Renderer, Tile};
@@ -35,21 +35,21 @@ fn octaves_are_those_that_the_pixel_is_worth() {
     const OCTAVES: u32 = 6;
     let size = (150, 100);
     let pattern = Pattern::Clouds { octaves: OCTAVES };
-    let texture = Texture::new(pattern, Palette::Mix(Vec3::ZERO, Vec3::ONE), 1.0);
+    let texture = Texture::new(pattern, Palette::Mix(Vec3A::ZERO, Vec3A::ONE), 1.0);
     let mut renderer = Renderer::new(1).unwrap();
     for (height, worth) in [(10.0, 6), (40.0, 5), (80.0, 4), (200.0, 2), (600.0, 1), (5000.0, 0)] {
-        let camera = Camera::look_at(vec3(0.0, height, 0.0), Vec3::ZERO, 0.5, 0.0);
+        let camera = Camera::look_at(vec3a(0.0, height, 0.0), Vec3A::ZERO, 0.5, 0.0);
         let view = View::new(camera, size.0, size.1);
         // A pixel is 2 tan(fov / 2) / rows of the height long.
         let length = f64::from(height) * 2.0 * 0.25f64.tan() / size.1 as f64;
         assert_eq!((0..OCTAVES).filter(|k| length * 2f64.powi(*k as i32) < 4.0).count(), worth);
-        let ground = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
-        let world = World { ambient: Vec3::ONE, ..World::new(vec![Object::new(ground, Material::matte(texture))]) };
+        let ground = Shape::Plane { normal: Vec3A::Y, offset: 0.0 };
+        let world = World { ambient: Vec3A::ONE, ..World::new(vec![Object::new(ground, Material::matte(texture))]) };
         let far = 3.0 * height;
-        let mut mesh = triangles(&[[vec3(-far, 0.0, far), vec3(far, 0.0, far), vec3(0.0, 0.0, -far)]]);
+        let mut mesh = triangles(&[[vec3a(-far, 0.0, far), vec3a(far, 0.0, far), vec3a(0.0, 0.0, -far)]]);
         mesh.paints[0].texture = Some(0);
         let drawn =
-            raster::World { textures: vec![texture], ambient: [Vec3::ONE; 2], ..raster::World::new(vec![body(mesh)]) };
+            raster::World { textures: vec![texture], ambient: [Vec3A::ONE; 2], ..raster::World::new(vec![body(mesh)]) };
         for (quality, worth) in [(Quality::DEFAULT, worth), (Quality::FAST, OCTAVES as usize)] {
             let mut layer = TraceLayer::new(world.clone(), &view, &quality.trace);
             layer.prepare(renderer.workers(), renderer.cache());
@@ -81,9 +81,9 @@ fn octaves_are_those_that_the_pixel_is_worth() {
 #[test]
 fn squares_are_small_along_the_outline_of_a_ball() {
     let (size, cell) = ((200, 130), Quality::DEFAULT.trace.cell as f32);
-    let camera = Camera::look_at(vec3(0.3, 0.2, 5.0), Vec3::ZERO, 0.8, 0.1);
-    let ball = Object::new(Shape::Sphere { center: Vec3::ZERO, radius: 1.0 }, Material::plain(Vec3::ONE));
-    let world = World { ambient: Vec3::ONE, ..World::new(vec![ball]) };
+    let camera = Camera::look_at(vec3a(0.3, 0.2, 5.0), Vec3A::ZERO, 0.8, 0.1);
+    let ball = Object::new(Shape::Sphere { center: Vec3A::ZERO, radius: 1.0 }, Material::plain(Vec3A::ONE));
+    let world = World { ambient: Vec3A::ONE, ..World::new(vec![ball]) };
     let renderer = Renderer::new(1).unwrap();
     let mut layer = TraceLayer::new(world, &View::new(camera, size.0, size.1), &Quality::DEFAULT.trace);
     layer.prepare(renderer.workers(), renderer.cache());

@@ -10,3 +10,4 @@ mod noise;
 mod renderers;
 mod stereo;
 mod timeline;
+mod vector;

@@ -1,7 +1,7 @@
 //! Noise against an independent one in f64, against what is known of it, and every SIMD level against the scalar.
 
 use fearless_simd::dispatch;
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::noise::{Footprint, Scratch, fbm, noise, noise_block, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
 use proptest::prelude::*;
@@ -25,8 +25,8 @@ impl Random {
         if self.next() < 0.5 { magnitude } else { -magnitude }
     }
 
-    fn within(&mut self, radius: f32) -> Vec3 {
-        Vec3::from_array([0; 3].map(|_| (self.next() as f32 * 2.0 - 1.0) * radius))
+    fn within(&mut self, radius: f32) -> Vec3A {
+        Vec3A::from_array([0; 3].map(|_| (self.next() as f32 * 2.0 - 1.0) * radius))
     }
 }
 
@@ -48,7 +48,7 @@ fn specials() -> Vec<f32> {
 fn agrees_with_the_published_value() {
     // Quoted for Perlin's reference code, in f64: the f32 coordinates themselves are off by 1e-7.
     assert!((exact([3.14, 42.0, 7.0]) - 0.13691995878400012).abs() < 1e-15);
-    assert!((noise(Vec3::new(3.14, 42.0, 7.0)) as f64 - 0.13691995878400012).abs() < TOLERANCE);
+    assert!((noise(Vec3A::new(3.14, 42.0, 7.0)) as f64 - 0.13691995878400012).abs() < TOLERANCE);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn agrees_with_exact_arithmetic() {
         }
     }
     for _ in 0..200_000 {
-        let p = Vec3::new(random.coordinate(), random.coordinate(), random.coordinate());
+        let p = Vec3A::new(random.coordinate(), random.coordinate(), random.coordinate());
         worst = worst.max((noise(p) as f64 - exact_at(p)).abs());
     }
     assert!(worst < TOLERANCE, "{worst:e}");
@@ -72,7 +72,7 @@ fn agrees_with_exact_arithmetic() {
 fn specials_agree_with_exact_arithmetic() {
     for &x in &specials() {
         for &y in &specials() {
-            let p = Vec3::new(x, y, 0.4);
+            let p = Vec3A::new(x, y, 0.4);
             // Beyond i64 the oracle's lattice saturates; all such floats are multiples of 256.
             let q = p.to_array().map(|x| if x.abs() >= 9.2e18 { 0.0 } else { x as f64 });
             assert!((noise(p) as f64 - exact(q)).abs() < TOLERANCE, "{p}");
@@ -83,7 +83,7 @@ fn specials_agree_with_exact_arithmetic() {
 #[test]
 fn vanishes_on_the_lattice() {
     for i in -300..300 {
-        let p = Vec3::new(i as f32, (i * 7 % 301) as f32, (i * 13 % 257) as f32);
+        let p = Vec3A::new(i as f32, (i * 7 % 301) as f32, (i * 13 % 257) as f32);
         assert_eq!(noise(p).to_bits(), 0, "{p}");
     }
 }
@@ -94,7 +94,7 @@ fn repeats_after_256() {
     for _ in 0..10_000 {
         // Multiples of 1/64, so that adding 256 is exact.
         let p = (random.within(256.0) * 64.0).floor() / 64.0;
-        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        for axis in [Vec3A::X, Vec3A::Y, Vec3A::Z] {
             assert_eq!(noise(p).to_bits(), noise(p + 256.0 * axis).to_bits(), "{p}");
         }
     }
@@ -105,13 +105,13 @@ fn is_continuous_across_cells() {
     for i in -260..260 {
         for (y, z) in [(0.3, 0.7), (-0.6, 12.1)] {
             let (x, y, z) = (i as f32, y, z);
-            let here = noise(Vec3::new(x, y, z));
+            let here = noise(Vec3A::new(x, y, z));
             for near in [x.next_up(), x.next_down()] {
                 // The slope is below 2.
                 let step = 2.0 * (near - x).abs() + 1e-6;
-                assert!((noise(Vec3::new(near, y, z)) - here).abs() < step, "{x}");
-                assert!((noise(Vec3::new(y, near, z)) - noise(Vec3::new(y, x, z))).abs() < step, "{x}");
-                assert!((noise(Vec3::new(y, z, near)) - noise(Vec3::new(y, z, x))).abs() < step, "{x}");
+                assert!((noise(Vec3A::new(near, y, z)) - here).abs() < step, "{x}");
+                assert!((noise(Vec3A::new(y, near, z)) - noise(Vec3A::new(y, x, z))).abs() < step, "{x}");
+                assert!((noise(Vec3A::new(y, z, near)) - noise(Vec3A::new(y, z, x))).abs() < step, "{x}");
             }
         }
     }
@@ -151,7 +151,7 @@ fn octaves_add_up() {
 #[test]
 fn not_numbers_are_survived() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        for p in [Vec3::new(bad, 0.5, 0.5), Vec3::new(0.5, bad, 0.5), Vec3::new(0.5, 0.5, bad), Vec3::splat(bad)] {
+        for p in [Vec3A::new(bad, 0.5, 0.5), Vec3A::new(0.5, bad, 0.5), Vec3A::new(0.5, 0.5, bad), Vec3A::splat(bad)] {
             assert!(noise(p).is_nan());
             fbm(p, 4);
             turbulence(p, 4);
@@ -160,12 +160,12 @@ fn not_numbers_are_survived() {
 }
 
 /// Every level against the scalar, bit by bit; NaN against any NaN.
-fn check_levels(points: &[Vec3; BLOCK]) {
+fn check_levels(points: &[Vec3A; BLOCK]) {
     let [mut x, mut y, mut z] = [[0.0; BLOCK]; 3];
     for (i, p) in points.iter().enumerate() {
         (x[i], y[i], z[i]) = (p.x, p.y, p.z);
     }
-    let same = |what: &str, level: &str, out: &[f32; BLOCK], truth: &dyn Fn(Vec3) -> f32| {
+    let same = |what: &str, level: &str, out: &[f32; BLOCK], truth: &dyn Fn(Vec3A) -> f32| {
         for (p, v) in points.iter().zip(out) {
             let t = truth(*p);
             assert!(t.to_bits() == v.to_bits() || t.is_nan() && v.is_nan(), "{what} {level} at {p}: {v:e} for {t:e}");
@@ -190,7 +190,7 @@ fn every_level_gives_the_same_bits() {
     for round in 0..3000 {
         check_levels(&core::array::from_fn(|_| match round % 3 {
             0 => random.within(300.0),
-            1 => Vec3::new(random.coordinate(), random.coordinate(), random.coordinate()),
+            1 => Vec3A::new(random.coordinate(), random.coordinate(), random.coordinate()),
             // Half cells: many ties and zeros.
             _ => random.within(20.0).floor() * 0.5,
         }));
@@ -207,7 +207,7 @@ fn every_level_gives_the_same_bits_of_specials() {
             check_levels(&core::array::from_fn(|k| {
                 i += 1;
                 let z = all[(i + k) % all.len()];
-                if k % 2 == 0 { Vec3::new(x, y, 0.3) } else { Vec3::new(y, 0.7, z) }
+                if k % 2 == 0 { Vec3A::new(x, y, 0.3) } else { Vec3A::new(y, 0.7, z) }
             }));
         }
     }
@@ -239,12 +239,12 @@ proptest! {
 
     #[test]
     fn any_bits_are_survived(bits: [[u32; 3]; BLOCK]) {
-        check_levels(&bits.map(|p| Vec3::from_array(p.map(f32::from_bits))));
+        check_levels(&bits.map(|p| Vec3A::from_array(p.map(f32::from_bits))));
     }
 }
 
 /// A unit vector of any direction.
-fn direction(random: &mut Random) -> Vec3 {
+fn direction(random: &mut Random) -> Vec3A {
     loop {
         let v = random.within(1.0);
         if v.length_squared() > 0.01 && v.length_squared() < 1.0 {
@@ -281,7 +281,7 @@ fn an_octave_fades_as_its_mean_over_the_footprint_does() {
             let [x, y, z] = &points;
             dispatch!(testkit::levels()[0].1, simd => octaves_block(simd, [x, y, z], 1, false, BLOCK, footprint.take(), &mut out));
             for i in 0..BLOCK {
-                let here = noise(Vec3::from_array([0, 1, 2].map(|axis| points[axis][i]))) as f64;
+                let here = noise(Vec3A::from_array([0, 1, 2].map(|axis| points[axis][i]))) as f64;
                 together += here * means[i];
                 alone += here * here;
                 // The first octave has an amplitude of a half.

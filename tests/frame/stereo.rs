@@ -1,6 +1,6 @@
 //! Two eyes side by side: each half is the picture of its eye, and depths are where geometry has them.
 
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::Scene;
 use paprsek::frame::{Frame, Options, Renderer};
 use paprsek::scenes;
@@ -95,9 +95,9 @@ fn narrow_frames_are_black_where_no_picture_fits() {
 fn points_are_apart_by_their_depth() {
     let (width, height) = (640, 720);
     for (eye, target, fov, roll) in [
-        (Vec3::ZERO, Vec3::NEG_Z, 0.7f32, 0.0),
-        (vec3(3.0, 2.0, 7.0), vec3(0.2, 0.8, -1.0), 1.2, 0.0),
-        (vec3(-1.0, 5.0, 2.0), vec3(0.0, 0.0, 0.0), 0.5, 0.9),
+        (Vec3A::ZERO, Vec3A::NEG_Z, 0.7f32, 0.0),
+        (vec3a(3.0, 2.0, 7.0), vec3a(0.2, 0.8, -1.0), 1.2, 0.0),
+        (vec3a(-1.0, 5.0, 2.0), vec3a(0.0, 0.0, 0.0), 0.5, 0.9),
     ] {
         let camera = Camera::look_at(eye, target, fov, roll);
         let (right, up) = (camera.right.normalize(), camera.up.normalize());
@@ -139,16 +139,16 @@ fn points_are_apart_by_their_depth() {
 
 #[test]
 fn one_eye_in_the_middle_is_the_camera() {
-    let camera = Camera::look_at(vec3(3.0, 2.0, 7.0), Vec3::ZERO, 0.8, 0.3);
+    let camera = Camera::look_at(vec3a(3.0, 2.0, 7.0), Vec3A::ZERO, 0.8, 0.3);
     let same = camera.at(Eye::MIDDLE);
     assert_eq!((same.eye, same.forward, same.right, same.up), (camera.eye, camera.forward, camera.right, camera.up));
     assert_eq!(same.shift, 0.0);
 }
 
 /// The middle of the light in the picture of a glowing ball, pixels.
-fn middle(ball: Vec3, radius: f32, camera: Camera) -> (f64, f64) {
-    let ball = Object::new(Shape::Sphere { center: ball, radius }, Material::plain(Vec3::ONE));
-    let world = World { ambient: Vec3::ONE, max_level: 1, ..World::new(vec![ball]) };
+fn middle(ball: Vec3A, radius: f32, camera: Camera) -> (f64, f64) {
+    let ball = Object::new(Shape::Sphere { center: ball, radius }, Material::plain(Vec3A::ONE));
+    let world = World { ambient: Vec3A::ONE, max_level: 1, ..World::new(vec![ball]) };
     let light = traced(&world, camera, (200, 150), Quality::REFERENCE, fearless_simd::Level::new());
     let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
     for (i, pixel) in light.pixels.iter().enumerate() {
@@ -163,7 +163,7 @@ fn middle(ball: Vec3, radius: f32, camera: Camera) -> (f64, f64) {
 
 #[test]
 fn pictures_of_balls_are_apart_by_their_depth() {
-    let camera = Camera::look_at(vec3(1.0, 2.0, 3.0), vec3(0.0, 1.8, -4.0), 0.7, 0.0);
+    let camera = Camera::look_at(vec3a(1.0, 2.0, 3.0), vec3a(0.0, 1.8, -4.0), 0.7, 0.0);
     let stereo = Stereo { eye_distance: 0.2, convergence: 4.0 };
     let focal = 75.0 / 0.35f64.tan();
     for (depth, a, b) in [(1.5, 0.05, 0.1), (4.0, -0.1, 0.05), (4.0, 0.0, -0.2), (30.0, 0.1, -0.1)] {

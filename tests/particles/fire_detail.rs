@@ -1,6 +1,6 @@
 //! The level of detail of fires: which particles are left of one, and that nothing pops as that changes.
 
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
 use paprsek::particles::{Fire, ParticleLayer};
@@ -15,9 +15,9 @@ const DETAIL: f32 = 1.0 / 90.0;
 
 /// A torch of 2000 particles, and the view of an eye so many metres from it that looks beside it.
 fn torch(away: f32) -> (Fire, View) {
-    let eye = vec3(0.0, 0.8, away);
-    let camera = Camera::look_at(eye, vec3(0.1 * away, 0.8, 0.0), 50f32.to_radians(), 0.0);
-    (Fire { place: Vec3::ZERO, ..fires(7.0)[0] }, View::new(camera, SIZE.0, SIZE.1))
+    let eye = vec3a(0.0, 0.8, away);
+    let camera = Camera::look_at(eye, vec3a(0.1 * away, 0.8, 0.0), 50f32.to_radians(), 0.0);
+    (Fire { place: Vec3A::ZERO, ..fires(7.0)[0] }, View::new(camera, SIZE.0, SIZE.1))
 }
 
 /// Distances that grow by a hundredth, from in the fire to far away.

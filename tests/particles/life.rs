@@ -1,6 +1,6 @@
 //! Birth, death and what comes between, at any time.
 
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::particles::{Fire, Flakes, Snow};
 use paprsek::scenes::bench::particles::{self, fires};
 use testkit::particles::random;
@@ -13,13 +13,13 @@ const PLACES: f64 = 1e-4;
 const NOTHING: f64 = 1e-7;
 
 /// The torch that the eye looks at, from 4 metres.
-fn seen(fire: Fire) -> Vec<Vec3> {
+fn seen(fire: Fire) -> Vec<Vec3A> {
     let (eye, forward) = from(&fire);
     burn(&[fire], 1.6, eye, forward, SIZE, dusk)
 }
 
-fn from(fire: &Fire) -> (Vec3, Vec3) {
-    (fire.place + vec3(0.0, 0.8, 4.0), vec3(0.0, -0.05, -1.0))
+fn from(fire: &Fire) -> (Vec3A, Vec3A) {
+    (fire.place + vec3a(0.0, 0.8, 4.0), vec3a(0.0, -0.05, -1.0))
 }
 
 fn should_be(fire: Fire) -> Vec<DVec3> {
@@ -27,7 +27,7 @@ fn should_be(fire: Fire) -> Vec<DVec3> {
     truth(&[fire], 1.6, eye, forward, SIZE, dusk)
 }
 
-fn nothing() -> Vec<Vec3> {
+fn nothing() -> Vec<Vec3A> {
     seen(Fire { count: 0.0, ..fires(0.0)[0] })
 }
 
@@ -126,7 +126,7 @@ fn phases_that_round_to_one_are_dark() {
 #[test]
 fn fires_grow_smoothly() {
     let torch = fires(2.0)[0];
-    let (mut last, mut most) = (None::<Vec<Vec3>>, 0.0f64);
+    let (mut last, mut most) = (None::<Vec<Vec3A>>, 0.0f64);
     for step in 0..30 {
         let fire = Fire { count: 20.0 + step as f32 * 0.1, weight: 10.0, ..torch };
         let found = seen(fire);
@@ -147,11 +147,11 @@ fn snow_sets_in_smoothly() {
     const GRADUAL: f64 = 0.07;
     let draw = |share: f32| {
         let field = Snow::new(&particles::FLAKES, 2.0, DVec3::ZERO, DVec3::ZERO, share);
-        snow(field, Vec3::ZERO, Vec3::Z, SIZE)
+        snow(field, Vec3A::ZERO, Vec3A::Z, SIZE)
     };
-    let mean = |light: &[Vec3]| light.iter().map(|c| f64::from(c.x)).sum::<f64>() / light.len() as f64;
+    let mean = |light: &[Vec3A]| light.iter().map(|c| f64::from(c.x)).sum::<f64>() / light.len() as f64;
     let none = Snow::new(&Flakes { opacity: 0.0, ..particles::FLAKES }, 2.0, DVec3::ZERO, DVec3::ZERO, 1.0);
-    let (none, all) = (mean(&snow(none, Vec3::ZERO, Vec3::Z, SIZE)), mean(&draw(1.0)));
+    let (none, all) = (mean(&snow(none, Vec3A::ZERO, Vec3A::Z, SIZE)), mean(&draw(1.0)));
     assert!(all > none + 0.01, "{none} {all}");
     // Flakes hide each other, so it is not quite in proportion: but never less.
     let mut last = none - 1e-9;
@@ -161,13 +161,13 @@ fn snow_sets_in_smoothly() {
         assert!(light >= last, "share {share}");
         last = light;
     }
-    let before = snow(Snow::new(&particles::FLAKES, 2.0, DVec3::ZERO, DVec3::ZERO, 0.0), Vec3::ZERO, Vec3::Z, SIZE);
+    let before = snow(Snow::new(&particles::FLAKES, 2.0, DVec3::ZERO, DVec3::ZERO, 0.0), Vec3A::ZERO, Vec3A::Z, SIZE);
     assert_eq!(mean(&before), none, "before it snows it does not");
     // Large ones, few enough that each can be told from the next.
     let few = Flakes { count: 200, radius: [0.1, 0.0], ..particles::FLAKES };
     let draw = |share: f64| {
         let field = Snow::new(&few, 2.0, DVec3::ZERO, DVec3::ZERO, share as f32);
-        snow(field, Vec3::ZERO, Vec3::Z, SIZE)
+        snow(field, Vec3A::ZERO, Vec3A::Z, SIZE)
     };
     let (mut before, mut most) = (draw(0.0), 0.0f64);
     for step in 1..=500 {

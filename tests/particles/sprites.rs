@@ -1,6 +1,6 @@
 //! Sprites in awkward places, before and in solids, across tiles, in colours and in great numbers.
 
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::frame::Renderer;
 use paprsek::particles::{Emitter, Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, fires, flakes};
@@ -18,7 +18,7 @@ const SIZE: Size = (150, 140);
 /// For many particles.
 const WIDE: Size = (320, 180);
 /// Where the eye of `snow` looks after two seconds: `(sin .6, .08 sin 1, cos .6)`.
-const WALK: Vec3 = vec3(0.564_642_5, 0.067_317_68, 0.825_335_6);
+const WALK: Vec3A = vec3a(0.564_642_5, 0.067_317_68, 0.825_335_6);
 /// A stream of random numbers for tests.
 const STREAM: u32 = 9;
 
@@ -28,8 +28,8 @@ fn between(i: u32, k: u32) -> f32 {
 }
 
 /// Burns before an eye in the origin that looks along -z, and what that should be.
-fn both(fires: &[Fire], exposure: f32) -> (Vec<Vec3>, Vec<DVec3>) {
-    let (eye, forward) = (Vec3::ZERO, Vec3::NEG_Z);
+fn both(fires: &[Fire], exposure: f32) -> (Vec<Vec3A>, Vec<DVec3>) {
+    let (eye, forward) = (Vec3A::ZERO, Vec3A::NEG_Z);
     let found = burn(fires, exposure, eye, forward, SIZE, dusk);
     (found, truth(fires, f64::from(exposure), eye, forward, SIZE, dusk))
 }
@@ -39,8 +39,8 @@ fn colours(count: u32) -> Vec<Fire> {
     let one = |i: u32| {
         // From 0.4 to 50 metres, each further away than the one before.
         let depth = 0.4 * 125f32.powf((i as f32 + between(i, 7) * 0.4 + 0.5) / count as f32);
-        let place = vec3(between(i, 0) * 0.6, between(i, 1) * 0.6, -1.0) * depth;
-        let light = vec3(between(i, 2).abs(), between(i, 3).abs(), between(i, 4).abs());
+        let place = vec3a(between(i, 0) * 0.6, between(i, 1) * 0.6, -1.0) * depth;
+        let light = vec3a(between(i, 2).abs(), between(i, 3).abs(), between(i, 4).abs());
         still(place, depth * (0.01 + 0.12 * between(i, 5).abs()), light)
     };
     (0..count).map(one).collect()
@@ -49,7 +49,7 @@ fn colours(count: u32) -> Vec<Fire> {
 #[test]
 fn a_sprite_is_its_disc() {
     for radius in [0.01, 0.1, 1.0, 10.0] {
-        let (found, truth) = both(&[still(vec3(0.3, -0.2, -4.0), radius, vec3(0.2, 0.4, 0.6))], 1.0);
+        let (found, truth) = both(&[still(vec3a(0.3, -0.2, -4.0), radius, vec3a(0.2, 0.4, 0.6))], 1.0);
         let off = worst(&found, &truth);
         assert!(off < PLACES, "radius {radius}: {off}");
     }
@@ -59,8 +59,8 @@ fn a_sprite_is_its_disc() {
 fn nothing_is_seen_of_what_is_nowhere() {
     const NAN: f32 = f32::NAN;
     const INFINITE: f32 = f32::INFINITY;
-    let good = still(vec3(0.0, 0.0, -3.0), 0.5, Vec3::ONE);
-    let at = |x, y, z| Fire { place: vec3(x, y, z), ..good };
+    let good = still(vec3a(0.0, 0.0, -3.0), 0.5, Vec3A::ONE);
+    let at = |x, y, z| Fire { place: vec3a(x, y, z), ..good };
     let mut cases = vec![
         ("behind the eye", at(0.0, 0.0, 3.0)),
         ("in the eye", at(0.0, 0.0, 0.0)),
@@ -97,15 +97,15 @@ fn nothing_is_seen_of_what_is_nowhere() {
 #[test]
 fn sprites_near_the_eye_cover_what_they_should() {
     let cases = [
-        ("just past the near plane", vec3(0.01, 0.0, -0.2501), 0.05),
-        ("all of the picture", vec3(0.0, 0.0, -0.3), 1.0),
-        ("a middle far to the left", vec3(-20.0, 0.5, -1.0), 20.3),
-        ("a middle far above", vec3(0.1, 50.0, -1.0), 50.2),
-        ("only a corner", vec3(0.52, 0.47, -1.0), 0.05),
-        ("a hundred thousand pixels", vec3(0.0, -300.0, -0.5), 300.1),
+        ("just past the near plane", vec3a(0.01, 0.0, -0.2501), 0.05),
+        ("all of the picture", vec3a(0.0, 0.0, -0.3), 1.0),
+        ("a middle far to the left", vec3a(-20.0, 0.5, -1.0), 20.3),
+        ("a middle far above", vec3a(0.1, 50.0, -1.0), 50.2),
+        ("only a corner", vec3a(0.52, 0.47, -1.0), 0.05),
+        ("a hundred thousand pixels", vec3a(0.0, -300.0, -0.5), 300.1),
     ];
     for (name, place, radius) in cases {
-        let (found, truth) = both(&[still(place, radius, vec3(0.3, 0.5, 0.7))], 1.0);
+        let (found, truth) = both(&[still(place, radius, vec3a(0.3, 0.5, 0.7))], 1.0);
         let off = worst(&found, &truth);
         println!("{name}: {off:.1e}");
         // Of middles that many pixels away the last bits are missing.
@@ -117,7 +117,7 @@ fn sprites_near_the_eye_cover_what_they_should() {
 #[test]
 fn a_sprite_may_be_as_large_as_it_likes() {
     for radius in [1e6, 1e9, 1e12, 1e18] {
-        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), radius, vec3(0.3, 0.5, 0.7))], 1.0);
+        let (found, truth) = both(&[still(vec3a(0.0, 0.0, -3.0), radius, vec3a(0.3, 0.5, 0.7))], 1.0);
         let off = worst(&found, &truth);
         assert!(off < PLACES, "{radius} metres: {off}");
     }
@@ -126,8 +126,8 @@ fn a_sprite_may_be_as_large_as_it_likes() {
 /// Light is light where it has no red.
 #[test]
 fn a_sprite_may_be_of_any_colour() {
-    for light in [Vec3::X, Vec3::Y, Vec3::Z] {
-        let (found, truth) = both(&[still(vec3(0.0, 0.0, -3.0), 0.5, light)], 1.0);
+    for light in [Vec3A::X, Vec3A::Y, Vec3A::Z] {
+        let (found, truth) = both(&[still(vec3a(0.0, 0.0, -3.0), 0.5, light)], 1.0);
         let off = worst(&found, &truth);
         assert!(off < PLACES, "{light}: {off}");
     }
@@ -137,7 +137,7 @@ fn a_sprite_may_be_of_any_colour() {
 fn a_lens_limits_what_is_small_and_near() {
     let lens = particles::FLAKES.lens;
     assert_eq!((lens.radius, lens.near), ([1.0, 24.0], [0.25, 1.0]));
-    let few = |depth: f32| Fire { lens, ..still(vec3(0.1, 0.02, -1.0) * depth, 0.05, Vec3::ONE) };
+    let few = |depth: f32| Fire { lens, ..still(vec3a(0.1, 0.02, -1.0) * depth, 0.05, Vec3A::ONE) };
     for depth in [0.2501, 0.3, 0.6, 0.999, 1.0, 3.0, 20.0, 100.0] {
         let (found, truth) = both(&[few(depth)], 1.0);
         let off = worst(&found, &truth);
@@ -151,7 +151,7 @@ fn a_lens_blurs_what_is_near() {
     let lens = Lens { aperture: 0.05, focus: 4.0, ..fires(0.0)[0].lens };
     for depth in [0.3, 1.0, 3.99, 4.0, 8.0] {
         for radius in [1e-3, 0.1] {
-            let fire = Fire { lens, ..still(vec3(0.05, 0.02, -1.0) * depth, radius, Vec3::ONE) };
+            let fire = Fire { lens, ..still(vec3a(0.05, 0.02, -1.0) * depth, radius, Vec3A::ONE) };
             let (found, truth) = both(&[fire], 1.0);
             let off = worst(&found, &truth);
             assert!(off < PLACES, "{radius} at {depth} metres: {off}");
@@ -173,7 +173,7 @@ fn what_only_shines_has_any_order() {
 }
 
 /// Solids to the left, beside them nothing; a slope, and steps from before the sprite to far behind it.
-fn solids(x: usize, y: usize) -> (Vec3, Option<f32>) {
+fn solids(x: usize, y: usize) -> (Vec3A, Option<f32>) {
     let depth = match y / 20 {
         0 => 1.0,
         1 => 2.999,
@@ -183,17 +183,17 @@ fn solids(x: usize, y: usize) -> (Vec3, Option<f32>) {
         5 => 4.5,
         _ => 2.0 + 0.02 * x as f32,
     };
-    (Vec3::new(0.1, 0.2, 0.3), (x < 100).then_some(depth))
+    (Vec3A::new(0.1, 0.2, 0.3), (x < 100).then_some(depth))
 }
 
 #[test]
 fn solids_hide_sprites_softly() {
     for radius in [0.5, 5.0, 1e-3] {
         // So that the fade is that of its radius: all of it is before 3 metres and behind.
-        let light = vec3(0.8, 0.3, 0.5);
-        let fires = [still(vec3(0.0, 0.0, -3.0), radius, light), still(vec3(0.4, 0.0, -3.5), radius, light)];
-        let found = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
-        let truth = truth(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, solids);
+        let light = vec3a(0.8, 0.3, 0.5);
+        let fires = [still(vec3a(0.0, 0.0, -3.0), radius, light), still(vec3a(0.4, 0.0, -3.5), radius, light)];
+        let found = burn(&fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, solids);
+        let truth = truth(&fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, solids);
         let off = worst(&found, &truth);
         println!("radius {radius}: {off:.1e}");
         assert!(off < PLACES, "radius {radius}: {off}");
@@ -203,9 +203,9 @@ fn solids_hide_sprites_softly() {
 /// Where a solid is nearer than a sprite's middle nothing of it is there, to the bit; where none is near, all of it.
 #[test]
 fn depth_is_tested_exactly() {
-    const GREY: Vec3 = Vec3::splat(0.25);
-    let one = [still(vec3(0.0, 0.0, -3.0), 0.5, vec3(0.8, 0.3, 0.5))];
-    let wall = |fires: &[Fire], behind: Behind| burn(fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, behind);
+    const GREY: Vec3A = Vec3A::splat(0.25);
+    let one = [still(vec3a(0.0, 0.0, -3.0), 0.5, vec3a(0.8, 0.3, 0.5))];
+    let wall = |fires: &[Fire], behind: Behind| burn(fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, behind);
     let without = wall(&[], |_, _| (GREY, None));
     let whole = wall(&one, |_, _| (GREY, None));
     assert!(same(&without, &[GREY; SIZE.0 * SIZE.1]), "no particles change nothing");
@@ -222,10 +222,10 @@ fn there_are_no_seams_between_tiles() {
     const ROUNDING: f64 = 2e-5;
     const HEIGHT: usize = 140;
     let fires = colours(200);
-    let narrow = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (150, HEIGHT), |_, _| (Vec3::splat(0.2), None));
+    let narrow = burn(&fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, (150, HEIGHT), |_, _| (Vec3A::splat(0.2), None));
     for more in [1, 16, 31, 40] {
         let width = 150 + 2 * more;
-        let wide = burn(&fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, (width, HEIGHT), |_, _| (Vec3::splat(0.2), None));
+        let wide = burn(&fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, (width, HEIGHT), |_, _| (Vec3A::splat(0.2), None));
         let middle: Vec<DVec3> =
             wide.chunks(width).flat_map(|row| row[more..more + 150].iter().map(|c| c.as_dvec3())).collect();
         let off = worst(&narrow, &middle);
@@ -238,7 +238,7 @@ fn every_level_and_thread_count_gives_the_same_light() {
     let mut first = None;
     for (name, level) in levels() {
         for threads in [1, 2, 3] {
-            let view = view(Vec3::ZERO, Vec3::NEG_Z, SIZE);
+            let view = view(Vec3A::ZERO, Vec3A::NEG_Z, SIZE);
             let particles = ParticleLayer::new(
                 colours(150).into_iter().map(Emitter::Fire).collect(),
                 &view,
@@ -254,7 +254,7 @@ fn every_level_and_thread_count_gives_the_same_light() {
 /// Flakes are where they are, from wherever one looks: so they are for two eyes.
 #[test]
 fn flakes_stay_where_they_are_as_the_eye_moves() {
-    for beside in [Vec3::ZERO, vec3(0.03, 0.0, -0.01), vec3(-7.0, 3.0, 11.0)] {
+    for beside in [Vec3A::ZERO, vec3a(0.03, 0.0, -0.01), vec3a(-7.0, 3.0, 11.0)] {
         let found = snow(flakes(&particles::FLAKES, 2.0, beside), beside, WALK, WIDE);
         let off = worst(&found, &snow_beside(2.0, WIDE, 0..FLAKES, beside.as_dvec3()));
         println!("{beside} metres away: {off:.1e}");
@@ -266,13 +266,13 @@ fn flakes_stay_where_they_are_as_the_eye_moves() {
 #[test]
 fn a_million_particles_are_as_exact() {
     const MANY: u32 = 1_000_000;
-    let found = snow(flakes(&Flakes { count: MANY, ..particles::FLAKES }, 2.0, Vec3::ZERO), Vec3::ZERO, WALK, WIDE);
+    let found = snow(flakes(&Flakes { count: MANY, ..particles::FLAKES }, 2.0, Vec3A::ZERO), Vec3A::ZERO, WALK, WIDE);
     let off = worst(&found, &snow_beside(2.0, WIDE, 0..MANY, DVec3::ZERO));
     println!("a million flakes: {off:.1e}");
     assert!(off < PLACES, "{off}");
 
     let torch = [Fire { count: MANY as f32, weight: 2e-3, ..fires(2.0)[0] }];
-    let (eye, forward) = (torch[0].place + vec3(1.0, 1.0, 4.0), vec3(-0.2, 0.0, -1.0));
+    let (eye, forward) = (torch[0].place + vec3a(1.0, 1.0, 4.0), vec3a(-0.2, 0.0, -1.0));
     let found = burn(&torch, 1.6, eye, forward, WIDE, dusk);
     let off = worst(&found, &truth(&torch, 1.6, eye, forward, WIDE, dusk));
     println!("a million sparks: {off:.1e}");

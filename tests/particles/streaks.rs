@@ -1,6 +1,6 @@
 //! Flakes whose shutter stays open: rain.
 
-use glam::{DMat2, DVec2, DVec3, Vec3, dvec2, vec3};
+use glam::{DMat2, DVec2, DVec3, Vec3A, dvec2, vec3a};
 use paprsek::frame::Renderer;
 use paprsek::particles::{Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{self, flakes};
@@ -11,12 +11,12 @@ use testkit::sprites::{Size, draw, view};
 const SIZE: Size = (300, 240);
 
 /// What is left of white light behind flakes that move so far while a half of the shutter's time passes.
-fn passes(field: &Flakes, time: f64, forward: Vec3, streak: Vec3) -> Vec<f64> {
-    let mut snow = flakes(field, time, Vec3::ZERO);
+fn passes(field: &Flakes, time: f64, forward: Vec3A, streak: Vec3A) -> Vec<f64> {
+    let mut snow = flakes(field, time, Vec3A::ZERO);
     snow.streak = streak;
-    let layer = ParticleLayer::new(vec![snow.into()], &view(Vec3::ZERO, forward, SIZE), &Quality::EXACT.particles)
-        .colored(Vec3::ZERO);
-    let light = draw(&mut Renderer::new(2).unwrap(), layer, SIZE, |_, _| (Vec3::ONE, None));
+    let layer = ParticleLayer::new(vec![snow.into()], &view(Vec3A::ZERO, forward, SIZE), &Quality::EXACT.particles)
+        .colored(Vec3A::ZERO);
+    let light = draw(&mut Renderer::new(2).unwrap(), layer, SIZE, |_, _| (Vec3A::ONE, None));
     light.iter().map(|c| f64::from(c.x)).collect()
 }
 
@@ -46,11 +46,11 @@ fn a_streak_lies_along_its_way() {
     const PIXELS: f64 = 0.02;
     let mut seen = 0;
     for (time, streak) in [
-        (1.0, vec3(0.0, -0.2, 0.0)),
-        (3.0, vec3(0.3, 0.0, 0.0)),
-        (4.0, vec3(0.15, -0.15, 0.05)),
-        (6.0, vec3(-0.1, -0.2, 0.1)),
-        (7.0, vec3(0.0, -0.1, -0.25)),
+        (1.0, vec3a(0.0, -0.2, 0.0)),
+        (3.0, vec3a(0.3, 0.0, 0.0)),
+        (4.0, vec3a(0.15, -0.15, 0.05)),
+        (6.0, vec3a(-0.1, -0.2, 0.1)),
+        (7.0, vec3a(0.0, -0.1, -0.25)),
     ] {
         let (place, _, g) = flake(Time::new(time), 0, DVec3::ZERO);
         if g >= 0.9 {
@@ -76,8 +76,8 @@ fn a_streak_lies_along_its_way() {
 
         let streak = streak * (distance / 4.0) as f32;
         let field = Flakes { lens: lens(true), ..few };
-        let (sum, found, square) = moments(&passes(&field, time, forward.as_vec3(), streak));
-        let (whole, ..) = moments(&passes(&Flakes { lens: lens(false), ..few }, time, forward.as_vec3(), streak));
+        let (sum, found, square) = moments(&passes(&field, time, forward.as_vec3a(), streak));
+        let (whole, ..) = moments(&passes(&Flakes { lens: lens(false), ..few }, time, forward.as_vec3a(), streak));
         assert!((sum / whole - 1.0).abs() < PIXELS, "{streak}: light {}", sum / whole);
         let off = found - dvec2(middle.x - 150.0, middle.y - 120.0);
         assert!(off.length() < 0.05, "{streak}: its middle is off by {off}");
@@ -99,9 +99,9 @@ fn a_streak_lies_along_its_way() {
 fn a_short_streak_is_a_flake() {
     const SHORT: f64 = 1e-3;
     let few = Flakes { count: 2000, radius: [0.02, 0.03], ..particles::FLAKES };
-    let round = passes(&Flakes { lens: lens(false), ..few }, 2.0, Vec3::Z, Vec3::ZERO);
-    for streak in [vec3(1e-7, -1e-6, 0.0), vec3(0.0, -1e-12, 0.0), Vec3::ZERO] {
-        let drawn = passes(&Flakes { lens: lens(true), ..few }, 2.0, Vec3::Z, streak);
+    let round = passes(&Flakes { lens: lens(false), ..few }, 2.0, Vec3A::Z, Vec3A::ZERO);
+    for streak in [vec3a(1e-7, -1e-6, 0.0), vec3a(0.0, -1e-12, 0.0), Vec3A::ZERO] {
+        let drawn = passes(&Flakes { lens: lens(true), ..few }, 2.0, Vec3A::Z, streak);
         let off = round.iter().zip(&drawn).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < SHORT, "{streak}: {off}");
     }

@@ -1,7 +1,7 @@
 //! Triangles through the eye's plane, behind it, and beyond any number; perspective and culling: all against rays in
 //! f64.
 
-use glam::{Affine3A, DVec3, Vec3, vec3};
+use glam::{Affine3A, DVec3, Vec3A, vec3a};
 use paprsek::raster::project::NEAR;
 use paprsek::raster::{Body, Light, World};
 use paprsek::settings::Quality;
@@ -41,8 +41,8 @@ fn ground_is_where_the_rays_meet_it() {
         // From the near plane's height to that of an aeroplane, mostly over the ground, which passes below and behind.
         let up = random.log(0.06, 100.0);
         let aside = random.range(-0.8, 0.8) * half as f64;
-        let eye = vec3(aside as f32, up as f32, random.range(-0.8, 0.8) as f32 * half);
-        let look = [random.direction(), Vec3::NEG_Y, vec3(1.0, 0.0, 0.0), vec3(0.3, -0.4, 0.5)][case % 7 % 4];
+        let eye = vec3a(aside as f32, up as f32, random.range(-0.8, 0.8) as f32 * half);
+        let look = [random.direction(), Vec3A::NEG_Y, vec3a(1.0, 0.0, 0.0), vec3a(0.3, -0.4, 0.5)][case % 7 % 4];
         let camera = Camera::look_at(eye, eye + look, FOV, random.range(-1.0, 1.0) as f32);
         let world = dark(vec![body(ground(half, 0.0, cells))]);
         let mut first: Option<Planes> = None;
@@ -83,7 +83,7 @@ fn ground_is_where_the_rays_meet_it() {
 fn a_plane_of_a_million_metres_has_a_horizon() {
     // Two triangles that reach from far behind the eye to far before it. In f32 corners a million metres away are known
     // to centimetres, so the eye is far above.
-    let camera = Camera::look_at(vec3(0.0, 100.0, 0.0), vec3(10.0, 99.0, -3.0), FOV, 0.2);
+    let camera = Camera::look_at(vec3a(0.0, 100.0, 0.0), vec3a(10.0, 99.0, -3.0), FOV, 0.2);
     for half in [1e5, 1e6] {
         let world = dark(vec![body(ground(half, 0.0, 1))]);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
@@ -112,11 +112,11 @@ fn long_roads_lead_straight_past_the_eye() {
         let length = [1e3, 1e5, 1e6][case % 3];
         let angle = random.range(-0.3, 0.3);
         let (along, across) = (DVec3::new(angle.sin(), 0.0, -angle.cos()), DVec3::new(angle.cos(), 0.0, angle.sin()));
-        let corner = |z: f64, x: f64| (along * z + across * x).as_vec3();
+        let corner = |z: f64, x: f64| (along * z + across * x).as_vec3a();
         let [a, b, c, d] = [corner(-5.0, -1.0), corner(-5.0, 1.0), corner(length, -1.0), corner(length, 1.0)];
         let world = dark(vec![body(triangles(&[[a, b, c], [b, d, c]]))]);
-        let eye = vec3(0.1, 1.7, 0.0);
-        let camera = Camera::look_at(eye, eye + vec3(0.05, -0.2, -1.0), FOV, 0.1);
+        let eye = vec3a(0.1, 1.7, 0.0);
+        let camera = Camera::look_at(eye, eye + vec3a(0.05, -0.2, -1.0), FOV, 0.1);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         for pixel in 0..planes.inv_depth.len() {
             let hit = |d: DVec3| {
@@ -135,14 +135,14 @@ fn long_roads_lead_straight_past_the_eye() {
 
 #[test]
 fn nothing_behind_the_eye_or_before_the_near_plane_is_seen() {
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
     // Across the axis, at many distances, among them the eye's own and the near plane's.
     let beside = [1e-4, 1e-3, 1e-6];
     let mut distances = vec![-1e6, -5.0, -0.05, -1e-30, 0.0, 1e-30, 0.04999, NEAR, 0.05001, 0.06, 1.0, 1e6, 1e30];
     distances.extend(beside.map(|k| NEAR * (1.0 + k)));
     for z in distances {
         let r = 3.0 * z.abs().max(1.0);
-        let faces = [[vec3(-r, -r, -z), vec3(r, -r, -z), vec3(0.0, r, -z)]];
+        let faces = [[vec3a(-r, -r, -z), vec3a(r, -r, -z), vec3a(0.0, r, -z)]];
         let planes = draw(&dark(vec![body(triangles(&faces))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
         let middle = planes.inv_depth[SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2];
         if z < NEAR {
@@ -159,7 +159,7 @@ fn clipped_neighbours_leave_no_gap() {
     let mut random = Random(2);
     for case in 0..40 {
         let mut corner = || random.range(0.2, 1.0) as f32 * [0.3, 3.0, 300.0][case % 3];
-        let (low, high) = (-vec3(corner(), corner(), corner()), vec3(corner(), corner(), corner()));
+        let (low, high) = (-vec3a(corner(), corner(), corner()), vec3a(corner(), corner(), corner()));
         let mut mesh = block(low, high);
         // Each face into three, about a place of its own.
         let mut faces = Vec::new();
@@ -171,7 +171,7 @@ fn clipped_neighbours_leave_no_gap() {
             faces.extend([[b, a, m], [c, b, m], [a, c, m]]);
         }
         mesh = triangles(&faces);
-        let eye = Vec3::ZERO;
+        let eye = Vec3A::ZERO;
         let camera = Camera::look_at(eye, random.direction(), 1.4, random.range(-3.0, 3.0) as f32);
         // What the near plane cuts out of the box is open; nothing else is.
         let planes = draw(&dark(vec![body(mesh)]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
@@ -194,22 +194,22 @@ fn clipped_neighbours_leave_no_gap() {
 
 #[test]
 fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.9, 0.1);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, 0.9, 0.1);
     let mut random = Random(3);
     for case in 0..20 {
         // Up to 45 degrees askew, several cells each, cut differently.
-        let tilt = vec3(random.range(-1.0, 1.0) as f32, random.range(-1.0, 1.0) as f32, 0.0) * (case as f32 / 20.0);
+        let tilt = vec3a(random.range(-1.0, 1.0) as f32, random.range(-1.0, 1.0) as f32, 0.0) * (case as f32 / 20.0);
         let layer = |distance: f32, cells: usize, red: f32| {
             let mut mesh = ground(2000.0, 0.0, cells);
             for p in &mut mesh.points {
-                *p = vec3(p.x, -p.z, -distance + tilt.x * p.x - tilt.y * p.z);
+                *p = vec3a(p.x, -p.z, -distance + tilt.x * p.x - tilt.y * p.z);
             }
-            mesh.paints[0].albedo = vec3(red, 0.0, 1.0);
+            mesh.paints[0].albedo = vec3a(red, 0.0, 1.0);
             body(mesh)
         };
         let mut bodies = vec![layer(5000.0, 7, 1.0), layer(5001.0, 5, 0.0)];
         for _ in 0..2 {
-            let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(bodies.clone()) };
+            let world = World { ambient: [Vec3A::ONE, Vec3A::ZERO], ..dark(bodies.clone()) };
             let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
             // Blue where there is a layer; a little more of the far one is seen at the rim.
             let (near, far) = planes
@@ -231,15 +231,15 @@ fn layers_a_metre_apart_are_told_apart_five_kilometres_away() {
 
 #[test]
 fn corners_that_are_no_numbers_spoil_only_their_faces() {
-    let camera = Camera::look_at(vec3(0.0, 0.0, 5.0), Vec3::ZERO, FOV, 0.0);
-    let good = [[vec3(-1.0, -1.0, 0.0), vec3(1.0, -1.0, 0.0), vec3(0.0, 1.0, 0.0)]];
+    let camera = Camera::look_at(vec3a(0.0, 0.0, 5.0), Vec3A::ZERO, FOV, 0.0);
+    let good = [[vec3a(-1.0, -1.0, 0.0), vec3a(1.0, -1.0, 0.0), vec3a(0.0, 1.0, 0.0)]];
     let truth = draw(&dark(vec![body(triangles(&good))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     assert!(truth.coverage.contains(&1.0));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN] {
         for spoilt in 1..8 {
             for corner in 0..3 {
                 for order in [[0, 1, 2], [0, 2, 1]] {
-                    let mut face = [vec3(-2.0, -2.0, 1.0), vec3(2.0, -2.0, 1.0), vec3(0.0, 2.0, 1.0)];
+                    let mut face = [vec3a(-2.0, -2.0, 1.0), vec3a(2.0, -2.0, 1.0), vec3a(0.0, 2.0, 1.0)];
                     for axis in (0..3).filter(|k| spoilt >> k & 1 != 0) {
                         face[corner][axis] = bad;
                     }
@@ -258,9 +258,9 @@ fn corners_that_are_no_numbers_spoil_only_their_faces() {
 #[test]
 fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
     // 8,192 faces under and behind the eye, each cut at the near plane and on three sides of the guard band.
-    let face = [vec3(-4e4, -1.0, 3e4), vec3(4e4, -1.0, 3e4), vec3(0.0, -1.0, -9e4)];
+    let face = [vec3a(-4e4, -1.0, 3e4), vec3a(4e4, -1.0, 3e4), vec3a(0.0, -1.0, -9e4)];
     let mesh = triangles(&vec![face; 8192]);
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
     let few = draw(&dark(vec![body(triangles(&[face]))]), camera, SIZE, Quality::EXACT, testkit::levels()[0].1);
     // Before another body, whose pixels must stay its own.
     let wall = ground(1e5, -2.0, 1);
@@ -272,8 +272,8 @@ fn a_full_mesh_of_clipped_faces_is_no_more_than_a_piece_may_have() {
 
 #[test]
 fn bodies_beyond_the_last_number_are_left_out() {
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
-    let wall = |x: f32| triangles(&[[vec3(x - 1.0, -1.0, -5.0), vec3(x + 1.0, -1.0, -5.0), vec3(x, 1.0, -5.0)]]);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
+    let wall = |x: f32| triangles(&[[vec3a(x - 1.0, -1.0, -5.0), vec3a(x + 1.0, -1.0, -5.0), vec3a(x, 1.0, -5.0)]]);
     // 16,384 have numbers: the last that has one is seen, the next is not.
     let nothing = body(triangles(&[]));
     let mut bodies = vec![nothing; 16383];
@@ -293,8 +293,8 @@ fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![6 => log, 3 => -3f32..3.0, 1 => prop::sample::select(special.to_vec())]
 }
 
-fn point() -> impl Strategy<Value = Vec3> {
-    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| vec3(x, y, z))
+fn point() -> impl Strategy<Value = Vec3A> {
+    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| vec3a(x, y, z))
 }
 
 proptest! {
@@ -303,10 +303,10 @@ proptest! {
     /// Whatever the corners: no panic, no number that is none, the same at every level.
     #[test]
     fn any_corners_give_finite_light(points in prop::collection::vec(point(), 12), eye in point(), look in point()) {
-        let faces: Vec<[Vec3; 3]> = points.windows(3).flat_map(|w| [[w[0], w[1], w[2]], [w[0], w[2], w[1]]]).collect();
-        let eye = if eye.is_finite() { eye.clamp(Vec3::splat(-1e6), Vec3::splat(1e6)) } else { Vec3::ZERO };
-        let camera = Camera::look_at(eye, if look.is_finite() { look } else { Vec3::X }, FOV, 0.3);
-        let world = World { ambient: [Vec3::ONE, vec3(0.1, 0.2, 0.3)], ..dark(vec![body(triangles(&faces))]) };
+        let faces: Vec<[Vec3A; 3]> = points.windows(3).flat_map(|w| [[w[0], w[1], w[2]], [w[0], w[2], w[1]]]).collect();
+        let eye = if eye.is_finite() { eye.clamp(Vec3A::splat(-1e6), Vec3A::splat(1e6)) } else { Vec3A::ZERO };
+        let camera = Camera::look_at(eye, if look.is_finite() { look } else { Vec3A::X }, FOV, 0.3);
+        let world = World { ambient: [Vec3A::ONE, vec3a(0.1, 0.2, 0.3)], ..dark(vec![body(triangles(&faces))]) };
         let mut first: Option<Planes> = None;
         for (name, level) in testkit::levels() {
             let planes = draw(&world, camera, [40, 30], Quality::DEFAULT, level);
@@ -321,7 +321,7 @@ proptest! {
 
 /// Three suns along the axes: a white surface has its normal as its colour, where that has no negative part.
 fn suns() -> Vec<Light> {
-    Vec3::AXES.map(|axis| Light::sun(axis, axis)).to_vec()
+    Vec3A::AXES.map(|axis| Light::sun(axis, axis)).to_vec()
 }
 
 #[test]
@@ -332,7 +332,7 @@ fn normals_are_interpolated_in_perspective() {
         // A large triangle from near to far, half of them through the eye's plane.
         let back = if case % 2 == 0 { -20.0 } else { 1.0 };
         let mut face = [0; 3].map(|_| {
-            vec3(random.range(-8.0, 8.0) as f32, random.range(-4.0, 4.0) as f32, -random.range(back, 40.0) as f32)
+            vec3a(random.range(-8.0, 8.0) as f32, random.range(-4.0, 4.0) as f32, -random.range(back, 40.0) as f32)
         });
         let normals = [0; 3].map(|_| random.direction().abs() * random.range(0.5, 2.0) as f32);
         if (face[1] - face[0]).cross(face[2] - face[0]).dot(face[0]) > 0.0 {
@@ -341,9 +341,9 @@ fn normals_are_interpolated_in_perspective() {
         let mut mesh = triangles(&[face]);
         mesh.normals = normals.to_vec();
         let world = World { lights: suns(), ..dark(vec![body(mesh)]) };
-        let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+        let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[case % testkit::levels().len()].1);
-        let [a, b, c] = face.map(Vec3::as_dvec3);
+        let [a, b, c] = face.map(Vec3A::as_dvec3);
         let plane = (b - a).cross(c - a);
         let units = normals.map(|n| n.as_dvec3().normalize());
         let at = |d: DVec3| {
@@ -369,15 +369,15 @@ fn normals_are_interpolated_in_perspective() {
 #[test]
 fn closed_boxes_show_their_front_and_nothing_from_inside() {
     let mut random = Random(5);
-    let (low, high) = (vec3(-1.0, -0.7, -1.3), vec3(1.0, 0.7, 1.3));
+    let (low, high) = (vec3a(-1.0, -0.7, -1.3), vec3a(1.0, 0.7, 1.3));
     let mut seen = 0;
     for case in 0..40 {
-        let place = Affine3A::from_mat3(random.turn());
+        let place = Affine3A::from_mat3(random.turn().into());
         let cube = Body::new(Arc::new(block(low, high)), place);
         let world = World { lights: suns(), ..dark(vec![cube]) };
         let inside = case % 4 == 0;
         let eye = if inside { random.direction() * 0.3 } else { random.direction() * random.range(2.0, 9.0) as f32 };
-        let camera = Camera::look_at(eye, if inside { random.direction() } else { Vec3::ZERO }, FOV, 0.5);
+        let camera = Camera::look_at(eye, if inside { random.direction() } else { Vec3A::ZERO }, FOV, 0.5);
         let planes = draw(&world, camera, SIZE, Quality::EXACT, testkit::levels()[case % testkit::levels().len()].1);
         let turn = place.matrix3.as_dmat3().transpose();
         let from = turn * eye.as_dvec3();
@@ -402,7 +402,7 @@ fn closed_boxes_show_their_front_and_nothing_from_inside() {
             if let Some((axis, way)) = hits[0] {
                 // The side that looks here, by the eye's place.
                 let normal = place.matrix3.col(axis) * from[axis].signum() as f32;
-                let truth = Vec3::from(normal).max(Vec3::ZERO);
+                let truth = normal.max(Vec3A::ZERO);
                 assert!(planes.color[pixel].abs_diff_eq(truth, 1e-5), "case {case}, pixel {pixel}");
                 assert!((planes.inv_depth[pixel] as f64 * way - 1.0).abs() < 1e-3, "case {case}, pixel {pixel}");
                 seen += 1;

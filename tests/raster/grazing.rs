@@ -5,7 +5,7 @@
 //! hundredths at 5. A slope without an end would keep that light, and open gaps of three texels of the map behind
 //! whatever stands on the ground: at 1 degree that is 170 texels of the ground.
 
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
@@ -33,13 +33,13 @@ fn sun(elevation: f64) -> DVec3 {
 }
 
 /// Points of level ground with the share of the sun's light there, among boxes that cast shadows.
-fn floor(elevation: f64, texels: u32, boxes: &[(Vec3, Vec3)]) -> Vec<(DVec3, f64)> {
-    let towards = sun(elevation).as_vec3().normalize();
-    let view = Projection::parallel(towards, Vec3::ZERO, WIDTH, texels);
-    let light = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(vec![view], BIAS));
+fn floor(elevation: f64, texels: u32, boxes: &[(Vec3A, Vec3A)]) -> Vec<(DVec3, f64)> {
+    let towards = sun(elevation).as_vec3a().normalize();
+    let view = Projection::parallel(towards, Vec3A::ZERO, WIDTH, texels);
+    let light = Light::sun(towards, Vec3A::ONE).with_shadow(ShadowViews::new(vec![view], BIAS));
     let mut bodies = vec![body(ground(18.0, 0.0, 6))];
     bodies.extend(boxes.iter().map(|&(low, high)| body(block(low, high))));
-    let camera = Camera::look_at(vec3(0.0, 24.0, -2.0), Vec3::ZERO, 0.9, 0.0);
+    let camera = Camera::look_at(vec3a(0.0, 24.0, -2.0), Vec3A::ZERO, 0.9, 0.0);
     let planes =
         draw(&World { lights: vec![light], ..dark(bodies) }, camera, SIZE, Quality::FAST, testkit::levels()[0].1);
     let point = |pixel: usize| {
@@ -70,7 +70,7 @@ fn lit_ground_keeps_its_light() {
 
 /// A lookup at the best: the share of the ground that is lit in truth, among the places that the 3x3 texels around a point
 /// of the ground show. And whether all of it is dark as far as a lookup reaches.
-fn filtered(p: DVec3, towards: DVec3, texel: f64, caster: (Vec3, Vec3)) -> (f64, bool) {
+fn filtered(p: DVec3, towards: DVec3, texel: f64, caster: (Vec3A, Vec3A)) -> (f64, bool) {
     let side = towards.cross(DVec3::Y).normalize();
     let over = side.cross(towards);
     let lit = |x: f64, y: f64| {
@@ -93,8 +93,8 @@ fn filtered(p: DVec3, towards: DVec3, texel: f64, caster: (Vec3, Vec3)) -> (f64,
 /// Light in the shadow of a thin wall on the ground, and of a beam just above it.
 #[test]
 fn what_grazing_light_leaves_dark_stays_dark() {
-    let wall = (vec3(-6.0, 0.0, -0.05), vec3(6.0, 0.6, 0.05));
-    let beam = (vec3(-6.0, 0.05, -0.3), vec3(6.0, 0.5, 0.3));
+    let wall = (vec3a(-6.0, 0.0, -0.05), vec3a(6.0, 0.6, 0.05));
+    let beam = (vec3a(-6.0, 0.05, -0.3), vec3a(6.0, 0.5, 0.3));
     for (name, caster) in [("wall", wall), ("beam", beam)] {
         for texels in [1024, 2048] {
             for elevation in ELEVATIONS {

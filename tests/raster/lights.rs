@@ -1,6 +1,6 @@
 //! Several lights in one pass, how far they reach, and how much of a pixel triangles cover: against formulas in f64.
 
-use glam::{DVec2, DVec3, Vec2, Vec3, dvec2, dvec3, vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3A, dvec2, dvec3, vec3a};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::{Quality, RasterSettings};
 use paprsek::view::Camera;
@@ -12,12 +12,12 @@ const SIZE: [usize; 2] = [120, 80];
 /// Depth maps and light as the intro has them, one sample a pixel.
 const ONE: Quality = Quality::FAST;
 
-fn lamp(position: Vec3, falloff: Vec2, reach: f32, color: Vec3) -> Light {
+fn lamp(position: Vec3A, falloff: Vec2, reach: f32, color: Vec3A) -> Light {
     Light::lamp(position, color, falloff, reach)
 }
 
 fn camera() -> Camera {
-    Camera::look_at(vec3(0.0, 9.0, 12.0), Vec3::ZERO, 0.9, 0.0)
+    Camera::look_at(vec3a(0.0, 9.0, 12.0), Vec3A::ZERO, 0.9, 0.0)
 }
 
 /// Where a pixel's eye ray meets level ground.
@@ -32,10 +32,10 @@ const LIGHT: f64 = 3e-4;
 #[test]
 fn lamps_fade_by_their_formula_and_end_at_their_reach() {
     let camera = camera();
-    let place = vec3(1.0, 2.0, -0.5);
+    let place = vec3a(1.0, 2.0, -0.5);
     for falloff in [Vec2::ZERO, vec2(0.0, 0.06), vec2(0.7, 0.0), vec2(0.3, 1.8), vec2(0.0, 1e-4), vec2(1e-9, 0.0)] {
         for reach in [f32::INFINITY, 30.0, 5.0, 2.5, 1.9] {
-            let lights = vec![lamp(place, falloff, reach, Vec3::ONE)];
+            let lights = vec![lamp(place, falloff, reach, Vec3A::ONE)];
             let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
             let planes = draw(&world, camera, SIZE, ONE, testkit::levels()[0].1);
             let (a, b, r) = (falloff.x as f64, falloff.y as f64, reach as f64);
@@ -75,14 +75,14 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
     let bias = Bias { constant: 0.02, slope: 2.0, normal: 1.0 };
     (0..count)
         .map(|k| {
-            let color = vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
+            let color = vec3a(random.unit() as f32, random.unit() as f32, random.unit() as f32);
             let position =
-                vec3(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
+                vec3a(random.range(-6.0, 6.0) as f32, random.range(1.0, 4.0) as f32, random.range(-6.0, 6.0) as f32);
             let shadow_views = |views| Some(ShadowViews { smooth: k % 2 == 0, ..ShadowViews::new(views, bias) });
             match k % 4 {
                 0 => {
                     let towards = random.direction().with_y(0.7).normalize();
-                    let views = vec![Projection::parallel(towards, Vec3::ZERO, 26.0, 256)];
+                    let views = vec![Projection::parallel(towards, Vec3A::ZERO, 26.0, 256)];
                     Light { shadow: shadow_views(views), ..Light::sun(towards, color) }
                 }
                 1 => {
@@ -100,8 +100,8 @@ fn lights(random: &mut Random, count: usize) -> Vec<Light> {
 fn stage() -> World {
     dark(vec![
         body(ground(9.0, 0.0, 5)),
-        body(block(vec3(-2.0, 0.0, -1.0), vec3(-1.0, 2.0, 1.0))),
-        body(block(vec3(1.0, 0.5, -1.0), vec3(2.0, 1.0, 3.0))),
+        body(block(vec3a(-2.0, 0.0, -1.0), vec3a(-1.0, 2.0, 1.0))),
+        body(block(vec3a(1.0, 0.5, -1.0), vec3a(2.0, 1.0, 3.0))),
     ])
 }
 
@@ -110,8 +110,8 @@ fn stage() -> World {
 #[test]
 fn light_between_fragments_is_near_their_own() {
     let (camera, size) = (camera(), [480, 320]);
-    let places = [vec3(-4.0, 2.0, -3.0), vec3(1.0, 3.0, 2.0), vec3(5.0, 2.0, -1.0), vec3(-2.0, 4.0, 4.0)];
-    let lights: Vec<Light> = places.map(|place| lamp(place, vec2(0.1, 0.3), f32::INFINITY, Vec3::ONE)).into();
+    let places = [vec3a(-4.0, 2.0, -3.0), vec3a(1.0, 3.0, 2.0), vec3a(5.0, 2.0, -1.0), vec3a(-2.0, 4.0, 4.0)];
+    let lights: Vec<Light> = places.map(|place| lamp(place, vec2(0.1, 0.3), f32::INFINITY, Vec3A::ONE)).into();
     let world = World { lights, ..dark(vec![body(ground(9.0, 0.0, 4))]) };
     for (name, level) in testkit::levels() {
         let exact = Quality { raster: RasterSettings { threshold: 0.0, ..ONE.raster }, ..ONE };
@@ -120,7 +120,7 @@ fn light_between_fragments_is_near_their_own() {
         for pixel in (0..own.color.len()).filter(|&i| own.coverage[i] == 1.0) {
             let d = ray(&camera, size, (pixel % size[0]) as f64 + 0.5, (pixel / size[0]) as f64 + 0.5);
             let p = camera.eye.as_dvec3() - d * (camera.eye.y as f64 / d.y);
-            let light = |place: &Vec3| {
+            let light = |place: &Vec3A| {
                 let d = p.distance(place.as_dvec3());
                 place.y as f64 / d / (1.0 + 0.1 * d + 0.3 * d * d)
             };
@@ -165,14 +165,14 @@ fn a_light_out_of_reach_changes_no_bit() {
         let few = lights(&mut random, 4);
         let truth = draw(&World { lights: few.clone(), ..stage() }, camera(), SIZE, Quality::DEFAULT, level);
         // Its box is near enough to some blocks of pixels, but no point is.
-        for position in [vec3(0.0, 3.1, 0.0), vec3(30.0, 1.0, 0.0), vec3(9.8, 1.0, 9.8), vec3(0.0, -1.0, 0.0)] {
+        for position in [vec3a(0.0, 3.1, 0.0), vec3a(30.0, 1.0, 0.0), vec3a(9.8, 1.0, 9.8), vec3a(0.0, -1.0, 0.0)] {
             let reach = if position.y < 0.0 { 1.2 } else { 1.0 };
             // Without a shadow, with one from maps, with one that is traced.
             for (at, kind) in [(0, 0), (4, 0), (0, 1), (4, 2)] {
                 let bias = Bias { constant: 0.01, slope: 2.0, normal: 0.0 };
                 let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
                 let shadow_views = ShadowViews { traced: kind == 2, ..ShadowViews::new(views, bias) };
-                let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3::splat(1e6));
+                let mut light = lamp(position, vec2(0.3, 1.8), reach, Vec3A::splat(1e6));
                 light.shadow = (kind > 0).then_some(shadow_views);
                 let mut lights = few.clone();
                 lights.insert(at, light);
@@ -196,9 +196,9 @@ fn a_lamp_counts_if_it_reaches_what_is_seen() {
         let seen = camera.eye.as_dvec3() + ray(&camera, SIZE, x, y) * 10f64.powf(number(-1.2, 3.0));
         let way = dvec3(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0));
         let reach = way.length() as f32 * 1.000_001;
-        assert!(lamp((seen + way).as_vec3(), Vec2::ONE, reach, Vec3::ONE).counts(&raster), "{seen} {way}");
+        assert!(lamp((seen + way).as_vec3a(), Vec2::ONE, reach, Vec3A::ONE).counts(&raster), "{seen} {way}");
     }
-    let away = |position: Vec3, reach: f32| !lamp(position, Vec2::ONE, reach, Vec3::ONE).counts(&raster);
+    let away = |position: Vec3A, reach: f32| !lamp(position, Vec2::ONE, reach, Vec3A::ONE).counts(&raster);
     assert!(away(camera.eye - camera.forward * 3.0, 2.9) && away(camera.eye + camera.right * 40.0, 10.0));
     assert!(!away(camera.eye - camera.forward * 3.0, f32::INFINITY));
 }
@@ -229,10 +229,10 @@ fn shares_of_a_pixel_sum_up_to_one() {
     let mut points = ground(1.0, 0.0, 60);
     for p in &mut points.points {
         let wiggle = |random: &mut Random| random.range(-0.008, 0.008) as f32;
-        *p = vec3(p.x + wiggle(&mut random), -p.z + wiggle(&mut random), wiggle(&mut random));
+        *p = vec3a(p.x + wiggle(&mut random), -p.z + wiggle(&mut random), wiggle(&mut random));
     }
-    let camera = Camera::look_at(vec3(0.0, 0.0, 1.0), Vec3::ZERO, 0.9, 0.2);
-    let world = World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(vec![body(points)]) };
+    let camera = Camera::look_at(vec3a(0.0, 0.0, 1.0), Vec3A::ZERO, 0.9, 0.2);
+    let world = World { ambient: [Vec3A::ONE, Vec3A::ZERO], ..dark(vec![body(points)]) };
     for (name, level) in testkit::levels() {
         for (coverage, grid) in [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)] {
             let planes = draw(
@@ -274,13 +274,13 @@ fn area(triangle: [DVec2; 3], x: f64, y: f64) -> f64 {
 #[test]
 fn coverage_nears_the_area_with_more_samples() {
     let mut random = Random(4);
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.9, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, 0.9, 0.0);
     let qualities = [(1, 1), (2, 1), (4, 1), (8, 1), (16, 1), (1, 8)];
     let (mut errors, mut biases, mut edges) = ([0.0; 6], [0.0; 6], 0);
     for _ in 0..150 {
         let mut face = [0; 3].map(|_| {
             let (x, y) = (random.range(-0.8, 0.8), random.range(-0.5, 0.5));
-            vec3(x as f32, y as f32, -1.0) * random.log(1.0, 10.0) as f32
+            vec3a(x as f32, y as f32, -1.0) * random.log(1.0, 10.0) as f32
         });
         if (face[1] - face[0]).cross(face[2] - face[0]).dot(face[0]) > 0.0 {
             face.swap(1, 2);

@@ -4,7 +4,7 @@
 //! (dark instead of lit) and leaks (lit instead of dark) are counted apart. Only the box is to cast a shadow where what
 //! looks away from the sun is drawn: level ground does not.
 
-use glam::{Affine3A, Vec2, Vec3, vec3};
+use glam::{Affine3A, Vec2, Vec3A, vec3a};
 use paprsek::frame::Cache;
 use paprsek::raster::{Bias, Body, Light, Mesh, Projection, ShadowViews, World};
 use paprsek::view::Camera;
@@ -89,7 +89,7 @@ fn coarse_ball(rings: usize, sides: usize) -> Mesh {
             let turn = TAU * (k % sides) as f32 / sides as f32;
             // Exactly one point at each pole, so that no face there has two corners in one place.
             let sin = if i == 0 || i == rings { 0.0 } else { sin };
-            mesh.points.push(vec3(-turn.sin() * sin, -cos, -turn.cos() * sin));
+            mesh.points.push(vec3a(-turn.sin() * sin, -cos, -turn.cos() * sin));
         }
     }
     mesh.normals = mesh.points.clone();
@@ -99,12 +99,12 @@ fn coarse_ball(rings: usize, sides: usize) -> Mesh {
 
 /// Of the pixels of a coarse ball that face the light, and how many of them keep less than a share of it.
 fn hidden(rings: usize, sides: usize, turn: f32, keeps: f32, bias: Bias, traced: bool) -> (usize, usize) {
-    let towards = vec3(turn.sin(), 0.4, turn.cos()).normalize();
-    let views = vec![Projection::parallel(towards, Vec3::ZERO, 3.0, 256)];
+    let towards = vec3a(turn.sin(), 0.4, turn.cos()).normalize();
+    let views = vec![Projection::parallel(towards, Vec3A::ZERO, 3.0, 256)];
     let picture = |shadow| {
-        let lights = vec![Light { shadow, ..Light::sun(towards, Vec3::ONE) }];
+        let lights = vec![Light { shadow, ..Light::sun(towards, Vec3A::ONE) }];
         let world = World { lights, ..dark(vec![body(coarse_ball(rings, sides))]) };
-        let camera = Camera::look_at(vec3(0.0, 0.5, 3.0), Vec3::ZERO, 0.9, 0.0);
+        let camera = Camera::look_at(vec3a(0.0, 0.5, 3.0), Vec3A::ZERO, 0.9, 0.0);
         draw(&world, camera, SIZE, QUALITY, testkit::levels()[0].1)
     };
     let truth = picture(None);
@@ -152,7 +152,7 @@ fn a_coarse_ball_hardly_shadows_itself_in_a_map() {
 #[test]
 fn a_plan_without_views_is_no_shadow() {
     let world = |shadow| {
-        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
+        let lights = vec![Light { shadow, ..Light::sun(Vec3A::Y, Vec3A::ONE) }];
         World { lights, ..dark(vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))]) }
     };
     let picture = |shadow| draw(&world(shadow), cameras()[0], SIZE, QUALITY, testkit::levels()[0].1);
@@ -167,7 +167,7 @@ fn a_plan_without_views_is_no_shadow() {
 fn bodies_before_the_first_that_casts_hide_nothing() {
     // The box comes first: it hides the ground unless the shadow begins after it.
     let picture = |shadow| {
-        let lights = vec![Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) }];
+        let lights = vec![Light { shadow, ..Light::sun(Vec3A::Y, Vec3A::ONE) }];
         let bodies = vec![body(block(BOX.0, BOX.1)), body(ground(14.0, 0.0, 6))];
         draw(&World { lights, ..dark(bodies) }, cameras()[0], SIZE, QUALITY, testkit::levels()[0].1)
     };
@@ -175,7 +175,7 @@ fn bodies_before_the_first_that_casts_hide_nothing() {
     for traced in [false, true] {
         let hidden = |from| {
             let bias = Bias { constant: 0.5, slope: 0.0, normal: 0.0 };
-            let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, 30.0, 256)];
+            let views = vec![Projection::parallel(Vec3A::Y, Vec3A::ZERO, 30.0, 256)];
             let shadow_views = ShadowViews { traced, first_caster: from, ..ShadowViews::new(views, bias) };
             let found = picture(Some(shadow_views));
             let pairs = found.color.iter().zip(&truth.color);
@@ -224,7 +224,7 @@ fn the_finest_map_that_reaches_is_looked_up() {
         let mut shadow_views = fine.shadow_views();
         shadow_views.views.extend(wide.shadow_views().views);
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(BOX.0, BOX.1))];
-        let lights = vec![Light::sun(fine.towards().as_vec3(), Vec3::ONE).with_shadow(shadow_views)];
+        let lights = vec![Light::sun(fine.towards().as_vec3a(), Vec3A::ONE).with_shadow(shadow_views)];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, testkit::levels()[0].1)
     };
     let (fine_alone, wide_alone) = (fine.draw(camera), wide.draw(camera));
@@ -271,16 +271,17 @@ fn kept_maps_change_no_frame() {
             back_faces: k % 9 == 8,
             traced: k % 11 == 10,
         };
-        let position = vec3(0.0, 4.0 + (k % 2) as f32, 5.0);
+        let position = vec3a(0.0, 4.0 + (k % 2) as f32, 5.0);
         let views = (0..6).map(|face| Projection::face(face, position, 64)).collect();
-        let lamp = Light::lamp(position, Vec3::X, Vec2::new(0.0, 0.1), 20.0);
+        let lamp = Light::lamp(position, Vec3A::X, Vec2::new(0.0, 0.1), 20.0);
         let lamp = lamp.with_shadow(ShadowViews { views, ..scene.shadow_views() });
-        let mut lights = vec![Light::sun(scene.towards().as_vec3(), Vec3::ONE).with_shadow(scene.shadow_views()), lamp];
+        let mut lights =
+            vec![Light::sun(scene.towards().as_vec3a(), Vec3A::ONE).with_shadow(scene.shadow_views()), lamp];
         if k % 4 == 3 {
             lights.reverse();
         }
         lights.truncate(1 + (k % 6 != 5) as usize);
-        let place = Affine3A::from_translation(vec3(at, 0.0, 0.0));
+        let place = Affine3A::from_translation(glam::vec3(at, 0.0, 0.0));
         let mut bodies = vec![Body::new(renew(&floor), Affine3A::IDENTITY), Body::new(renew(&shapes[shape]), place)];
         bodies.truncate(1 + there as usize);
         let size = [[90, 60], [64, 64], [33, 70]][k % 3];

@@ -1,6 +1,6 @@
 //! Snow that settles, against its formula in f64 and what stands above a point.
 
-use glam::{DVec3, Vec2, Vec3, Vec3Swizzles as _, vec2, vec3};
+use glam::{DVec3, Vec2, Vec3A, Vec3Swizzles as _, vec2, vec3a};
 use paprsek::frame::Cache;
 use paprsek::noise::noise;
 use paprsek::raster::snow_cover::{EDGE, GRAIN, KEEPS, PRINT, RELIEF, ROUGH, SINKS, STANCE, STEP, VARIES, WHITE};
@@ -13,25 +13,25 @@ use testkit::drawn::{Planes, block, body, dark, draw, draw_with, enters, ground,
 const SIZE: [usize; 2] = [160, 100];
 const AMOUNTS: [f32; 7] = [0.0, 0.1, 0.25, 0.4, 0.6, 0.85, 1.0];
 /// Dark ground, as of a meadow in late autumn.
-const GROUND: Vec3 = vec3(0.16, 0.14, 0.05);
+const GROUND: Vec3A = vec3a(0.16, 0.14, 0.05);
 
 /// A shadow of one view straight down, `width` metres wide.
 fn shadow_views(width: f32, texels: u32) -> ShadowViews {
-    let views = vec![Projection::parallel(Vec3::Y, Vec3::ZERO, width, texels)];
+    let views = vec![Projection::parallel(Vec3A::Y, Vec3A::ZERO, width, texels)];
     ShadowViews::new(views, Bias { constant: 0.05, slope: 2.0, normal: 0.0 })
 }
 
 fn snow(amount: f32, shadow: Option<ShadowViews>) -> Option<SnowCover> {
-    let fall = Light { shadow, ..Light::sun(Vec3::Y, Vec3::ONE) };
-    Some(SnowCover { amount, fall, sky: Vec3::ZERO, track: [Vec2::ZERO; 2] })
+    let fall = Light { shadow, ..Light::sun(Vec3A::Y, Vec3A::ONE) };
+    Some(SnowCover { amount, fall, sky: Vec3A::ZERO, track: [Vec2::ZERO; 2] })
 }
 
 /// Light from all around, so that a picture has the albedo of what it shows.
 fn even(bodies: Vec<Body>) -> World {
-    World { ambient: [Vec3::ONE, Vec3::ZERO], ..dark(bodies) }
+    World { ambient: [Vec3A::ONE, Vec3A::ZERO], ..dark(bodies) }
 }
 
-fn paint(mut mesh: Mesh, albedo: Vec3, gloss: f32) -> Mesh {
+fn paint(mut mesh: Mesh, albedo: Vec3A, gloss: f32) -> Mesh {
     (mesh.paints[0].albedo, mesh.paints[0].gloss) = (albedo, gloss);
     mesh
 }
@@ -41,7 +41,7 @@ fn picture(world: &World, camera: Camera) -> Planes {
 }
 
 fn from_above() -> Camera {
-    Camera::look_at(vec3(2.0, 9.0, 11.0), Vec3::ZERO, 0.7, 0.0)
+    Camera::look_at(vec3a(2.0, 9.0, 11.0), Vec3A::ZERO, 0.7, 0.0)
 }
 
 /// Where a pixel's eye ray meets the ground at a height of 0, and what it is there.
@@ -72,7 +72,7 @@ fn spot(camera: &Camera, pixel: usize, normal: DVec3) -> Spot {
             let zoom = 2f64.powi(k as i32);
             let square = (footprint * turn.x_axis.length() * zoom).powi(2);
             let fade = 1.0 / (1.0 + 0.4 * square + 0.1 * square * square);
-            0.5f64.powi(k as i32 + 1) * noise((turn * point * zoom).as_vec3()) as f64 * fade
+            0.5f64.powi(k as i32 + 1) * noise((turn * point * zoom).as_vec3a()) as f64 * fade
         })
         .sum();
     Spot { ray, depth, point, grain: sum * most.x as f64, footprint }
@@ -90,7 +90,7 @@ fn depth(amount: f32, open: f64) -> f64 {
 }
 
 /// The share of a surface that is white under a depth of snow, over a pixel of a length.
-fn cover(depth: f64, albedo: Vec3, grain: f64, footprint: f64) -> f64 {
+fn cover(depth: f64, albedo: Vec3A, grain: f64, footprint: f64) -> f64 {
     let rough = (ROUGH as f64 * albedo.y as f64 + grain).clamp(0.0, 1.0);
     let across = (footprint * VARIES as f64).min(depth).min(1.0 + EDGE as f64 - depth);
     let edge = across.hypot(EDGE as f64);
@@ -111,20 +111,20 @@ const ALL: f64 = 1e-3;
 /// A slope that falls towards the eye, and its normal.
 fn slope(degrees: f32) -> (Mesh, DVec3) {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let at = |x: f32, z: f32| vec3(x, -z * sin, z * cos);
+    let at = |x: f32, z: f32| vec3a(x, -z * sin, z * cos);
     let (a, b, c, d) = (at(-9.0, 9.0), at(9.0, 9.0), at(9.0, -9.0), at(-9.0, -9.0));
     (triangles(&[[a, b, c], [a, c, d]]), DVec3::new(0.0, cos as f64, sin as f64))
 }
 
 #[test]
 fn open_slopes_are_covered_by_their_formula() {
-    let light = vec3(0.4, 0.5, 0.7);
+    let light = vec3a(0.4, 0.5, 0.7);
     let mut worst: f64 = 0.0;
     for degrees in [0.0, 10.0, 30.0, 45.0, 60.0, 75.0, 76.0, 85.0] {
-        for (albedo, gloss) in [(GROUND, 0.0), (vec3(0.9, 0.02, 0.4), 0.0), (Vec3::splat(0.3), 0.0), (GROUND, 0.5)] {
+        for (albedo, gloss) in [(GROUND, 0.0), (vec3a(0.9, 0.02, 0.4), 0.0), (Vec3A::splat(0.3), 0.0), (GROUND, 0.5)] {
             let (mesh, normal) = slope(degrees);
             let world = even(vec![body(paint(mesh, albedo, gloss))]);
-            let camera = Camera::look_at(vec3(0.0, 6.0, 14.0), Vec3::ZERO, 0.5, 0.0);
+            let camera = Camera::look_at(vec3a(0.0, 6.0, 14.0), Vec3A::ZERO, 0.5, 0.0);
             for amount in AMOUNTS {
                 let settled = snow(amount, None).map(|snow| SnowCover { sky: light, ..snow });
                 let planes = picture(&World { snow: settled, ..world.clone() }, camera);
@@ -154,8 +154,8 @@ fn open_slopes_are_covered_by_their_formula() {
 
 #[test]
 fn all_that_is_level_is_white_in_the_end_and_walls_are_not() {
-    for albedo in [GROUND, Vec3::ONE, Vec3::ZERO] {
-        let wall = triangles(&[[vec3(-9.0, -9.0, 0.0), vec3(9.0, -9.0, 0.0), vec3(0.0, 9.0, 0.0)]]);
+    for albedo in [GROUND, Vec3A::ONE, Vec3A::ZERO] {
+        let wall = triangles(&[[vec3a(-9.0, -9.0, 0.0), vec3a(9.0, -9.0, 0.0), vec3a(0.0, 9.0, 0.0)]]);
         for (mesh, level) in [(ground(9.0, 0.0, 3), true), (wall, false)] {
             let world = even(vec![body(paint(mesh, albedo, 0.0))]);
             let bare = picture(&world, from_above());
@@ -188,7 +188,7 @@ fn footprints_are_where_feet_have_trodden() {
     let track = [vec2(-3.0, 2.5), vec2(3.5, -2.0)];
     let [from, to] = track.map(|p| p.as_dvec2());
     let (way, length) = ((to - from).normalize(), from.distance(to));
-    let camera = Camera::look_at(vec3(0.5, 3.5, 4.0), Vec3::ZERO, 0.9, 0.0);
+    let camera = Camera::look_at(vec3a(0.5, 3.5, 4.0), Vec3A::ZERO, 0.9, 0.0);
     let world = even(vec![body(paint(ground(9.0, 0.0, 3), GROUND, 0.0))]);
     for amount in [0.5, 0.8, 1.0] {
         let settled = snow(amount, None).map(|snow| SnowCover { track, ..snow });
@@ -217,7 +217,7 @@ fn footprints_are_where_feet_have_trodden() {
 
 /// A map cannot know an edge better than its 3x3 texels reach.
 const REACH: f64 = 1.5;
-const SLAB: (Vec3, Vec3) = (vec3(-1.5, 2.5, -1.0), vec3(1.5, 2.8, 2.0));
+const SLAB: (Vec3A, Vec3A) = (vec3a(-1.5, 2.5, -1.0), vec3a(1.5, 2.8, 2.0));
 
 /// Bare under a slab, white beside it; between, no farther from its edge than 3x3 texels reach.
 #[test]
@@ -225,8 +225,8 @@ fn what_stands_above_keeps_snow_off() {
     let bodies = vec![body(paint(ground(12.0, 0.0, 6), GROUND, 0.0)), body(block(SLAB.0, SLAB.1))];
     let world = even(bodies);
     for (camera, texels) in [
-        (Camera::look_at(vec3(3.0, 1.2, 7.0), vec3(0.0, 0.0, 0.5), 0.8, 0.0), 128),
-        (Camera::look_at(vec3(-4.0, 1.8, 5.0), vec3(0.0, 0.0, 0.5), 0.9, 0.0), 256),
+        (Camera::look_at(vec3a(3.0, 1.2, 7.0), vec3a(0.0, 0.0, 0.5), 0.8, 0.0), 128),
+        (Camera::look_at(vec3a(-4.0, 1.8, 5.0), vec3a(0.0, 0.0, 0.5), 0.9, 0.0), 256),
         (from_above(), 64),
     ] {
         let texel = 24.0 / texels as f64;
@@ -264,10 +264,10 @@ fn what_stands_above_keeps_snow_off() {
 fn stage() -> (World, Camera) {
     let bodies = vec![
         body(paint(ground(12.0, 0.0, 6), GROUND, 0.0)),
-        body(paint(block(SLAB.0, SLAB.1), vec3(0.3, 0.25, 0.2), 0.0)),
-        body(paint(slope(40.0).0, vec3(0.05, 0.08, 0.05), 0.3)),
+        body(paint(block(SLAB.0, SLAB.1), vec3a(0.3, 0.25, 0.2), 0.0)),
+        body(paint(slope(40.0).0, vec3a(0.05, 0.08, 0.05), 0.3)),
     ];
-    (even(bodies), Camera::look_at(vec3(5.0, 3.0, 9.0), Vec3::ZERO, 0.9, 0.2))
+    (even(bodies), Camera::look_at(vec3a(5.0, 3.0, 9.0), Vec3A::ZERO, 0.9, 0.2))
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! A point is misclassified where more than half of the light comes though it should not, or the other way round. Acne
 //! (dark instead of lit) and leaks (lit instead of dark) are counted apart.
 
-use glam::{DVec3, Vec2, Vec3, vec3};
+use glam::{DVec3, Vec2, Vec3A, vec3a};
 use paprsek::raster::{Bias, Light, Mesh, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
@@ -18,10 +18,10 @@ const REACH: f64 = 1.5;
 const SHARE: f64 = 0.01;
 
 /// Boxes by their least and greatest corners.
-type Boxes = Vec<(Vec3, Vec3)>;
+type Boxes = Vec<(Vec3A, Vec3A)>;
 
 /// A room around the origin, turned inwards.
-fn room(half: Vec3) -> Mesh {
+fn room(half: Vec3A) -> Mesh {
     let mut mesh = block(-half, half);
     for face in &mut mesh.faces {
         face.corners.swap(1, 2);
@@ -38,12 +38,12 @@ struct Torch {
     corners: u32,
 }
 
-fn torch(texels: u32, torch: Vec3, half: Vec3, smooth: bool, boxes: &Boxes, cameras: &[Camera], into: &mut Torch) {
+fn torch(texels: u32, torch: Vec3A, half: Vec3A, smooth: bool, boxes: &Boxes, cameras: &[Camera], into: &mut Torch) {
     // The bench scene's: 2.12 texels are half the diagonal of 3x3; and the room shadows itself if that is too little.
     let bias = Bias { constant: 0.02, slope: 2.12, normal: 0.0 };
     let views = (0..6).map(|face| Projection::face(face, torch, texels)).collect();
     let shadow_views = ShadowViews { smooth, ..ShadowViews::new(views, bias) };
-    let lights = vec![Light::lamp(torch, Vec3::ONE, Vec2::ZERO, f32::INFINITY).with_shadow(shadow_views)];
+    let lights = vec![Light::lamp(torch, Vec3A::ONE, Vec2::ZERO, f32::INFINITY).with_shadow(shadow_views)];
     let mut bodies = vec![body(room(half))];
     bodies.extend(boxes.iter().map(|b| body(block(b.0, b.1))));
     let world = World { lights, ..dark(bodies) };
@@ -106,30 +106,30 @@ fn a_torchs_shadows_pass_the_cubes_edges_and_corners() {
     // Boxes across directions of equal components, in all octants and some of the twelve edges.
     let mut boxes: Boxes = Vec::new();
     for (k, d) in [
-        vec3(1.0, 1.0, 1.0),
-        vec3(-1.0, 1.0, -1.0),
-        vec3(1.0, -1.0, -1.0),
-        vec3(-1.0, -1.0, 1.0),
-        vec3(1.0, 0.0, -1.0),
-        vec3(-1.0, 0.0, -1.0),
-        vec3(0.0, -1.0, 1.0),
-        vec3(0.0, 1.0, -1.0),
-        vec3(1.0, -0.9, 0.2),
-        vec3(-1.0, 0.1, 0.2),
+        vec3a(1.0, 1.0, 1.0),
+        vec3a(-1.0, 1.0, -1.0),
+        vec3a(1.0, -1.0, -1.0),
+        vec3a(-1.0, -1.0, 1.0),
+        vec3a(1.0, 0.0, -1.0),
+        vec3a(-1.0, 0.0, -1.0),
+        vec3a(0.0, -1.0, 1.0),
+        vec3a(0.0, 1.0, -1.0),
+        vec3a(1.0, -0.9, 0.2),
+        vec3a(-1.0, 0.1, 0.2),
     ]
     .into_iter()
     .enumerate()
     {
-        let half = vec3(0.35, 0.3, 0.4) * (1.0 + 0.1 * k as f32);
+        let half = vec3a(0.35, 0.3, 0.4) * (1.0 + 0.1 * k as f32);
         boxes.push((d * 1.5 - half, d * 1.5 + half));
     }
-    let half = Vec3::splat(3.5);
-    let eyes = [vec3(3.2, 3.0, 3.1), vec3(-3.2, -3.0, 3.1), vec3(-3.0, 3.2, -3.1), vec3(3.2, -3.0, -3.1)];
-    let cameras = eyes.map(|eye| Camera::look_at(eye, Vec3::ZERO, 1.5, 0.0));
+    let half = Vec3A::splat(3.5);
+    let eyes = [vec3a(3.2, 3.0, 3.1), vec3a(-3.2, -3.0, 3.1), vec3a(-3.0, 3.2, -3.1), vec3a(3.2, -3.0, -3.1)];
+    let cameras = eyes.map(|eye| Camera::look_at(eye, Vec3A::ZERO, 1.5, 0.0));
     for texels in [128, 512] {
         for smooth in [false, true] {
             let mut sum = Torch::default();
-            for place in [Vec3::ZERO, vec3(0.2, 0.3, -0.1), vec3(-0.5, 0.1, 0.4)] {
+            for place in [Vec3A::ZERO, vec3a(0.2, 0.3, -0.1), vec3a(-0.5, 0.1, 0.4)] {
                 torch(texels, place, half, smooth, &boxes, &cameras, &mut sum);
             }
             println!("{texels}, smooth: {smooth}: {:.3} %, {sum:?}", 100.0 * sum.count.share());

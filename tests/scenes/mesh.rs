@@ -1,7 +1,7 @@
 //! Meshes from formulas: closed where they should be, turned outwards, without cracks; and the bench set against its
 //! other writing.
 
-use glam::{DVec3, Mat3, Vec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, vec3a};
 use paprsek::raster::Mesh;
 use paprsek::raster::form::{Rings, SQUARE};
 use paprsek::scenes::models::{chapel, land, mustang, tree};
@@ -9,12 +9,12 @@ use paprsek::simd::hash::{pcg, rnd};
 use std::collections::HashMap;
 
 /// A place by its bits; both zeros are one.
-fn key(p: Vec3) -> [u32; 3] {
+fn key(p: Vec3A) -> [u32; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
 /// The corners of face `i`.
-fn corners(mesh: &Mesh, i: usize) -> [Vec3; 3] {
+fn corners(mesh: &Mesh, i: usize) -> [Vec3A; 3] {
     mesh.faces[i].corners.map(|i| mesh.points[i as usize])
 }
 
@@ -91,7 +91,7 @@ fn sound(name: &str, mesh: &Mesh) {
     for (i, face) in mesh.faces.iter().enumerate() {
         assert!(face.corners.iter().all(|&c| (c as usize) < mesh.points.len()), "{name}: face {i}");
         assert!((face.paint as usize) < mesh.paints.len(), "{name}: paint {} of face {i}", face.paint);
-        let [a, b, c] = corners(mesh, i).map(Vec3::as_dvec3);
+        let [a, b, c] = corners(mesh, i).map(Vec3A::as_dvec3);
         let area = 0.5 * (b - a).cross(c - a).length();
         assert!(area > 1e-8, "{name}: face {i} has an area of {area}");
     }
@@ -121,8 +121,8 @@ fn the_hash_is_that_of_the_bench_scenes() {
 #[test]
 fn boxes_are_boxes() {
     let mut mesh = Mesh::default();
-    let half = Mat3::from_rotation_y(0.3) * Mat3::from_diagonal(vec3(1.0, 2.0, 3.0));
-    mesh.block(&half, vec3(5.0, 6.0, 7.0), 0);
+    let half = Mat3A::from_rotation_y(0.3) * Mat3A::from_diagonal(glam::vec3(1.0, 2.0, 3.0));
+    mesh.block(&half, vec3a(5.0, 6.0, 7.0), 0);
     assert_eq!(mesh.faces.len(), 12);
     let all: Vec<_> = (0..12).collect();
     assert!((volume(&mesh, &all) - 48.0).abs() < 1e-4);
@@ -136,7 +136,7 @@ fn bodies_are_closed_by_poles() {
     for (sides, swell, expected) in [(4, SQUARE, 48.0), (4, 0.0, 24.0), (64, 0.0, 12.0 * std::f64::consts::PI)] {
         let mut mesh = Mesh::painted(&mustang::PAINTS);
         let body = Rings { rows: ROWS, sides, half: false, swell, taper: 0.0 };
-        mesh.rings(&body, &Mat3::IDENTITY, Vec3::X, 0);
+        mesh.rings(&body, &Mat3A::IDENTITY, Vec3A::X, 0);
         let all: Vec<_> = (0..mesh.faces.len()).collect();
         assert!(open([&mesh]).is_empty());
         assert_eq!(euler(&mesh, &all), 2);
@@ -165,8 +165,8 @@ fn the_mustang_has_its_size() {
     let mesh = mustang::airframe();
     assert!((1900..=2400).contains(&mesh.faces.len()), "{} triangles", mesh.faces.len());
     assert!(worst_lean(&mesh) > LEAN, "a normal leans away by {}", worst_lean(&mesh));
-    let low = mesh.points.iter().copied().reduce(Vec3::min).unwrap();
-    let high = mesh.points.iter().copied().reduce(Vec3::max).unwrap();
+    let low = mesh.points.iter().copied().reduce(Vec3A::min).unwrap();
+    let high = mesh.points.iter().copied().reduce(Vec3A::max).unwrap();
     let size = high - low;
     // 11.28 m wide and 9.83 m long, to the half grid of its tables.
     assert!((size.x - 11.28).abs() < 0.05 && (size.z - 9.83).abs() < 0.05, "{size}");
@@ -178,7 +178,7 @@ fn the_mustang_is_its_own_mirror_image() {
     let mesh = mustang::airframe();
     let (left, right) = (mesh.faces.len() / 2, mesh.points.len() / 2);
     for i in 0..right {
-        let mirrored = |v: Vec3| vec3(-v.x, v.y, v.z);
+        let mirrored = |v: Vec3A| vec3a(-v.x, v.y, v.z);
         assert_eq!(mesh.points[i + right], mirrored(mesh.points[i]));
         assert!((mesh.normals[i + right] - mirrored(mesh.normals[i])).length() < 1e-6);
     }
@@ -263,7 +263,7 @@ fn trees_are_open_only_below() {
     {
         for seed in 0..20 {
             let mut mesh = Mesh::painted(&paprsek::scenes::models::PAINTS);
-            let tree = tree::Tree { foot: vec3(30.0, 2.0, -40.0), height: 10.0, seed, fir };
+            let tree = tree::Tree { foot: vec3a(30.0, 2.0, -40.0), height: 10.0, seed, fir };
             tree::grow(&mut mesh, &tree, far);
             let name = format!("tree {seed}, fir {fir}, far {far}");
             sound(&name, &mesh);
@@ -325,7 +325,7 @@ mod bench_set {
 
     #[test]
     fn it_sums_up_to_what_the_other_writing_does() {
-        let (mut low, mut high, mut sum) = (Vec3::INFINITY, Vec3::NEG_INFINITY, DVec3::ZERO);
+        let (mut low, mut high, mut sum) = (Vec3A::INFINITY, Vec3A::NEG_INFINITY, DVec3::ZERO);
         for mesh in shadow_set::meshes() {
             for i in 0..mesh.faces.len() {
                 for p in corners(&mesh, i) {
@@ -333,8 +333,8 @@ mod bench_set {
                 }
             }
         }
-        assert!(low.abs_diff_eq(vec3(-24.0, -1.079_667, -24.0), TOLERANCE), "{low}");
-        assert!(high.abs_diff_eq(vec3(24.0, 6.303_766, 24.0), TOLERANCE), "{high}");
+        assert!(low.abs_diff_eq(vec3a(-24.0, -1.079_667, -24.0), TOLERANCE), "{low}");
+        assert!(high.abs_diff_eq(vec3a(24.0, 6.303_766, 24.0), TOLERANCE), "{high}");
         let mean = sum / (3.0 * 9984.0);
         assert!(mean.abs_diff_eq(MEAN, 1e-6), "{mean}");
     }
@@ -343,7 +343,7 @@ mod bench_set {
     fn its_triangles_are_those_of_the_other_writing() {
         let meshes = shadow_set::meshes();
         for (points, normal, albedo) in TRIANGLES {
-            let expected: [Vec3; 3] = std::array::from_fn(|k| Vec3::from_slice(&points[3 * k..]));
+            let expected: [Vec3A; 3] = std::array::from_fn(|k| Vec3A::from_slice(&points[3 * k..]));
             let found = meshes.iter().any(|mesh| {
                 (0..mesh.faces.len()).any(|i| {
                     let (face, c) = (mesh.faces[i], corners(mesh, i));

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Floors from below, each with its rooms: folders of `src/`, or single files there. Arrows run from a floor to those below it and
 /// within a room; between the rooms of a floor as [`SEPARATE`] says.
 const FLOORS: [&[&str]; 6] = [
-    &["simd", "angle", "timeline", "settings", "cuts"],
+    &["simd", "angle", "vector", "timeline", "settings", "cuts"],
     &["view", "noise", "texture"],
     &["frame"],
     &["trace", "raster", "cloud", "particles", "sky", "effects", "sound"],

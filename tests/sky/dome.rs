@@ -1,6 +1,6 @@
 //! The light of the air: against an integral in f64 and without seams.
 
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
 use paprsek::settings::{Quality, SkySettings};
@@ -110,7 +110,7 @@ fn no_jump_across_the_horizon() {
 #[test]
 fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
     let noon = Dome::new(sky(50.0), &EXACT);
-    let zenith = noon.radiance(Vec3::Y);
+    let zenith = noon.radiance(Vec3A::Y);
     assert!(zenith.z > 1.8 * zenith.x && zenith.z > zenith.y, "{zenith}");
     let dusk = Dome::new(sky(-3.0), &EXACT);
     let (glow, shadow, belt) =
@@ -135,7 +135,7 @@ fn day_is_blue_dusk_is_red_and_opposite_it_the_earth_casts_its_shadow() {
 }
 
 fn frame(renderer: &mut Renderer, sky: Sky, quality: &SkySettings, moon_size: f32, size: (usize, usize)) -> Frame {
-    let camera = Camera::look_at(Vec3::ZERO, vec3(0.3, 0.3, -1.0), 0.9, 0.1);
+    let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.3, 0.3, -1.0), 0.9, 0.1);
     let dome = Dome::new(sky, quality).with_sizes(2.0, moon_size);
     let layer = SkyLayer::new(dome, &View::new(camera, size.0, size.1), quality);
     let mut frame = Frame::new(size.0, size.1);
@@ -145,7 +145,7 @@ fn frame(renderer: &mut Renderer, sky: Sky, quality: &SkySettings, moon_size: f3
 
 /// Skies with all that there is: a high sun; dusk with stars; a night with a moon in view.
 fn skies() -> [Sky; 3] {
-    let night = Sky { moon: toward(20.0, 10.0), lit: 0.6, moon_to_sun: vec3(-0.9, 0.1, 0.42), ..sky(-25.0) };
+    let night = Sky { moon: toward(20.0, 10.0), lit: 0.6, moon_to_sun: vec3a(-0.9, 0.1, 0.42), ..sky(-25.0) };
     [sky(15.0), sky(-8.0), night]
 }
 
@@ -201,7 +201,7 @@ fn cells_are_as_good_as_pixels() {
 
 #[test]
 fn fills_what_solids_leave() {
-    let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.3, -1.0), 0.9, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 0.3, -1.0), 0.9, 0.0);
     for sky in skies() {
         let settings = Quality::FAST.sky;
         let layer = || SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings);
@@ -230,7 +230,7 @@ fn fills_what_solids_leave() {
 
 #[test]
 fn stars_come_out_by_brightness_and_turn_about_the_pole() {
-    let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 1.0, -1.0), 1.2, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 1.0, -1.0), 1.2, 0.0);
     let view = View::new(camera, 640, 360);
     let count = |altitude: f32| Dome::new(sky(altitude), &EXACT).stars(&view).len();
     assert_eq!(count(3.0), 0);
@@ -239,7 +239,7 @@ fn stars_come_out_by_brightness_and_turn_about_the_pole() {
     assert!(*counts.last().unwrap() > 150 && counts.windows(2).all(|w| w[1] - w[0] < 120), "{counts:?}");
     // A sidereal day later each is where it was.
     let dark = |days: f64| {
-        let turn = Place::PLZEN.turn(days).as_mat3();
+        let turn = Place::PLZEN.turn(days).as_mat3().into();
         Dome::new(Sky { turn, ..sky(-30.0) }, &EXACT).stars(&view)
     };
     let (now, later) = (dark(5000.0), dark(5000.0 + 0.997_269_57));
@@ -252,7 +252,7 @@ fn stars_come_out_by_brightness_and_turn_about_the_pole() {
 
 #[test]
 fn stars_keep_their_light_as_they_glide() {
-    let star = |x: f32| paprsek::sky::stars::Star { at: (30.0 + x, 30.3), color: Vec3::ONE };
+    let star = |x: f32| paprsek::sky::stars::Star { at: (30.0 + x, 30.3), color: Vec3A::ONE };
     let mut sums = vec![];
     for i in 0..20 {
         let mut tile = Tile::at(0, 0, 64, 64);
@@ -268,10 +268,10 @@ fn the_moon_is_lit_where_the_sun_is() {
     let moon = toward(30.0, 0.0);
     // On the screen the sun stands to the right and above, 3:1, and a little before or behind the moon.
     for (ahead, lit) in [(0.0, 0.5), (0.6, 0.2), (-0.6, 0.8), (-1.0, 1.0)] {
-        let (right, up) = (Vec3::X, Vec3::X.cross(moon));
+        let (right, up) = (Vec3A::X, Vec3A::X.cross(moon));
         let across = (right * 3.0 + up).normalize() * (1.0f32 - ahead * ahead).sqrt();
         let sky = Sky { moon, lit, moon_to_sun: (across + moon * ahead).normalize(), ..sky(-30.0) };
-        let camera = Camera::look_at(Vec3::ZERO, moon, 0.2, 0.0);
+        let camera = Camera::look_at(Vec3A::ZERO, moon, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
         let settings = Quality::FAST.sky;
         let dome = Dome::new(sky, &settings).with_sizes(2.0, 10.0);
@@ -300,7 +300,7 @@ fn the_sun_reddens_towards_the_horizon() {
     let mut last = 1.0;
     for altitude in [60.0, 20.0, 10.0, 6.0, 3.0, 1.0] {
         let sky = sky(altitude);
-        let camera = Camera::look_at(Vec3::ZERO, sky.sun, 0.2, 0.0);
+        let camera = Camera::look_at(Vec3A::ZERO, sky.sun, 0.2, 0.0);
         let mut tile = Tile::at(0, 0, 64, 64);
         let settings = Quality::FAST.sky;
         SkyLayer::new(Dome::new(sky, &settings), &View::new(camera, 64, 64), &settings)
@@ -317,7 +317,7 @@ fn the_sun_reddens_towards_the_horizon() {
 #[test]
 fn the_light_is_handed_over_without_a_jump() {
     // The night after a full moon in June, minute by minute.
-    let (mut last, mut turns) = (None::<(Vec3, Vec3)>, 0);
+    let (mut last, mut turns) = (None::<(Vec3A, Vec3A)>, 0);
     for minute in 0..1440 {
         let days = 9676.5 + minute as f64 / 1440.0;
         let light = Dome::new(Sky::new(days, &Place::PLZEN), &Quality::DEFAULT.sky).lighting();
@@ -342,7 +342,7 @@ proptest! {
     ) {
         let sky = Sky::new(days, &Place { latitude, longitude });
         let dome = Dome::new(sky, &Quality::DEFAULT.sky);
-        for d in [vec3(x, y, z).normalize_or(Vec3::Y), Vec3::Y, -Vec3::Y, sky.sun, sky.moon, -sky.sun] {
+        for d in [vec3a(x, y, z).normalize_or(Vec3A::Y), Vec3A::Y, -Vec3A::Y, sky.sun, sky.moon, -sky.sun] {
             let c = dome.radiance(d);
             prop_assert!(c.is_finite() && c.min_element() >= 0.0 && c.max_element() <= 1.0, "{} {}", d, c);
         }

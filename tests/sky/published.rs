@@ -2,7 +2,7 @@
 //! What is left out (refraction, the change of temperature with height) bounds it, not
 //! the arithmetic.
 
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::settings::SkySettings;
 use paprsek::sky::dome::Dome;
 use std::f64::consts::PI;
@@ -52,7 +52,7 @@ fn diffuse(haze: f32) -> [f32; 3] {
     (at.air.haze, at.air.ozone) = (haze, 1.0);
     let sun = at.sun;
     let dome = Dome::new(at, &EXACT);
-    let mut diffuse = Vec3::ZERO;
+    let mut diffuse = Vec3A::ZERO;
     let (rings, turns) = (45, 60);
     for ring in 0..rings {
         let [low, high] = [ring, ring + 1].map(|ring| (ring as f32 * PI as f32 / 90.0).sin().powi(2));

@@ -2,7 +2,7 @@
 //! corners of a square, pushed through it in steps of an eighth of a pixel.
 
 use fearless_simd::Level;
-use glam::{Mat3, Vec3, dvec3, vec3};
+use glam::{Mat3A, Vec3A, dvec3, vec3a};
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::scenes::bench::spheres;
@@ -82,7 +82,7 @@ fn antialiased_textures_meet_their_target() {
     antialiased(&["spheres"], (1280, 720));
 }
 
-fn object(shape: Shape, color: Vec3) -> Object {
+fn object(shape: Shape, color: Vec3A) -> Object {
     Object::new(shape, Material::plain(color))
 }
 
@@ -91,8 +91,8 @@ const SKY: f64 = 0.4;
 
 /// An even grey sky and light from everywhere: flat colours, and whatever differs is the thing itself.
 fn flat(objects: Vec<Object>) -> World {
-    let background = Background::even(Vec3::splat(SKY as f32));
-    World { objects, lights: vec![], ambient: Vec3::ONE, background, max_level: 3 }
+    let background = Background::even(Vec3A::splat(SKY as f32));
+    World { objects, lights: vec![], ambient: Vec3A::ONE, background, max_level: 3 }
 }
 
 /// Size of the small pictures: two tiles and a part of a square.
@@ -103,12 +103,12 @@ const SCREEN: f32 = 100.0;
 /// The camera before that screen.
 fn before_the_screen() -> Camera {
     let fov = 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan();
-    Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, fov, 0.0)
+    Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, fov, 0.0)
 }
 
 /// The point of the screen at a place in the picture, pixels from its top left.
-fn on_screen(x: f64, y: f64) -> Vec3 {
-    vec3((x - SMALL.0 as f64 * 0.5) as f32, (SMALL.1 as f64 * 0.5 - y) as f32, -SCREEN)
+fn on_screen(x: f64, y: f64) -> Vec3A {
+    vec3a((x - SMALL.0 as f64 * 0.5) as f32, (SMALL.1 as f64 * 0.5 - y) as f32, -SCREEN)
 }
 
 /// What became of a thing in the adaptive picture.
@@ -186,7 +186,7 @@ fn shares(light: f64, contrast: f32) -> (f64, f64) {
     for radius in RADII.into_iter().skip(6).chain([12.0, 20.0]) {
         for (column, row) in places().step_by(5) {
             let center = on_screen(38.0 + column, 26.0 + row);
-            let world = flat(vec![object(Shape::Sphere { center, radius: radius as f32 }, Vec3::splat(light as f32))]);
+            let world = flat(vec![object(Shape::Sphere { center, radius: radius as f32 }, Vec3A::splat(light as f32))]);
             let found = traced(&world, before_the_screen(), SMALL, quality, Level::new());
             // A ray meets the ball where its angle to the centre is less than the rim's.
             let center = center.as_dvec3();
@@ -236,7 +236,7 @@ fn balls(column: f64, row: f64) -> Tally {
     for radius in RADII {
         for (x, y) in places() {
             let center = on_screen(column + x, row + y);
-            let ball = object(Shape::Sphere { center, radius: radius as f32 }, Vec3::ONE);
+            let ball = object(Shape::Sphere { center, radius: radius as f32 }, Vec3A::ONE);
             let what = || format!("radius {radius} at {x}, {y}");
             tally.add(what, &flat(vec![ball]), &empty, before_the_screen(), 0.0);
         }
@@ -263,19 +263,19 @@ fn small_balls_over_the_upper_left_corner_are_never_missed() {
 /// A floor seen from above, its point below the camera's aim in the middle of the picture; the eye looks down steeply.
 struct Floor {
     camera: Camera,
-    eye: Vec3,
-    aim: Vec3,
+    eye: Vec3A,
+    aim: Vec3A,
 }
 
 impl Floor {
     fn new() -> Floor {
-        let (eye, aim) = (vec3(0.0, 80.0, 60.0), Vec3::ZERO);
+        let (eye, aim) = (vec3a(0.0, 80.0, 60.0), Vec3A::ZERO);
         let fov = 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan();
         Floor { camera: Camera::look_at(eye, aim, fov, 0.0), eye, aim }
     }
 
     /// The point of the floor that is seen at a place in the picture.
-    fn at(&self, x: f64, y: f64) -> Vec3 {
+    fn at(&self, x: f64, y: f64) -> Vec3A {
         let scale = SMALL.1 as f32 * 0.5;
         let c = &self.camera;
         let (px, py) = ((x - SMALL.0 as f64 * 0.5) as f32 / scale, (SMALL.1 as f64 * 0.5 - y) as f32 / scale);
@@ -290,20 +290,20 @@ impl Floor {
 }
 
 fn ground(material: Material) -> Object {
-    Object::new(Shape::Plane { normal: Vec3::Y, offset: 0.0 }, material).without_shadow()
+    Object::new(Shape::Plane { normal: Vec3A::Y, offset: 0.0 }, material).without_shadow()
 }
 
 /// A plain floor under a light, and things over it.
 fn sunlit(floor: Material, sources: &[Emitter], objects: Vec<Object>) -> World {
     let mut world = flat(objects);
     world.objects.push(ground(floor));
-    world.ambient = Vec3::splat(0.2);
-    world.lights = sources.iter().map(|s| Light { emitter: *s, color: Vec3::splat(0.6), radius: 0.0 }).collect();
+    world.ambient = Vec3A::splat(0.2);
+    world.lights = sources.iter().map(|s| Light { emitter: *s, color: Vec3A::splat(0.6), radius: 0.0 }).collect();
     world
 }
 
 fn plain_floor() -> Material {
-    Material::plain(Vec3::splat(0.8))
+    Material::plain(Vec3A::splat(0.8))
 }
 
 /// Small balls high over a plain floor, beyond the picture's edge; their shadows in it.
@@ -315,13 +315,13 @@ fn shadows(slanting: bool) -> Tally {
             let spot = floor.at(32.0 + x, 24.0 + y);
             let radius = radius as f32 * floor.pixel();
             let (source, center) = if slanting {
-                let towards = vec3(0.7, 0.5, 0.5).normalize();
+                let towards = vec3a(0.7, 0.5, 0.5).normalize();
                 (Emitter::Directional(towards), spot + towards * 120.0)
             } else {
-                let lamp = vec3(200.0, 150.0, 0.0);
+                let lamp = vec3a(200.0, 150.0, 0.0);
                 (Emitter::Point(lamp), spot + (lamp - spot) * 0.5)
             };
-            let ball = object(Shape::Sphere { center, radius }, Vec3::ONE);
+            let ball = object(Shape::Sphere { center, radius }, Vec3A::ONE);
             let world = sunlit(plain_floor(), &[source], vec![ball]);
             let empty = sunlit(plain_floor(), &[source], vec![]);
             let what = || format!("radius {radius} at {x}, {y}");
@@ -347,12 +347,12 @@ fn mirrored(floor_material: Material) -> Tally {
         for (x, y) in places() {
             let spot = floor.at(32.0 + x, 24.0 + y);
             let below = spot + (spot - floor.eye) * 0.6;
-            let center = vec3(below.x, -below.y, below.z);
+            let center = vec3a(below.x, -below.y, below.z);
             let radius = radius as f32 * floor.pixel() * 1.6;
-            let mut ball = object(Shape::Sphere { center, radius }, Vec3::ZERO);
+            let mut ball = object(Shape::Sphere { center, radius }, Vec3A::ZERO);
             ball.casts_shadow = false;
-            let world = sunlit(floor_material, &[Emitter::Directional(Vec3::Y)], vec![ball]);
-            let empty = sunlit(floor_material, &[Emitter::Directional(Vec3::Y)], vec![]);
+            let world = sunlit(floor_material, &[Emitter::Directional(Vec3A::Y)], vec![ball]);
+            let empty = sunlit(floor_material, &[Emitter::Directional(Vec3A::Y)], vec![]);
             tally.add(|| format!("radius {radius} at {x}, {y}"), &world, &empty, floor.camera, 0.0);
         }
     }
@@ -369,18 +369,18 @@ fn small_mirrored_balls_are_never_missed() {
 #[test]
 fn small_balls_in_lacquer_are_never_missed() {
     // Mirrored by Fresnel's share alone, which is small but for a grazing eye: a lower one than the others'.
-    let lacquer = Material::plain(Vec3::ZERO).lacquered(1.0);
-    let eye = vec3(0.0, 12.0, 60.0);
+    let lacquer = Material::plain(Vec3A::ZERO).lacquered(1.0);
+    let eye = vec3a(0.0, 12.0, 60.0);
     let fov = 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan();
-    let camera = Camera::look_at(eye, Vec3::ZERO, fov, 0.0);
-    let floor = Floor { camera, eye, aim: Vec3::ZERO };
+    let camera = Camera::look_at(eye, Vec3A::ZERO, fov, 0.0);
+    let floor = Floor { camera, eye, aim: Vec3A::ZERO };
     let mut tally = Tally::default();
     for radius in RADII {
         for (x, y) in places() {
             let spot = floor.at(32.0 + x, 24.0 + y);
             let below = spot + (spot - eye);
-            let center = vec3(below.x, -below.y, below.z);
-            let ball = object(Shape::Sphere { center, radius: radius as f32 * floor.pixel() * 2.0 }, Vec3::ZERO);
+            let center = vec3a(below.x, -below.y, below.z);
+            let ball = object(Shape::Sphere { center, radius: radius as f32 * floor.pixel() * 2.0 }, Vec3A::ZERO);
             let empty = sunlit(lacquer, &[], vec![]);
             let what = || format!("radius {radius} at {x}, {y}");
             tally.add(what, &sunlit(lacquer, &[], vec![ball]), &empty, camera, 0.0);
@@ -394,7 +394,7 @@ fn small_balls_in_lacquer_are_never_missed() {
 #[test]
 fn small_balls_in_a_mirror_ball_are_never_missed() {
     // A mirror ball of 100 pixels; a small one beside the eye, its image a spot in the middle of it.
-    let mirror = Material::mirror(Vec3::ONE);
+    let mirror = Material::mirror(Vec3A::ONE);
     let big = Object {
         shape: Shape::Sphere { center: on_screen(42.0, 30.0), radius: 50.0 },
         material: mirror,
@@ -404,8 +404,8 @@ fn small_balls_in_a_mirror_ball_are_never_missed() {
     for radius in [1.0f32, 2.0, 4.0, 8.0, 16.0] {
         let mut tally = Tally::default();
         for (x, y) in places() {
-            let center = vec3(30.0 + 4.0 * x as f32, 20.0 + 4.0 * y as f32, 10.0);
-            let ball = object(Shape::Sphere { center, radius }, Vec3::ONE);
+            let center = vec3a(30.0 + 4.0 * x as f32, 20.0 + 4.0 * y as f32, 10.0);
+            let ball = object(Shape::Sphere { center, radius }, Vec3A::ONE);
             let what = || format!("radius {radius} at {x}, {y}");
             // The rim of an image in a round mirror is followed, not foreseen.
             tally.add(what, &flat(vec![big, ball]), &flat(vec![big]), before_the_screen(), ROUND_MIRROR);
@@ -419,19 +419,19 @@ fn small_balls_in_a_mirror_ball_are_never_missed() {
 fn shadows_that_fall_on_two_bodies_are_never_missed() {
     // Half on a table whose edge runs through it, half on the floor far below.
     let floor = Floor::new();
-    let towards = vec3(0.5, 0.7, 0.5).normalize();
+    let towards = vec3a(0.5, 0.7, 0.5).normalize();
     let source = [Emitter::Directional(towards)];
     let mut verdict = Verdict::default();
     for radius in [1.0f32, 2.0, 3.0, 5.0] {
         let mut tally = Tally::default();
         for (x, y) in places() {
             let shape =
-                Shape::Block { center: vec3(20.0, 8.0, 0.0), half: vec3(20.0, 0.5, 30.0), turn: Mat3::IDENTITY };
-            let mut table = object(shape, Vec3::ONE);
+                Shape::Block { center: vec3a(20.0, 8.0, 0.0), half: vec3a(20.0, 0.5, 30.0), turn: Mat3A::IDENTITY };
+            let mut table = object(shape, Vec3A::ONE);
             table.casts_shadow = false;
-            let spot = vec3((x as f32 - 4.0) * 0.25 * radius, 8.5, y as f32 - 4.0);
+            let spot = vec3a((x as f32 - 4.0) * 0.25 * radius, 8.5, y as f32 - 4.0);
             let center = spot + towards * 120.0;
-            let ball = object(Shape::Sphere { center, radius: radius * floor.pixel() }, Vec3::ONE);
+            let ball = object(Shape::Sphere { center, radius: radius * floor.pixel() }, Vec3A::ONE);
             let world = sunlit(plain_floor(), &source, vec![table, ball]);
             let empty = sunlit(plain_floor(), &source, vec![table]);
             tally.add(|| format!("radius {radius} at {x}, {y}"), &world, &empty, floor.camera, ALONG_EDGES);
@@ -453,15 +453,15 @@ fn thin(width: f32, round: bool) -> Tally {
     for angle in [0.0f32, 3.0, 10.0, 30.0, 45.0, 67.0, 85.0, 90.0] {
         for (x, y) in places().step_by(3) {
             let center = on_screen(38.0 + x, 28.0 + y);
-            let axis = Vec3::from_array([angle.to_radians().cos(), angle.to_radians().sin(), 0.0]);
+            let axis = Vec3A::from_array([angle.to_radians().cos(), angle.to_radians().sin(), 0.0]);
             let shape = if round {
                 Shape::Cylinder { center, axis, half: 24.0, radius: 0.5 * width }
             } else {
-                let turn = Mat3::from_rotation_z(-angle.to_radians());
-                Shape::Block { center, half: vec3(24.0, 0.5 * width, 0.5 * width), turn }
+                let turn = Mat3A::from_rotation_z(-angle.to_radians());
+                Shape::Block { center, half: vec3a(24.0, 0.5 * width, 0.5 * width), turn }
             };
             let what = || format!("width {width}, angle {angle} at {x}, {y}");
-            tally.add(what, &flat(vec![object(shape, Vec3::ONE)]), &empty, before_the_screen(), ALONG_EDGES);
+            tally.add(what, &flat(vec![object(shape, Vec3A::ONE)]), &empty, before_the_screen(), ALONG_EDGES);
         }
     }
     tally
@@ -496,10 +496,10 @@ fn tips_are_not_cut_off() {
     for angle in TURNS {
         let mut tally = Tally::default();
         for (x, y) in places() {
-            let turn = Mat3::from_rotation_z(-angle.to_radians());
-            let corner = turn.transpose() * vec3(12.0, 12.0, 0.0);
+            let turn = Mat3A::from_rotation_z(-angle.to_radians());
+            let corner = turn.transpose() * vec3a(12.0, 12.0, 0.0);
             let center = on_screen(36.0 + x, 28.0 + y) - corner;
-            let block = object(Shape::Block { center, half: vec3(12.0, 12.0, 1.0), turn }, Vec3::ONE);
+            let block = object(Shape::Block { center, half: vec3a(12.0, 12.0, 1.0), turn }, Vec3A::ONE);
             tally.add(|| format!("at {x}, {y}"), &flat(vec![block]), &flat(vec![]), before_the_screen(), 0.0);
         }
         verdict.add(&format!("tips, angle {angle}"), &tally);
@@ -510,16 +510,16 @@ fn tips_are_not_cut_off() {
 #[test]
 fn tips_of_shadows_are_not_cut_off() {
     let floor = Floor::new();
-    let towards = vec3(0.7, 0.5, -0.5).normalize();
+    let towards = vec3a(0.7, 0.5, -0.5).normalize();
     let source = [Emitter::Directional(towards)];
     let mut verdict = Verdict::default();
     for angle in TURNS {
         let mut tally = Tally::default();
         for (x, y) in places() {
-            let turn = Mat3::from_rotation_y(angle.to_radians());
-            let corner = turn.transpose() * vec3(12.0, 0.0, 12.0);
+            let turn = Mat3A::from_rotation_y(angle.to_radians());
+            let corner = turn.transpose() * vec3a(12.0, 0.0, 12.0);
             let center = floor.at(36.0 + x, 28.0 + y) - corner + towards * 150.0;
-            let block = object(Shape::Block { center, half: vec3(12.0, 0.5, 12.0), turn }, Vec3::ONE);
+            let block = object(Shape::Block { center, half: vec3a(12.0, 0.5, 12.0), turn }, Vec3A::ONE);
             let world = sunlit(plain_floor(), &source, vec![block]);
             let empty = sunlit(plain_floor(), &source, vec![]);
             tally.add(|| format!("at {x}, {y}"), &world, &empty, floor.camera, 0.0);
@@ -538,7 +538,7 @@ fn small_highlights_are_found() {
         for (x, y) in places() {
             let center = on_screen(38.0 + x, 26.0 + y);
             let shape = Shape::Sphere { center, radius: 15.0 };
-            let source = [Emitter::Point(center + vec3(60.0, 80.0, 90.0))];
+            let source = [Emitter::Point(center + vec3a(60.0, 80.0, 90.0))];
             let world = |specular| {
                 let material = Material { specular, exponent, ..plain_floor() };
                 let mut world = sunlit(plain_floor(), &source, vec![Object::new(shape, material)]);
@@ -558,8 +558,8 @@ fn textures_finer_than_a_square_stay_whole() {
     // the checker whose edge runs through the middle of a pixel may fall to the other side.
     let floor = Floor::new();
     for scale in [0.1f32, 0.3, 0.9] {
-        let checker = Texture::new(Pattern::Checker, Palette::Mix(Vec3::splat(0.1), Vec3::splat(0.9)), scale);
-        let world = sunlit(Material::matte(checker), &[Emitter::Point(vec3(30.0, 90.0, 10.0))], vec![]);
+        let checker = Texture::new(Pattern::Checker, Palette::Mix(Vec3A::splat(0.1), Vec3A::splat(0.9)), scale);
+        let world = sunlit(Material::matte(checker), &[Emitter::Point(vec3a(30.0, 90.0, 10.0))], vec![]);
         let size = (320, 240);
         let draw = |quality| traced(&world, floor.camera, size, quality, Level::new());
         let (exact, fast) = (draw(Quality::EXACT), draw(Quality::FAST));
@@ -581,7 +581,7 @@ fn moving_pictures_do_not_flicker() {
         let world = spheres::world(2.0, textured, glass);
         let still = spheres::camera(2.0);
         // An eighth of a pixel a frame at the target's distance.
-        let target = vec3(0.0, 0.8, 0.0);
+        let target = vec3a(0.0, 0.8, 0.0);
         let step = still.right * (2.0 / size.1 as f32) * still.eye.distance(target) / 8.0;
         // The largest change from frame to frame: root mean square, and the share of pixels that visibly change.
         let sweep = |quality| {

@@ -1,7 +1,7 @@
 //! Which bodies a packet may meet: never one too few, against crossings in exact numbers; and how many too many.
 
 use fearless_simd::{Simd, dispatch, prelude::*};
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::trace::bounds::{Bounds, Extent, Shaft, Start};
 use paprsek::trace::ray::{RayPacket, Search, nearest};
@@ -28,14 +28,14 @@ impl Cases {
         self.0.range(-1.0, 1.0) as f32
     }
 
-    fn vector(&mut self) -> Vec3 {
-        vec3(self.number(), self.number(), self.number())
+    fn vector(&mut self) -> Vec3A {
+        vec3a(self.number(), self.number(), self.number())
     }
 
-    fn direction(&mut self) -> Vec3 {
+    fn direction(&mut self) -> Vec3A {
         // On an axis now and then, where a division by zero threatens.
         let v = self.vector();
-        if self.number() > 0.8 { Vec3::AXES[v.max_position()] * v.x.signum() } else { v.normalize_or(Vec3::Y) }
+        if self.number() > 0.8 { Vec3A::AXES[v.max_position()] * v.x.signum() } else { v.normalize_or(Vec3A::Y) }
     }
 
     fn shape(&mut self) -> Shape {
@@ -44,24 +44,24 @@ impl Cases {
         let turn = self.0.turn();
         match (self.0.unit() * 16.0) as u32 {
             0..6 => Shape::Sphere { center, radius: size },
-            6..9 => Shape::Block { center, half, turn: Mat3::IDENTITY },
+            6..9 => Shape::Block { center, half, turn: Mat3A::IDENTITY },
             9..11 => Shape::Block { center, half, turn },
             11..14 => Shape::Cylinder { center, axis: self.direction(), half: half.x, radius: size },
-            14 => Shape::Plane { normal: Vec3::Y, offset: self.number() * 10.0 },
+            14 => Shape::Plane { normal: Vec3A::Y, offset: self.number() * 10.0 },
             _ => Shape::Plane { normal: self.direction(), offset: self.number() * 10.0 },
         }
     }
 
     fn world(&mut self, count: usize) -> World {
-        let object = |shape| Object::new(shape, Material::plain(Vec3::ONE));
+        let object = |shape| Object::new(shape, Material::plain(Vec3A::ONE));
         World::new((0..count).map(|_| object(self.shape())).collect())
     }
 
     /// Origins and directions of rays that are as far apart as rays of packets are, or much farther.
-    fn packet(&mut self) -> [[Vec3; LANES]; 2] {
+    fn packet(&mut self) -> [[Vec3A; LANES]; 2] {
         let (origin, direction) = (self.vector() * 12.0, self.direction());
         let [near, narrow] = [self.number().powi(6), self.number().powi(6)];
-        let mut rays = [[Vec3::ZERO; LANES]; 2];
+        let mut rays = [[Vec3A::ZERO; LANES]; 2];
         rays[0] = rays[0].map(|_| origin + self.vector() * 4.0 * near);
         rays[1] = rays[1].map(|_| (direction + self.vector() * narrow).normalize_or(direction));
         rays
@@ -69,7 +69,7 @@ impl Cases {
 }
 
 #[inline(always)]
-fn load<S: Simd>(simd: S, v: &[Vec3; LANES]) -> V3<S> {
+fn load<S: Simd>(simd: S, v: &[Vec3A; LANES]) -> V3<S> {
     let [mut x, mut y, mut z] = [[0.0; LANES]; 3];
     for lane in 0..LANES {
         [x[lane], y[lane], z[lane]] = v[lane].to_array();
@@ -93,13 +93,13 @@ fn marks<S: Simd>(simd: S, bounds: &Bounds, shaft: &Shaft, body: usize) -> (bool
 }
 
 /// Whether a line is in a body between two distances, without rounding.
-fn meets(shape: &Shape, o: Vec3, d: Vec3, reach: f64) -> bool {
+fn meets(shape: &Shape, o: Vec3A, d: Vec3A, reach: f64) -> bool {
     span(shape, o, d, 0.0).is_some_and(|[Crossing { t: t0, .. }, Crossing { t: t1, .. }]| t1 > 0.0 && t0 < reach)
 }
 
 /// The lanes of a packet that count, which are all but the last, its rays, where they begin, and their shaft.
 #[inline(always)]
-fn packet<S: Simd>(simd: S, rays: &[[Vec3; LANES]; 2]) -> (M<S>, RayPacket<S>, Start, Shaft) {
+fn packet<S: Simd>(simd: S, rays: &[[Vec3A; LANES]; 2]) -> (M<S>, RayPacket<S>, Start, Shaft) {
     let active = M::<S>::from_bitmask(simd, (1u64 << (F::<S>::LEN - 1)) - 1);
     let (origin, direction) = (load(simd, &rays[0]), load(simd, &rays[1]));
     let start = Start { origins: Extent::new(simd, origin, active), leaves: NOWHERE };
@@ -110,7 +110,7 @@ fn packet<S: Simd>(simd: S, rays: &[[Vec3; LANES]; 2]) -> (M<S>, RayPacket<S>, S
 
 /// Holds the shafts of rays, and of rays to a target, against all bodies.
 #[inline(always)]
-fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2], target: Vec3) {
+fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3A; LANES]; 2], target: Vec3A) {
     let lanes = F::<S>::LEN;
     let (_, _, start, along) = packet(simd, rays);
     let to = Shaft::to(simd, start, target);
@@ -127,7 +127,7 @@ fn check<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]
 
 /// Holds what is found in the shaft of rays against what is found among all bodies.
 #[inline(always)]
-fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3; LANES]; 2]) {
+fn find<S: Simd>(simd: S, world: &World, bounds: &Bounds, rays: &[[Vec3A; LANES]; 2]) {
     let (active, ray, _, along) = packet(simd, rays);
     let far = F::<S>::splat(simd, 1e30);
     let list = &bounds.all;
@@ -195,14 +195,14 @@ fn few_bodies_are_marked() {
     for (count, most) in [(30, 1.5), (1000, 8.0), (10_000, 30.0)] {
         let mut random = Cases::of(count);
         let radius = 10.0 * (1e-3 / count as f32 * 6.0 / std::f32::consts::PI).cbrt();
-        let ball = |center| Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3::ONE));
+        let ball = |center| Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3A::ONE));
         let world = World::new((0..count).map(|_| ball(random.vector() * 10.0)).collect());
         let bounds = Bounds::new(&world);
         let (_, level) = testkit::levels()[0];
         let mut sum = 0;
         for _ in 0..PACKETS {
             let (origin, direction) = (random.vector() * 10.0, random.direction());
-            let side = |v: Vec3| Extent::point(v);
+            let side = |v: Vec3A| Extent::point(v);
             let start = Start { origins: side(origin), leaves: NOWHERE };
             sum += dispatch!(level, simd => marks(simd, &bounds, &Shaft::new(simd, start, side(direction)), 0).1);
         }

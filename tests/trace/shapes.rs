@@ -3,7 +3,7 @@
 //! `testkit::lines` says.
 
 use fearless_simd::dispatch;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 use paprsek::trace::Material;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{FAR, Shape};
@@ -47,23 +47,23 @@ fn globes_are_met_where_they_are() {
 #[test]
 fn planes_are_met_where_they_are() {
     planes(10_000).found.within(BALL);
-    let floor = Shape::Plane { normal: Vec3::Y, offset: 1.0 };
-    for (d, zero) in [(Vec3::X, 0.0), (Vec3::Z, -0.0)] {
-        let d = vec3(d.x, zero, d.z);
+    let floor = Shape::Plane { normal: Vec3A::Y, offset: 1.0 };
+    for (d, zero) in [(Vec3A::X, 0.0), (Vec3A::Z, -0.0)] {
+        let d = vec3a(d.x, zero, d.z);
         for (y, inside) in [(2.0, false), (1.0, true), (0.0, true), (-5.0, true), (1f32.next_up(), false)] {
-            for (name, found) in spans(&Case { shape: floor, o: vec3(3.0, y, 4.0), d }) {
+            for (name, found) in spans(&Case { shape: floor, o: vec3a(3.0, y, 4.0), d }) {
                 assert_eq!(found, inside.then_some((-FAR, FAR)), "{name} parallel at {y}");
             }
         }
     }
     for (y, d, span) in [
-        (3.0, Vec3::NEG_Y, (2.0, FAR)),
-        (3.0, Vec3::Y, (-FAR, -2.0)),
-        (-1.0, Vec3::Y, (-FAR, 2.0)),
-        (1.0, Vec3::Y, (-FAR, 0.0)),
-        (1.0, Vec3::NEG_Y, (0.0, FAR)),
+        (3.0, Vec3A::NEG_Y, (2.0, FAR)),
+        (3.0, Vec3A::Y, (-FAR, -2.0)),
+        (-1.0, Vec3A::Y, (-FAR, 2.0)),
+        (1.0, Vec3A::Y, (-FAR, 0.0)),
+        (1.0, Vec3A::NEG_Y, (0.0, FAR)),
     ] {
-        for (name, found) in spans(&Case { shape: floor, o: vec3(0.0, y, 0.0), d }) {
+        for (name, found) in spans(&Case { shape: floor, o: vec3a(0.0, y, 0.0), d }) {
             assert_eq!(found, Some(span), "{name} from {y} along {d}");
         }
     }
@@ -79,16 +79,16 @@ fn blocks_are_met_where_they_are() {
 #[test]
 fn blocks_and_zeros() {
     // 0 * inf: directions along the faces, and origins on them.
-    let block = Shape::Block { center: Vec3::ZERO, half: vec3(1.0, 2.0, 3.0), turn: Mat3::IDENTITY };
+    let block = Shape::Block { center: Vec3A::ZERO, half: vec3a(1.0, 2.0, 3.0), turn: Mat3A::IDENTITY };
     for zero in [0.0, -0.0] {
-        let along = [vec3(1.0, zero, zero), vec3(zero, 1.0, zero), vec3(zero, zero, 1.0)];
+        let along = [vec3a(1.0, zero, zero), vec3a(zero, 1.0, zero), vec3a(zero, zero, 1.0)];
         for axis in 0..3 {
             let half = [1.0, 2.0, 3.0][axis];
             for (other, side) in [(1, 2.0), (0, 1.0), (2, 3.0)].into_iter().filter(|(other, _)| *other != axis) {
                 for at in [0.0f32, -0.0, 0.5, 1.0, -1.0] {
                     // From inside, from the face it leaves by, from the face it enters by, from far.
                     for start in [0.0, half, -half, -1000.0, 1000.0] {
-                        let mut o = Vec3::ZERO;
+                        let mut o = Vec3A::ZERO;
                         o[axis] = start;
                         o[other] = at * side;
                         for (name, found) in spans(&Case { shape: block, o, d: along[axis] }) {
@@ -102,7 +102,7 @@ fn blocks_and_zeros() {
                             }
                         }
                     }
-                    let mut o = Vec3::ZERO;
+                    let mut o = Vec3A::ZERO;
                     o[other] = side.next_up() * 1.000001;
                     for (name, found) in spans(&Case { shape: block, o, d: along[axis] }) {
                         assert_eq!(found, None, "{name} finds from {o} along {axis}");
@@ -113,7 +113,7 @@ fn blocks_and_zeros() {
     }
     // On two faces at once: an edge met from outside along the diagonal, and left by it.
     let s = std::f32::consts::FRAC_1_SQRT_2;
-    let edge = Case { shape: block, o: vec3(1.0, 2.0, 0.0), d: vec3(-s, -s, 0.0) };
+    let edge = Case { shape: block, o: vec3a(1.0, 2.0, 0.0), d: vec3a(-s, -s, 0.0) };
     for (name, found) in spans(&edge) {
         let (t0, t1) = found.unwrap_or_else(|| panic!("{name}"));
         assert!(t0 == 0.0 && (t1 as f64 - 2f64.sqrt() * 2f64.min(1.0 + 1.0)).abs() < 1e-6, "{name}: {t0} {t1}");
@@ -125,21 +125,21 @@ fn cylinders_are_met_where_they_are() {
     let worst = cylinders(8_000);
     worst.found.within(TURNED);
     assert!(worst.hits > 2_000 && worst.misses > 500);
-    let upright = Shape::Cylinder { center: Vec3::ZERO, axis: Vec3::Y, half: 2.0, radius: 1.0 };
+    let upright = Shape::Cylinder { center: Vec3A::ZERO, axis: Vec3A::Y, half: 2.0, radius: 1.0 };
     for (o, d, span) in [
         // Along the axis: in the middle, off it, on the rim's inside; across; from inside; behind.
-        (vec3(0.0, 5.0, 0.0), Vec3::NEG_Y, Some((3.0, 7.0))),
-        (vec3(0.5, 5.0, 0.5), Vec3::NEG_Y, Some((3.0, 7.0))),
-        (vec3(0.999, 5.0, 0.0), Vec3::NEG_Y, Some((3.0, 7.0))),
-        (vec3(1.001, 5.0, 0.0), Vec3::NEG_Y, None),
-        (vec3(-5.0, 0.0, 0.0), Vec3::X, Some((4.0, 6.0))),
-        (vec3(-5.0, 1.999, 0.0), Vec3::X, Some((4.0, 6.0))),
-        (vec3(-5.0, 2.001, 0.0), Vec3::X, None),
-        (vec3(-5.0, 0.0, 1.001), Vec3::X, None),
-        (vec3(0.0, 0.0, 0.0), Vec3::X, Some((-1.0, 1.0))),
-        (vec3(0.0, 0.0, 0.0), Vec3::Y, Some((-2.0, 2.0))),
-        (vec3(5.0, 0.0, 0.0), Vec3::X, Some((-6.0, -4.0))),
-        (vec3(0.0, 2.0, 0.0), Vec3::Y, Some((-4.0, 0.0))),
+        (vec3a(0.0, 5.0, 0.0), Vec3A::NEG_Y, Some((3.0, 7.0))),
+        (vec3a(0.5, 5.0, 0.5), Vec3A::NEG_Y, Some((3.0, 7.0))),
+        (vec3a(0.999, 5.0, 0.0), Vec3A::NEG_Y, Some((3.0, 7.0))),
+        (vec3a(1.001, 5.0, 0.0), Vec3A::NEG_Y, None),
+        (vec3a(-5.0, 0.0, 0.0), Vec3A::X, Some((4.0, 6.0))),
+        (vec3a(-5.0, 1.999, 0.0), Vec3A::X, Some((4.0, 6.0))),
+        (vec3a(-5.0, 2.001, 0.0), Vec3A::X, None),
+        (vec3a(-5.0, 0.0, 1.001), Vec3A::X, None),
+        (vec3a(0.0, 0.0, 0.0), Vec3A::X, Some((-1.0, 1.0))),
+        (vec3a(0.0, 0.0, 0.0), Vec3A::Y, Some((-2.0, 2.0))),
+        (vec3a(5.0, 0.0, 0.0), Vec3A::X, Some((-6.0, -4.0))),
+        (vec3a(0.0, 2.0, 0.0), Vec3A::Y, Some((-4.0, 0.0))),
     ] {
         for (name, found) in spans(&Case { shape: upright, o, d }) {
             assert_eq!(found, span, "{name} from {o} along {d}");
@@ -153,7 +153,7 @@ fn rough_spans_are_as_good_as_they_say() {
     let mut worst = 0.0f64;
     for _ in 0..10_000 {
         let radius = random.log(1e-3, 1e3) as f32;
-        let shape = Shape::Sphere { center: Vec3::ZERO, radius };
+        let shape = Shape::Sphere { center: Vec3A::ZERO, radius };
         let o = random.direction() * (radius as f64 * random.log(0.1, 1e4)) as f32;
         let d = toward(o, random.direction() * radius * random.unit() as f32);
         let case = Case { shape, o, d };
@@ -179,7 +179,7 @@ fn segments_are_blocked_by_what_lies_between() {
 }
 
 /// The unit normal in f64 by the surface's gradient.
-fn exact_normal(shape: &Shape, p: Vec3) -> glam::DVec3 {
+fn exact_normal(shape: &Shape, p: Vec3A) -> glam::DVec3 {
     let p = p.as_dvec3();
     match *shape {
         Shape::Sphere { center, .. } => (p - center.as_dvec3()).normalize(),
@@ -279,8 +279,8 @@ fn anything() -> impl Strategy<Value = f32> {
     prop_oneof![4 => sized, 1 => special]
 }
 
-fn any_vector() -> impl Strategy<Value = Vec3> {
-    (anything(), anything(), anything()).prop_map(|(x, y, z)| vec3(x, y, z))
+fn any_vector() -> impl Strategy<Value = Vec3A> {
+    (anything(), anything(), anything()).prop_map(|(x, y, z)| vec3a(x, y, z))
 }
 
 fn any_shape() -> impl Strategy<Value = Shape> {
@@ -288,7 +288,7 @@ fn any_shape() -> impl Strategy<Value = Shape> {
         0 => Shape::Sphere { center: a, radius: x },
         1 => Shape::Plane { normal: b, offset: x },
         2 => Shape::Globe { touch: a, normal: b, radius: x },
-        3 => Shape::Block { center: a, half: b, turn: Mat3::from_rotation_y(x) },
+        3 => Shape::Block { center: a, half: b, turn: Mat3A::from_rotation_y(x) },
         _ => Shape::Cylinder { center: a, axis: b, half: x, radius: y },
     })
 }
@@ -298,7 +298,7 @@ proptest! {
 
     #[test]
     fn nothing_breaks_on_nonsense(shape in any_shape(), o in any_vector(), d in any_vector(), reach in anything()) {
-        for d in [d, d.normalize_or(Vec3::X)] {
+        for d in [d, d.normalize_or(Vec3A::X)] {
             let case = Case { shape, o, d };
             for (_, found) in spans(&case) {
                 if let Some((t0, t1)) = found {
@@ -311,7 +311,7 @@ proptest! {
                 dispatch!(level, simd => wide_normal(simd, &shape, o));
             }
             shape.normal_at(o);
-            let glass = Material::glass(1.5, Vec3::ONE);
+            let glass = Material::glass(1.5, Vec3A::ONE);
             reference::radiance(&alone(shape, glass, 6), Ray::new(o, d), 1);
         }
     }

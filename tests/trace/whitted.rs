@@ -1,6 +1,6 @@
 //! The tracer against light that is known in closed form, and the packets against the plain recursion.
 
-use glam::{DVec3, Mat3, Vec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, vec3a};
 use paprsek::scenes::bench::spheres;
 use paprsek::settings::Quality;
 use paprsek::texture::{Palette, Pattern, Texture};
@@ -20,33 +20,33 @@ const LIGHT: f64 = 2e-6;
 fn furnace(objects: Vec<(Shape, Material)>, max_level: u32) -> World {
     let object = |(shape, material)| Object::new(shape, material);
     World {
-        background: Background::even(Vec3::ONE),
+        background: Background::even(Vec3A::ONE),
         max_level,
         ..World::new(objects.into_iter().map(object).collect())
     }
 }
 
 fn glass(ior: f64) -> Material {
-    Material::glass(ior as f32, Vec3::ONE)
+    Material::glass(ior as f32, Vec3A::ONE)
 }
 
 fn mirror(share: f32) -> Material {
-    Material::mirror(Vec3::splat(share))
+    Material::mirror(Vec3A::splat(share))
 }
 
 fn white() -> Material {
-    Material::plain(Vec3::ONE)
+    Material::plain(Vec3A::ONE)
 }
 
-fn ball(center: Vec3, radius: f32) -> Shape {
+fn ball(center: Vec3A, radius: f32) -> Shape {
     Shape::Sphere { center, radius }
 }
 
 fn floor() -> Shape {
-    Shape::Plane { normal: Vec3::Y, offset: 0.0 }
+    Shape::Plane { normal: Vec3A::Y, offset: 0.0 }
 }
 
-fn look(world: &World, o: Vec3, d: Vec3) -> f64 {
+fn look(world: &World, o: Vec3A, d: Vec3A) -> f64 {
     reference::radiance(world, Ray::new(o, d), 1).x as f64
 }
 
@@ -54,9 +54,9 @@ fn look(world: &World, o: Vec3, d: Vec3) -> f64 {
 fn reflected(ior: f64, angle: f64) -> f64 {
     // Light 1 straight up and none at the horizon or below: the mirrored ray brings its own height.
     let mut world = furnace(vec![(floor(), glass(ior))], 2);
-    world.background.horizon = Vec3::ZERO;
-    let d = vec3(angle.sin() as f32, -(angle.cos() as f32), 0.0);
-    look(&world, vec3(0.0, 1.0, 0.0), d) / angle.cos()
+    world.background.horizon = Vec3A::ZERO;
+    let d = vec3a(angle.sin() as f32, -(angle.cos() as f32), 0.0);
+    look(&world, vec3a(0.0, 1.0, 0.0), d) / angle.cos()
 }
 
 #[test]
@@ -92,12 +92,12 @@ fn reflection_is_total_beyond_the_critical_angle() {
     for n in [1.01, 1.333, 1.5, 2.417] {
         let mut world = furnace(vec![(floor(), glass(n))], 2);
         // From below: light 1 comes from below only, all of it mirrored; what passes looks up, where there is less.
-        world.background.zenith = Vec3::ZERO;
+        world.background.zenith = Vec3A::ZERO;
         let critical = (1.0 / n).asin();
         for k in -4000..=4000 {
             let angle = critical + k as f64 * if k % 2 == 0 { 1e-7 } else { 1e-10 };
-            let d = vec3(angle.sin() as f32, angle.cos() as f32, 0.0);
-            let found = look(&world, vec3(0.0, -1.0, 0.0), d);
+            let d = vec3a(angle.sin() as f32, angle.cos() as f32, 0.0);
+            let found = look(&world, vec3a(0.0, -1.0, 0.0), d);
             // The sine that the rounded direction really has.
             let sine = d.x as f64 / d.as_dvec3().length();
             let real = sine.asin();
@@ -155,7 +155,7 @@ fn furnaces(levels: &[u32]) {
                 let aim = -eye.normalize();
                 let side = (sine / distance).asin();
                 let d = (aim * side.cos() as f32 + random.across(aim) * side.sin() as f32).normalize();
-                let world = furnace(vec![(ball(Vec3::ZERO, radius as f32), glass(ior))], level);
+                let world = furnace(vec![(ball(Vec3A::ZERO, radius as f32), glass(ior))], level);
                 let offset = (eye.as_dvec3().cross(d.as_dvec3()) / d.as_dvec3().length()).length();
                 let sine = offset / (radius as f32) as f64;
                 let found = look(&world, eye, d);
@@ -187,24 +187,24 @@ fn glass_balls_disappear_at_every_depth() {
 #[test]
 fn bodies_of_equal_index_are_invisible() {
     // Nothing is reflected and nothing bent: every pixel is the sky, whatever the shape, also seen from inside.
-    let turn = Mat3::from_rotation_x(0.7) * Mat3::from_rotation_y(0.4);
+    let turn = Mat3A::from_rotation_x(0.7) * Mat3A::from_rotation_y(0.4);
     let shapes = [
-        ball(Vec3::ZERO, 1.0),
-        Shape::Block { center: Vec3::ZERO, half: vec3(0.8, 0.5, 1.1), turn },
-        Shape::Cylinder { center: Vec3::ZERO, axis: vec3(0.6, 0.8, 0.0), half: 1.0, radius: 0.7 },
-        Shape::Plane { normal: Vec3::Y, offset: -0.5 },
-        Shape::Globe { touch: vec3(0.0, -0.5, 0.0), normal: Vec3::Y, radius: 1e6 },
+        ball(Vec3A::ZERO, 1.0),
+        Shape::Block { center: Vec3A::ZERO, half: vec3a(0.8, 0.5, 1.1), turn },
+        Shape::Cylinder { center: Vec3A::ZERO, axis: vec3a(0.6, 0.8, 0.0), half: 1.0, radius: 0.7 },
+        Shape::Plane { normal: Vec3A::Y, offset: -0.5 },
+        Shape::Globe { touch: vec3a(0.0, -0.5, 0.0), normal: Vec3A::Y, radius: 1e6 },
     ];
     for shape in shapes {
-        for eye in [vec3(0.0, 0.3, 4.0), vec3(0.1, 0.0, 0.2), vec3(0.0, 50.0, 0.1)] {
+        for eye in [vec3a(0.0, 0.3, 4.0), vec3a(0.1, 0.0, 0.2), vec3a(0.0, 50.0, 0.1)] {
             let world = furnace(vec![(shape, glass(1.0))], 4);
-            let camera = Camera::look_at(eye, Vec3::ZERO, 0.9, 0.3);
+            let camera = Camera::look_at(eye, Vec3A::ZERO, 0.9, 0.3);
             let size = (96, 64);
             let truth = plain(&world, camera, size);
             for (name, level) in testkit::levels() {
                 let found = traced(&world, camera, size, Quality::EXACT, level);
                 for (a, b) in found.pixels.iter().zip(&truth.pixels) {
-                    let error = (*a - Vec3::ONE).abs().max_element().max((*b - Vec3::ONE).abs().max_element());
+                    let error = (*a - Vec3A::ONE).abs().max_element().max((*b - Vec3A::ONE).abs().max_element());
                     assert!(error < 1e-6, "{name}: {shape:?} from {eye}: {a}, {b}");
                 }
             }
@@ -214,8 +214,8 @@ fn bodies_of_equal_index_are_invisible() {
 
 fn packet_furnaces(level: u32) {
     for ior in [1.333, 1.5, 2.417] {
-        let world = furnace(vec![(ball(Vec3::ZERO, 1.0), glass(ior))], level);
-        let camera = Camera::look_at(vec3(0.0, 0.0, 3.0), Vec3::ZERO, 0.8, 0.0);
+        let world = furnace(vec![(ball(Vec3A::ZERO, 1.0), glass(ior))], level);
+        let camera = Camera::look_at(vec3a(0.0, 0.0, 3.0), Vec3A::ZERO, 0.8, 0.0);
         let size = (128, 128);
         for (name, simd) in testkit::levels() {
             let picture = traced(&world, camera, size, Quality::EXACT, simd);
@@ -258,7 +258,7 @@ fn packets_never_meet_the_body_they_leave() {
             let (axis, turn) = (random.direction(), random.turn());
             let shape = match kind {
                 0 => ball(center, scale),
-                1 => Shape::Block { center, half: vec3(1.0, 0.4, 1.7) * scale, turn },
+                1 => Shape::Block { center, half: vec3a(1.0, 0.4, 1.7) * scale, turn },
                 _ => Shape::Cylinder { center, axis, half: 1.3 * scale, radius: 0.6 * scale },
             };
             let eye = center + random.direction() * 5.0 * scale;
@@ -269,8 +269,8 @@ fn packets_never_meet_the_body_they_leave() {
                     traced(&world, camera, (100, 100), Quality::EXACT, level).pixels
                 };
                 let light = draw(mirror(1.0), 2);
-                assert!(light.iter().all(|c| *c == Vec3::ONE), "{name}: {shape:?} from {eye}");
-                for (i, c) in draw(Material::glass(1.0, Vec3::splat(0.5)), 3).into_iter().enumerate() {
+                assert!(light.iter().all(|c| *c == Vec3A::ONE), "{name}: {shape:?} from {eye}");
+                for (i, c) in draw(Material::glass(1.0, Vec3A::splat(0.5)), 3).into_iter().enumerate() {
                     let known = [0.25, 1.0, 0.5].into_iter().position(|k: f32| (c.x - k).abs() < 1e-6);
                     let known = known.unwrap_or_else(|| panic!("{name}: {shape:?} from {eye}, pixel {i}: {c}"));
                     through += (known == 0) as u32;
@@ -290,7 +290,7 @@ fn mirrors_show_the_sky_as_it_is() {
         let radius = random.log(1e-2, 1e3) as f32;
         let o = random.direction() * radius * random.log(1.1, 100.0) as f32;
         let d = (random.direction() * radius - o).normalize();
-        let world = furnace(vec![(ball(Vec3::ZERO, radius), mirror(1.0))], 2);
+        let world = furnace(vec![(ball(Vec3A::ZERO, radius), mirror(1.0))], 2);
         assert_eq!(look(&world, o, d), 1.0);
     }
 }
@@ -298,25 +298,25 @@ fn mirrors_show_the_sky_as_it_is() {
 #[test]
 fn every_level_counts_once() {
     // Two mirrors that face each other, half of the light lost to a white of light 1: after n levels 1 - 2^-n.
-    let ceiling = Shape::Plane { normal: Vec3::NEG_Y, offset: -10.0 };
-    let half = Material { reflectance: Vec3::splat(0.5), ..white() };
+    let ceiling = Shape::Plane { normal: Vec3A::NEG_Y, offset: -10.0 };
+    let half = Material { reflectance: Vec3A::splat(0.5), ..white() };
     for n in 1..=12 {
         let mut world = furnace(vec![(floor(), half), (ceiling, half)], n);
-        world.ambient = Vec3::ONE;
-        for d in [Vec3::NEG_Y, Vec3::Y, vec3(0.0, -0.8, 0.6)] {
-            assert_eq!(look(&world, vec3(0.0, 5.0, 0.0), d), 1.0 - 0.5f64.powi(n as i32), "{n} levels along {d}");
+        world.ambient = Vec3A::ONE;
+        for d in [Vec3A::NEG_Y, Vec3A::Y, vec3a(0.0, -0.8, 0.6)] {
+            assert_eq!(look(&world, vec3a(0.0, 5.0, 0.0), d), 1.0 - 0.5f64.powi(n as i32), "{n} levels along {d}");
         }
     }
     // And black above, also for a ray that would meet nothing.
     let world = furnace(vec![], 3);
-    let ray = Ray::new(Vec3::ZERO, Vec3::Y);
-    assert_eq!(reference::radiance(&world, ray, 3), Vec3::ONE);
-    assert_eq!(reference::radiance(&world, ray, 4), Vec3::ZERO);
+    let ray = Ray::new(Vec3A::ZERO, Vec3A::Y);
+    assert_eq!(reference::radiance(&world, ray, 3), Vec3A::ONE);
+    assert_eq!(reference::radiance(&world, ray, 4), Vec3A::ZERO);
 }
 
 /// Where along the floor from `from` to `to` the shadow ends: looked at from just above.
 fn shadow_edge(world: &World, from: DVec3, to: DVec3) -> f64 {
-    let lit = |s: f64| look(world, (from + (to - from) * s).as_vec3() + vec3(0.0, 0.01, 0.0), Vec3::NEG_Y) > 0.15;
+    let lit = |s: f64| look(world, (from + (to - from) * s).as_vec3a() + vec3a(0.0, 0.01, 0.0), Vec3A::NEG_Y) > 0.15;
     assert!(!lit(0.0) && lit(1.0));
     let (mut dark, mut bright) = (0.0, 1.0);
     while bright - dark > 1e-9 {
@@ -327,20 +327,20 @@ fn shadow_edge(world: &World, from: DVec3, to: DVec3) -> f64 {
 }
 
 /// A white floor, a black ball over it, and one light.
-fn shadow_play(center: Vec3, radius: f32, emitter: Emitter) -> World {
+fn shadow_play(center: Vec3A, radius: f32, emitter: Emitter) -> World {
     let mut world = furnace(vec![(floor(), white()), (ball(center, radius), mirror(0.0))], 1);
-    world.ambient = Vec3::splat(0.1);
-    world.lights = vec![Light { emitter, color: Vec3::ONE, radius: 0.0 }];
+    world.ambient = Vec3A::splat(0.1);
+    world.lights = vec![Light { emitter, color: Vec3A::ONE, radius: 0.0 }];
     world
 }
 
 #[test]
 fn shadows_end_where_geometry_says() {
     let (height, radius) = (2.0, 0.7);
-    let center = vec3(0.0, height, 0.0);
+    let center = vec3a(0.0, height, 0.0);
     // A light above: the cone around the ball meets the floor in a circle.
     for above in [4.0f32, 10.0, 100.0] {
-        let world = shadow_play(center, radius, Emitter::Point(vec3(0.0, above, 0.0)));
+        let world = shadow_play(center, radius, Emitter::Point(vec3a(0.0, above, 0.0)));
         let (gap, r, h) = ((above - height) as f64, radius as f64, above as f64);
         let truth = h * r / (gap * gap - r * r).sqrt();
         for k in 0..16 {
@@ -351,7 +351,7 @@ fn shadows_end_where_geometry_says() {
     }
     // A light without distance, slanting: an ellipse as wide as the ball, longer by 1 / sin of the light's height.
     for elevation in [0.2f64, 0.5, 1.0, 1.5] {
-        let towards = vec3(elevation.cos() as f32, elevation.sin() as f32, 0.0);
+        let towards = vec3a(elevation.cos() as f32, elevation.sin() as f32, 0.0);
         let world = shadow_play(center, radius, Emitter::Directional(towards));
         let middle = DVec3::new(-height as f64 / elevation.tan(), 0.0, 0.0);
         let (long, wide) = (radius as f64 / elevation.sin(), radius as f64);
@@ -370,13 +370,13 @@ fn shadows_end_where_geometry_says() {
 fn light_falls_by_lamberts_law() {
     // A point light has no falloff; one without distance is the same everywhere.
     let mut world = furnace(vec![(floor(), white())], 1);
-    world.ambient = Vec3::splat(0.25);
+    world.ambient = Vec3A::splat(0.25);
     for k in 0..=90 {
         let a = (k as f64).to_radians();
-        let towards = vec3(a.cos() as f32, a.sin() as f32, 0.0);
+        let towards = vec3a(a.cos() as f32, a.sin() as f32, 0.0);
         for emitter in [Emitter::Directional(towards), Emitter::Point(towards * 50.0)] {
-            world.lights = vec![Light { emitter, color: Vec3::splat(0.5), radius: 0.0 }];
-            let found = look(&world, vec3(0.0, 1.0, 0.0), Vec3::NEG_Y);
+            world.lights = vec![Light { emitter, color: Vec3A::splat(0.5), radius: 0.0 }];
+            let found = look(&world, vec3a(0.0, 1.0, 0.0), Vec3A::NEG_Y);
             assert!((found - 0.25 - 0.5 * a.sin()).abs() < 2e-7, "{k}: {found}");
         }
     }
@@ -384,14 +384,14 @@ fn light_falls_by_lamberts_law() {
 
 #[test]
 fn highlights_peak_in_the_mirror_direction() {
-    let material = Material::plain(Vec3::ZERO).shiny(0.8, 48.0);
+    let material = Material::plain(Vec3A::ZERO).shiny(0.8, 48.0);
     let mut world = furnace(vec![(floor(), material)], 1);
-    let (eye, light) = (vec3(-3.0, 2.0, 1.0), vec3(4.0, 5.0, -2.0));
-    world.lights = vec![Light::point(light, Vec3::splat(0.5))];
+    let (eye, light) = (vec3a(-3.0, 2.0, 1.0), vec3a(4.0, 5.0, -2.0));
+    world.lights = vec![Light::point(light, Vec3A::splat(0.5))];
     // The light's image below the floor, seen from the eye.
     let (e, image) = (eye.as_dvec3(), DVec3::new(4.0, -5.0, -2.0));
     let peak = e + (image - e) * (e.y / (e.y - image.y));
-    let at = |p: DVec3| look(&world, eye, (p - e).normalize().as_vec3());
+    let at = |p: DVec3| look(&world, eye, (p - e).normalize().as_vec3a());
     assert!((at(peak) - 0.4).abs() < 1e-5, "{}", at(peak));
     let mut worst = 0.0f64;
     for k in 0..2_000 {
@@ -414,18 +414,18 @@ fn highlights_peak_in_the_mirror_direction() {
 /// the plane is: light is gathered, none is made. Beside the shadow there is all of it.
 #[test]
 fn glass_gathers_what_it_lets_through() {
-    let filter = vec3(0.9, 0.8, 0.7);
+    let filter = vec3a(0.9, 0.8, 0.7);
     for (radius, away) in [(1.0f32, 1.05f32), (1.0, 1.5), (0.5, 2.0), (3.0, 40.0), (1.0, 1000.0)] {
         let bodies = vec![
-            (ball(Vec3::ZERO, radius), Material::glass(1.5, filter)),
-            (Shape::Plane { normal: Vec3::Y, offset: -away * radius }, white()),
+            (ball(Vec3A::ZERO, radius), Material::glass(1.5, filter)),
+            (Shape::Plane { normal: Vec3A::Y, offset: -away * radius }, white()),
         ];
         let mut world = furnace(bodies, 1);
-        (world.ambient, world.background) = (Vec3::ZERO, Background::even(Vec3::ZERO));
-        world.lights = vec![Light::directional(Vec3::Y, Vec3::ONE)];
+        (world.ambient, world.background) = (Vec3A::ZERO, Background::even(Vec3A::ZERO));
+        world.lights = vec![Light::directional(Vec3A::Y, Vec3A::ONE)];
         let at = |x: f32, z: f32| {
-            let o = vec3(x * radius, -away * radius + 1e-3 * radius, z * radius);
-            reference::radiance(&world, Ray::new(o, Vec3::NEG_Y), 1).as_dvec3()
+            let o = vec3a(x * radius, -away * radius + 1e-3 * radius, z * radius);
+            reference::radiance(&world, Ray::new(o, Vec3A::NEG_Y), 1).as_dvec3()
         };
         // Rings of equal area, and places on the rings.
         let rings = 40_000;
@@ -446,32 +446,32 @@ fn glass_gathers_what_it_lets_through() {
 
 /// Every shape, every pattern, both palettes, every kind of material and light.
 fn everything() -> (World, Camera) {
-    let colors = [vec3(0.1, 0.05, 0.02), vec3(0.8, 0.3, 0.1), vec3(0.9, 0.8, 0.3), vec3(0.2, 0.5, 0.9)];
+    let colors = [vec3a(0.1, 0.05, 0.02), vec3a(0.8, 0.3, 0.1), vec3a(0.9, 0.8, 0.3), vec3a(0.2, 0.5, 0.9)];
     let mix = Palette::Mix(colors[0], colors[2]);
     let matte = |pattern, palette, scale| Material::matte(Texture::new(pattern, palette, scale));
     let lacquer = |material: Material| Material { fresnel: 0.8, ..material.polished(0.05, 0.5, 40.0) };
-    let turn = Mat3::from_rotation_y(0.6) * Mat3::from_rotation_x(0.3);
-    let (block, axis) = (vec3(-2.0, 0.8, 0.5), vec3(0.2, 0.9, 0.3).normalize());
+    let turn = Mat3A::from_rotation_y(0.6) * Mat3A::from_rotation_x(0.3);
+    let (block, axis) = (vec3a(-2.0, 0.8, 0.5), vec3a(0.2, 0.9, 0.3).normalize());
     let marble = Pattern::Marble { warp: 3.0, scale: 2.0, octaves: 3 };
     let wood = Texture::new(Pattern::Wood { warp: 0.6, octaves: 2 }, Palette::Ramp(colors), 6.0).on(block, turn);
     let bodies = [
-        (ball(vec3(0.0, 1.0, 0.0), 1.0), glass(1.5)),
-        (ball(vec3(1.9, 0.6, 0.9), 0.6), lacquer(matte(marble, mix, 3.0))),
-        (ball(vec3(0.7, 0.3, 1.8), 0.3), matte(Pattern::Turbulence { octaves: 3 }, Palette::Ramp(colors), 5.0)),
-        (Shape::Block { center: block, half: vec3(0.6, 0.7, 0.4), turn }, Material::matte(wood)),
-        (Shape::Block { center: vec3(-0.6, 0.25, 2.0), half: vec3(0.25, 0.25, 0.25), turn }, glass(1.3)),
+        (ball(vec3a(0.0, 1.0, 0.0), 1.0), glass(1.5)),
+        (ball(vec3a(1.9, 0.6, 0.9), 0.6), lacquer(matte(marble, mix, 3.0))),
+        (ball(vec3a(0.7, 0.3, 1.8), 0.3), matte(Pattern::Turbulence { octaves: 3 }, Palette::Ramp(colors), 5.0)),
+        (Shape::Block { center: block, half: vec3a(0.6, 0.7, 0.4), turn }, Material::matte(wood)),
+        (Shape::Block { center: vec3a(-0.6, 0.25, 2.0), half: vec3a(0.25, 0.25, 0.25), turn }, glass(1.3)),
         (
-            Shape::Cylinder { center: vec3(2.4, 0.9, -1.2), axis, half: 0.9, radius: 0.4 },
+            Shape::Cylinder { center: vec3a(2.4, 0.9, -1.2), axis, half: 0.9, radius: 0.4 },
             matte(Pattern::Clouds { octaves: 4 }, mix, 4.0).polished(0.3, 0.4, 20.0),
         ),
         (
-            Shape::Cylinder { center: vec3(-0.9, 0.5, -1.6), axis: Vec3::Y, half: 0.5, radius: 0.5 },
-            Material { reflectance: vec3(0.9, 0.6, 0.3), specular: 0.6, exponent: 80.0, ..white() },
+            Shape::Cylinder { center: vec3a(-0.9, 0.5, -1.6), axis: Vec3A::Y, half: 0.5, radius: 0.5 },
+            Material { reflectance: vec3a(0.9, 0.6, 0.3), specular: 0.6, exponent: 80.0, ..white() },
         ),
-        (Shape::Plane { normal: vec3(0.0, 0.0, 1.0), offset: -4.0 }, Material::plain(colors[3])),
+        (Shape::Plane { normal: vec3a(0.0, 0.0, 1.0), offset: -4.0 }, Material::plain(colors[3])),
         (
-            Shape::Globe { touch: Vec3::ZERO, normal: Vec3::Y, radius: 1e5 },
-            matte(Pattern::Checker, Palette::Mix(Vec3::splat(0.2), Vec3::splat(0.8)), 1.3).polished(0.1, 0.1, 10.0),
+            Shape::Globe { touch: Vec3A::ZERO, normal: Vec3A::Y, radius: 1e5 },
+            matte(Pattern::Checker, Palette::Mix(Vec3A::splat(0.2), Vec3A::splat(0.8)), 1.3).polished(0.1, 0.1, 10.0),
         ),
     ];
     let mut world = furnace(bodies.to_vec(), 5);
@@ -479,13 +479,13 @@ fn everything() -> (World, Camera) {
         body.casts_shadow = !matches!(body.shape, Shape::Globe { .. });
     }
     world.lights = vec![
-        Light::point(vec3(3.0, 5.0, 4.0), vec3(0.6, 0.5, 0.4)),
-        Light::directional(vec3(-0.5, FRAC_1_SQRT_2 as f32, 0.5), vec3(0.2, 0.3, 0.4)),
+        Light::point(vec3a(3.0, 5.0, 4.0), vec3a(0.6, 0.5, 0.4)),
+        Light::directional(vec3a(-0.5, FRAC_1_SQRT_2 as f32, 0.5), vec3a(0.2, 0.3, 0.4)),
     ];
-    world.ambient = Vec3::splat(0.1);
-    let glow = Glow { direction: vec3(0.0, 0.6, -0.8), color: vec3(0.5, 0.3, 0.1), exponent: 20.0 };
-    world.background = Background { horizon: vec3(0.6, 0.6, 0.7), zenith: vec3(0.1, 0.3, 0.6), glow };
-    (world, Camera::look_at(vec3(0.5, 1.8, 6.5), vec3(0.0, 0.8, 0.0), 0.8, 0.05))
+    world.ambient = Vec3A::splat(0.1);
+    let glow = Glow { direction: vec3a(0.0, 0.6, -0.8), color: vec3a(0.5, 0.3, 0.1), exponent: 20.0 };
+    world.background = Background { horizon: vec3a(0.6, 0.6, 0.7), zenith: vec3a(0.1, 0.3, 0.6), glow };
+    (world, Camera::look_at(vec3a(0.5, 1.8, 6.5), vec3a(0.0, 0.8, 0.0), 0.8, 0.05))
 }
 
 /// Pixels that may differ by more than a code: where a path passes so near to a rim, or to the edge of a square of a
@@ -529,7 +529,7 @@ fn tiles_leave_nothing_out() {
     let mut random = Random(3);
     let mut rims = 0;
     for round in 0..40 {
-        let color = |random: &mut Random| vec3(random.unit() as f32, random.unit() as f32, random.unit() as f32);
+        let color = |random: &mut Random| vec3a(random.unit() as f32, random.unit() as f32, random.unit() as f32);
         let mut bodies = vec![];
         for _ in 0..30 {
             let center = random.direction() * random.log(0.1, 30.0) as f32;
@@ -537,15 +537,15 @@ fn tiles_leave_nothing_out() {
             let (axis, turn) = (random.direction(), random.turn());
             let shape = match (random.unit() * 3.0) as u32 {
                 0 => ball(center, size),
-                1 => Shape::Block { center, half: size * vec3(1.0, 0.1, 3.0), turn },
+                1 => Shape::Block { center, half: size * vec3a(1.0, 0.1, 3.0), turn },
                 _ => Shape::Cylinder { center, axis, half: 4.0 * size, radius: 0.3 * size },
             };
             bodies.push((shape, Material::plain(color(&mut random))));
         }
         let mut world = furnace(bodies, 1);
-        world.ambient = Vec3::ONE;
+        world.ambient = Vec3A::ONE;
         let fov = [0.3, 1.0, 2.0, 2.8][round % 4];
-        let camera = Camera::look_at(Vec3::ZERO, random.direction(), fov, random.range(-3.0, 3.0) as f32);
+        let camera = Camera::look_at(Vec3A::ZERO, random.direction(), fov, random.range(-3.0, 3.0) as f32);
         let size = (150, 100);
         let truth = plain(&world, camera, size).frame();
         let found = traced(&world, camera, size, Quality::EXACT, testkit::levels()[0].1).frame();

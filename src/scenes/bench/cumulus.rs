@@ -15,7 +15,7 @@ use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::{Vec3, dvec3, vec3};
+use glam::{Vec3A, dvec3, vec3a};
 use std::sync::Arc;
 
 /// Around one cloud.
@@ -99,22 +99,22 @@ fn many(spec: &FrameSpec) -> Vec<Cloud> {
     let mut clouds = set::many(|k| shape(spec, k as u32), count, seed, height, extinction);
     let way = dvec3(spec.get(&EAST), 0.0, spec.get(&SOUTH)) * spec.time;
     for cloud in &mut clouds {
-        cloud.centre += way.as_vec3();
+        cloud.centre += way.as_vec3a();
     }
     clouds
 }
 
 /// The sky at the horizon, and what haze looks like.
-const HAZE: Vec3 = vec3(0.76, 0.85, 0.94);
+const HAZE: Vec3A = vec3a(0.76, 0.85, 0.94);
 
 fn picture(spec: &FrameSpec, variant: usize, clouds: Vec<Cloud>) -> Picture {
     let (eye, way) = set::camera(variant, spec.time);
-    let camera = Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(eye.as_vec3a(), (eye + way).as_vec3a(), 50f32.to_radians(), 0.0);
     let view = View::new(spec.camera(camera), spec.width, spec.height);
     let light = CloudLight {
-        ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
+        ambient: [vec3a(0.22, 0.27, 0.36), vec3a(0.36, 0.42, 0.51)],
         towards: set::sun(),
-        sun: vec3(0.86, 0.78, 0.68) * spec.get(&LIGHT) as f32,
+        sun: vec3a(0.86, 0.78, 0.68) * spec.get(&LIGHT) as f32,
         phase: [0.85, 0.5],
     };
     let q = &spec.quality;
@@ -143,7 +143,7 @@ impl Field for Background {
         let above = d.y.simd_ge(0.0);
         let fall = (d.y * -5.0).max(zero).min(one);
         let share = above.select(d.y.max(zero).sqrt(), fall * fall * (F::<S>::splat(simd, 3.0) - fall * 2.0));
-        let end = V3::select(above, V3::splat(simd, vec3(0.16, 0.36, 0.70)), V3::splat(simd, vec3(0.33, 0.43, 0.36)));
+        let end = V3::select(above, V3::splat(simd, vec3a(0.16, 0.36, 0.70)), V3::splat(simd, vec3a(0.33, 0.43, 0.36)));
         let haze = V3::splat(simd, HAZE);
         let c = d.dot1(set::sun()).max(zero);
         let c2 = c * c;
@@ -152,7 +152,7 @@ impl Field for Background {
         let disc = ((c - 0.9998) * (1.0 / 0.00012)).max(zero).min(one);
         let disc = disc * disc * (F::<S>::splat(simd, 3.0) - disc * 2.0);
         haze + (end - haze) * Lane(share)
-            + V3::splat(simd, vec3(1.0, 0.8, 0.5)) * Lane(c8 * c8 * c8 * 0.25 + disc * 0.8)
+            + V3::splat(simd, vec3a(1.0, 0.8, 0.5)) * Lane(c8 * c8 * c8 * 0.25 + disc * 0.8)
     }
 }
 

@@ -4,16 +4,17 @@
 use crate::cloud::{Cloud, CloudKind, Voxels};
 use crate::simd::hash::rnd;
 use crate::simd::level;
+use crate::vector::unit;
 use fearless_simd::dispatch;
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 use std::sync::{Arc, OnceLock};
 
 /// Points along an edge of the voxels.
 const EDGE: usize = 64;
 
 /// Direction to the sun.
-pub fn sun() -> Vec3 {
-    vec3(0.6, 0.55, 0.45).normalize()
+pub fn sun() -> Vec3A {
+    unit(vec3a(0.6, 0.55, 0.45))
 }
 
 /// Shape `k` of four, made when it is first asked for.
@@ -58,7 +59,7 @@ pub fn clouds(variant: usize) -> Vec<Cloud> {
 
 /// One cloud, by the height of its centre and half of its cube's edge, metres.
 pub fn one(voxels: Arc<Voxels>, height: f32, size: f32, extinction: f32) -> Vec<Cloud> {
-    vec![Cloud { voxels, centre: vec3(0.0, height, 0.0), size, extinction }]
+    vec![Cloud { voxels, centre: vec3a(0.0, height, 0.0), size, extinction }]
 }
 
 /// A sky of `count` clouds above `height`, metres, whose places and sizes are by the random numbers of `seed`.
@@ -66,7 +67,7 @@ pub fn many(shape: impl Fn(usize) -> Arc<Voxels>, count: u32, seed: u32, height:
     let cloud = |i: u32| {
         let r = |k: u32| rnd(seed, i, k);
         let size = 45.0 + 55.0 * r(3) * r(3);
-        let centre = vec3(1800.0 * (r(0) - 0.5), height + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
+        let centre = vec3a(1800.0 * (r(0) - 0.5), height + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
         Cloud { voxels: shape(i as usize % SHAPE_COUNT), centre, size, extinction }
     };
     (0..count).map(cloud).collect()
@@ -82,7 +83,7 @@ fn bake(density: &[u8]) -> Vec<u8> {
         padded[i + WIDE * (j + WIDE * l)] = *density as f32 / 255.0;
     }
     let light = |at: usize| {
-        let start = Vec3::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(|i| (i + 1) as f32));
+        let start = Vec3A::from([at % EDGE, at / EDGE % EDGE, at / (EDGE * EDGE)].map(|i| (i + 1) as f32));
         let mut depth = 0.0;
         for s in 0..60 {
             let p = start + sun() * (s as f32 + 0.5);

@@ -9,7 +9,7 @@ use crate::scenes::flakes;
 use crate::settings::Quality;
 use crate::view::{Camera, View};
 use fearless_simd::Level;
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 
 /// Flakes, of which 200,000 may be seen at a time.
 pub const SNOW: Scene = Scene {
@@ -58,7 +58,7 @@ const FIRE_SOUTH: Parameter =
 pub const FLAKES: Flakes = Flakes {
     seed: 3,
     count: 254_648,
-    extent: vec3(30.0, 16.0, 30.0),
+    extent: vec3a(30.0, 16.0, 30.0),
     reach: 15.0,
     opacity: 0.85,
     fall: [0.9, 0.7],
@@ -80,17 +80,17 @@ pub const FLAME: Flame = Flame {
     slows: 0.25,
     lift: 0.55,
     radius: [0.15, 0.035],
-    light: [vec3(1.0 * 0.008, 0.62 * 0.008, 0.20 * 0.008), vec3(0.80 * 0.008, 0.10 * 0.008, 0.02 * 0.008)],
+    light: [vec3a(1.0 * 0.008, 0.62 * 0.008, 0.20 * 0.008), vec3a(0.80 * 0.008, 0.10 * 0.008, 0.02 * 0.008)],
 };
 
 /// Flakes of a field at `time` seconds, in the wind that is specified, around an eye that walks as specified but is
 /// moved by `beside` metres.
-pub fn flakes(flakes: &Flakes, time: f64, beside: Vec3) -> Snow {
+pub fn flakes(flakes: &Flakes, time: f64, beside: Vec3A) -> Snow {
     blown(flakes, time, beside, [EAST.default, SOUTH.default], 1.0)
 }
 
 /// The same in another wind, metres per second to the east and to the south, with a share of the flakes.
-fn blown(flakes: &Flakes, time: f64, beside: Vec3, [east, south]: [f64; 2], share: f32) -> Snow {
+fn blown(flakes: &Flakes, time: f64, beside: Vec3A, [east, south]: [f64; 2], share: f32) -> Snow {
     let eye = dvec3(1.5 * time, 1.7, -2.0 * time) + beside.as_dvec3();
     Snow::new(flakes, time, eye, dvec3(east * time, 0.0, south * time), share)
 }
@@ -107,25 +107,25 @@ pub fn snowfall(spec: &FrameSpec, of: &Flakes) -> ParticleLayer {
     let t = spec.time;
     let way = dvec3((0.3 * t).sin(), 0.08 * (0.5 * t).sin(), (0.3 * t).cos());
     // The eye is the origin, since far from it there are no fractions of metres.
-    let camera = spec.camera(Camera::look_at(Vec3::ZERO, way.as_vec3(), 50f32.to_radians(), 0.0));
+    let camera = spec.camera(Camera::look_at(Vec3A::ZERO, way.as_vec3a(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
     let wind = [spec.get(&EAST), spec.get(&SOUTH)];
     let snow = blown(of, t, camera.eye, wind, spec.get(&SHARE) as f32);
-    ParticleLayer::new(vec![snow.into()], &view, &spec.quality.particles).colored(vec3(0.95, 0.97, 1.0))
+    ParticleLayer::new(vec![snow.into()], &view, &spec.quality.particles).colored(vec3a(0.95, 0.97, 1.0))
 }
 
 /// The torches at `time` seconds, as specified.
 pub fn fires(time: f64) -> Vec<Fire> {
-    ring(time, TORCHES.default, SPRITES.default, FLAME, Vec3::ZERO)
+    ring(time, TORCHES.default, SPRITES.default, FLAME, Vec3A::ZERO)
 }
 
 /// A ring of `torches` of `sprites` particles each.
-fn ring(time: f64, torches: f64, sprites: f64, flame: Flame, wind: Vec3) -> Vec<Fire> {
+fn ring(time: f64, torches: f64, sprites: f64, flame: Flame, wind: Vec3A) -> Vec<Fire> {
     let torch = |j: u32| {
         let angle = 1.25663706 * (TORCHES.default / torches) * j as f64;
         Fire {
             flame,
-            place: dvec3(3.0 * angle.cos(), 1.2, 3.0 * angle.sin()).as_vec3(),
+            place: dvec3(3.0 * angle.cos(), 1.2, 3.0 * angle.sin()).as_vec3a(),
             scale: 1.0,
             time,
             seed: 4,
@@ -142,12 +142,12 @@ fn ring(time: f64, torches: f64, sprites: f64, flame: Flame, wind: Vec3) -> Vec<
 fn fire(spec: &FrameSpec) -> Picture {
     let longer = spec.get(&LIFE) / LIFE.default;
     let flame = Flame { life: FLAME.life.map(|life| life * longer), ring: [0.0, spec.get(&EMITTER) as f32], ..FLAME };
-    let wind = vec3(spec.get(&FIRE_EAST) as f32, 0.0, spec.get(&FIRE_SOUTH) as f32);
+    let wind = vec3a(spec.get(&FIRE_EAST) as f32, 0.0, spec.get(&FIRE_SOUTH) as f32);
     let torches = ring(spec.time, spec.get(&TORCHES), spec.get(&SPRITES), flame, wind);
     let a = 0.3 * spec.time;
     let eye = dvec3(7.0 * a.sin(), 2.2, 7.0 * a.cos());
     let way = DVec3::Y * 1.8 - eye;
-    let camera = spec.camera(Camera::look_at(eye.as_vec3(), (eye + way).as_vec3(), 50f32.to_radians(), 0.0));
+    let camera = spec.camera(Camera::look_at(eye.as_vec3a(), (eye + way).as_vec3a(), 50f32.to_radians(), 0.0));
     let view = View::new(camera, spec.width, spec.height);
     // All particles that are specified, whatever the quality.
     let particles =
@@ -156,12 +156,12 @@ fn fire(spec: &FrameSpec) -> Picture {
 }
 
 /// The light behind the flakes, at the bottom of the picture and at the top.
-pub const SNOW_SKY: [Vec3; 2] = [vec3(0.58, 0.63, 0.70), vec3(0.16, 0.20, 0.30)];
+pub const SNOW_SKY: [Vec3A; 2] = [vec3a(0.58, 0.63, 0.70), vec3a(0.16, 0.20, 0.30)];
 /// The light behind the torches, likewise.
-pub const FIRE_SKY: [Vec3; 2] = [vec3(0.05, 0.05, 0.07), vec3(0.01, 0.015, 0.05)];
+pub const FIRE_SKY: [Vec3A; 2] = [vec3a(0.05, 0.05, 0.07), vec3a(0.01, 0.015, 0.05)];
 
 /// Particles over a light that changes from the bottom of the picture to the top.
-pub fn over(spec: &FrameSpec, [bottom, top]: [Vec3; 2], particles: ParticleLayer) -> Picture {
+pub fn over(spec: &FrameSpec, [bottom, top]: [Vec3A; 2], particles: ParticleLayer) -> Picture {
     let behind = Gradient { bottom, top, height: spec.height as u32 as f32 };
     let layers: Vec<Box<dyn Layer>> = vec![Box::new(behind), Box::new(particles.without_solids())];
     Picture { layers, transfer: Transfer::Linear }
@@ -169,8 +169,8 @@ pub fn over(spec: &FrameSpec, [bottom, top]: [Vec3; 2], particles: ParticleLayer
 
 /// Light that changes from row to row.
 struct Gradient {
-    bottom: Vec3,
-    top: Vec3,
+    bottom: Vec3A,
+    top: Vec3A,
     /// Rows of the picture.
     height: f32,
 }

@@ -10,7 +10,7 @@ use crate::scenes::flakes;
 use crate::scenes::show::valley::{self, HOUR, LATITUDE, LONGITUDE};
 use crate::timeline::ease;
 use crate::view::Camera;
-use glam::{DVec3, Mat3, Vec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, vec3a};
 
 /// The scene.
 pub const RAIN: Scene = Scene {
@@ -42,7 +42,7 @@ const START: Parameter = Parameter::new("hour", "h", (0.0, 24.0), 10.0, "time of
 const DROPS: Flakes = Flakes {
     seed: 6,
     count: 120_000,
-    extent: vec3(30.0, 16.0, 30.0),
+    extent: vec3a(30.0, 16.0, 30.0),
     reach: 15.0,
     opacity: 1.0,
     fall: [6.0, 3.0],
@@ -58,13 +58,13 @@ fn picture(spec: &FrameSpec) -> Picture {
     // Ahead, then up to the zenith and back.
     let up = ease(4.0, 9.0, t) * (1.0 - ease(14.0, 19.0, t));
     let (sin, cos) = angle::sin_cos(1.55 * up);
-    let eye = vec3(14.0, 12.0, 34.0 - 0.8 * t as f32);
-    let view = spec.view(Camera::look_at(eye, eye + vec3(-0.35 * cos, sin, -cos), 1.0, 0.0));
+    let eye = vec3a(14.0, 12.0, 34.0 - 0.8 * t as f32);
+    let view = spec.view(Camera::look_at(eye, eye + vec3a(-0.35 * cos, sin, -cos), 1.0, 0.0));
     let dome = valley::sky(spec, valley::date(spec, &DATE) + (spec.get(&START) - 1.0) * HOUR);
-    let mut world = valley::world(&dome, valley::season(1).1, Mat3::IDENTITY, Vec3::new(0.0, -900.0, 0.0), t);
+    let mut world = valley::world(&dome, valley::season(1).1, Mat3A::IDENTITY, Vec3A::new(0.0, -900.0, 0.0), t);
     let sky = dome.lighting().sky;
     world.lights.clear();
-    let wind = vec3(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32);
+    let wind = vec3a(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32);
     // In gusts, from drizzle to a shower and back.
     let way = wind.as_dvec3() * t + DVec3::X * (1.5 * (t / 1.5).sin());
     let share = (0.3 + 0.7 * ease(0.0, 6.0, t)) * spec.get(&SHARE) as f32;
@@ -72,7 +72,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let (height, radius, count) = (spec.get(&HEIGHT), spec.get(&RADIUS), spec.get(&COUNT));
     let drops = flakes::altered(&DROPS, height, radius, count, faster, larger);
     let mut rain = Snow::new(&drops, t, view.camera().eye.as_dvec3(), way, share);
-    rain.streak = (wind - Vec3::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
+    rain.streak = (wind - Vec3A::Y * drops.fall[0] as f32) * (0.5 * spec.get(&SHUTTER) as f32);
     let rain = ParticleLayer::new(vec![rain.into()], &view, &spec.quality.particles).colored(sky * 1.6);
     let mut picture = valley::show(spec, dome, world, view, None);
     picture.layers.push(Box::new(rain));

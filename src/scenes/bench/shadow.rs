@@ -8,7 +8,7 @@ use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::{Bias, Body, Haze, Light, Projection, ShadowViews, World, fit};
 use crate::scenes::single::drawn;
 use crate::view::Camera;
-use glam::{Affine3A, Vec2, Vec3, vec3};
+use glam::{Affine3A, Vec2, Vec3A, vec3a};
 use std::sync::{Arc, OnceLock};
 
 /// Under the sun.
@@ -57,32 +57,32 @@ const FACE_TEXELS: Parameter = Parameter::new(
 );
 
 fn sun(spec: &FrameSpec) -> Picture {
-    let towards = shadow_set::sun_at(spec.get(&SPEED) * spec.time, spec.get(&SLOPE)).as_vec3();
+    let towards = shadow_set::sun_at(spec.get(&SPEED) * spec.time, spec.get(&SLOPE)).as_vec3a();
     let texels = (spec.get(&TEXELS) as u32).next_multiple_of(64);
     const WIDTH: f32 = 72.0;
-    let views = vec![Projection::parallel(towards, Vec3::ZERO, WIDTH, texels)];
+    let views = vec![Projection::parallel(towards, Vec3A::ZERO, WIDTH, texels)];
     // In texels; the specification has metres.
     let bias = Bias { constant: 0.03, slope: 0.15 * texels as f32 / WIDTH, normal: 0.0 };
     let shadow = ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
-    let light = Light::sun(towards, vec3(1.05, 0.92, 0.74)).with_shadow(shadow);
-    picture(spec, light, vec3(0.20, 0.27, 0.40), vec3(0.42, 0.55, 0.72))
+    let light = Light::sun(towards, vec3a(1.05, 0.92, 0.74)).with_shadow(shadow);
+    picture(spec, light, vec3a(0.20, 0.27, 0.40), vec3a(0.42, 0.55, 0.72))
 }
 
 fn torch(spec: &FrameSpec) -> Picture {
     let position =
-        shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3();
+        shadow_set::torch_at(spec.get(&TORCH_SPEED) * spec.time, spec.get(&RADIUS), spec.get(&ABOVE)).as_vec3a();
     let texels = (spec.get(&FACE_TEXELS) as u32).next_multiple_of(64);
     let bias = Bias { constant: 0.03, slope: 2.12, normal: 0.0 };
     let shadow = ShadowViews { smooth: false, ..ShadowViews::new(fit::cube(position, texels), bias) };
     let falloff = Vec2::new(0.0, spec.get(&FALLOFF) as f32);
-    let light = Light::lamp(position, vec3(2.6, 1.35, 0.5), falloff, f32::INFINITY).with_shadow(shadow);
-    picture(spec, light, vec3(0.020, 0.028, 0.055), vec3(0.010, 0.014, 0.030))
+    let light = Light::lamp(position, vec3a(2.6, 1.35, 0.5), falloff, f32::INFINITY).with_shadow(shadow);
+    picture(spec, light, vec3a(0.020, 0.028, 0.055), vec3a(0.010, 0.014, 0.030))
 }
 
 /// The set under one light.
-fn picture(spec: &FrameSpec, light: Light, ambient: Vec3, fog: Vec3) -> Picture {
+fn picture(spec: &FrameSpec, light: Light, ambient: Vec3A, fog: Vec3A) -> Picture {
     static BODIES: OnceLock<Vec<Body>> = OnceLock::new();
-    let camera = Camera::look_at(shadow_set::eye(spec.time).as_vec3(), vec3(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(shadow_set::eye(spec.time).as_vec3a(), vec3a(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
     let world = World {
         lights: vec![light],
         ambient: [ambient * 0.6, ambient * 0.4],

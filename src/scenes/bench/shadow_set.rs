@@ -8,13 +8,13 @@ use crate::noise::{fbm, noise};
 use crate::raster::form::Rings;
 use crate::raster::{Face, Mesh, Paint};
 use crate::simd::hash::rnd;
-use glam::{DVec3, Mat3, Vec3, dvec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, dvec3, vec3a};
 use std::f64::consts::TAU;
 
 /// Height of the ground at a place, metres. It is computed in f64 but for the noise, whose own error is below 4e-7.
 pub fn height(x: f64, z: f64) -> f64 {
-    let rolling = fbm(dvec3(0.055 * x + 3.7, 0.5, 0.055 * z + 8.1).as_vec3(), 4);
-    2.2 * rolling as f64 + 0.35 * noise(dvec3(0.31 * x, 2.5, 0.31 * z).as_vec3()) as f64
+    let rolling = fbm(dvec3(0.055 * x + 3.7, 0.5, 0.055 * z + 8.1).as_vec3a(), 4);
+    2.2 * rolling as f64 + 0.35 * noise(dvec3(0.31 * x, 2.5, 0.31 * z).as_vec3a()) as f64
 }
 
 /// Where the camera is at `time` seconds; it looks at (0, 0.5, 0).
@@ -74,8 +74,8 @@ fn ground(first: i32) -> Mesh {
         for i in 0..=48 {
             let (x, z) = ((i - 24) as f64, (j - 24) as f64);
             let slope = |dx: f64, dz: f64| height(x - dx, z - dz) - height(x + dx, z + dz);
-            mesh.points.push(dvec3(x, height(x, z), z).as_vec3());
-            mesh.normals.push(dvec3(slope(STEP, 0.0), 2.0 * STEP, slope(0.0, STEP)).normalize().as_vec3());
+            mesh.points.push(dvec3(x, height(x, z), z).as_vec3a());
+            mesh.normals.push(dvec3(slope(STEP, 0.0), 2.0 * STEP, slope(0.0, STEP)).normalize().as_vec3a());
         }
     }
     mesh.loft(0, 49, 0, &[]);
@@ -83,7 +83,7 @@ fn ground(first: i32) -> Mesh {
 }
 
 fn paint(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
+    Paint { albedo: vec3a(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// Random number `k` of object `i`.
@@ -92,25 +92,25 @@ fn random(i: u32, k: u32) -> f32 {
 }
 
 /// The place on the ground where object `i` stands.
-fn place(i: u32) -> Vec3 {
+fn place(i: u32) -> Vec3A {
     let [x, z] = [0, 1].map(|k| 44.0 * (random(i, k) as f64 - 0.5));
-    dvec3(x, height(x, z), z).as_vec3()
+    dvec3(x, height(x, z), z).as_vec3a()
 }
 
 /// The turn of object `i` about y.
-fn turn(i: u32) -> Mat3 {
+fn turn(i: u32) -> Mat3A {
     angle::turn_y((TAU * random(i, 5) as f64) as f32)
 }
 
 /// Adds box `i`. Its sides are halved along the diagonals that the specification says, which [`Mesh::block`] does not
 /// do.
 fn add_box(mesh: &mut Mesh, i: u32) {
-    let half = vec3(0.3 + 0.6 * random(i, 2), 0.3 + 1.1 * random(i, 3), 0.3 + 0.6 * random(i, 4));
-    let middle = place(i) + Vec3::Y * (half.y - 0.2);
+    let half = vec3a(0.3 + 0.6 * random(i, 2), 0.3 + 1.1 * random(i, 3), 0.3 + 0.6 * random(i, 4));
+    let middle = place(i) + Vec3A::Y * (half.y - 0.2);
     let (first, kind, turn) = (mesh.points.len() as u16, mesh.paints.len() as u16, turn(i));
     for k in 0..8 {
         let side = |bit: u32| if k & bit == 0 { -1.0 } else { 1.0 };
-        mesh.points.push(middle + turn * (half * vec3(side(1), side(2), side(4))));
+        mesh.points.push(middle + turn * (half * vec3a(side(1), side(2), side(4))));
     }
     for k in 0..6 {
         // Both directions across the axis, in the order that turns the side outwards.

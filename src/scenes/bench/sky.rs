@@ -9,10 +9,11 @@ use crate::frame::{FrameSpec, Layer, Parameter, Picture, Scene, Stats, Tile};
 use crate::simd::hash::pcg;
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math;
+use crate::vector::unit;
 use crate::view::Camera;
 use crate::view::View;
 use fearless_simd::{Level, dispatch, prelude::*};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use std::f32::consts::LOG2_E;
 use std::sync::OnceLock;
 
@@ -41,7 +42,7 @@ fn picture(spec: &FrameSpec) -> Picture {
 /// The camera at `time` seconds.
 pub fn camera(time: f64) -> Camera {
     let (sin, cos) = (0.1 * time).sin_cos();
-    Camera::look_at(Vec3::ZERO, vec3(sin as f32, 0.36, cos as f32), 50f32.to_radians(), 0.0)
+    Camera::look_at(Vec3A::ZERO, vec3a(sin as f32, 0.36, cos as f32), 50f32.to_radians(), 0.0)
 }
 
 /// Smoothstep from 0 at `a` to 1 at `b`.
@@ -51,9 +52,9 @@ fn smoothstep(a: f32, b: f32, x: f32) -> f32 {
 
 /// The sky's colours at an instant, without stars and the sun's disc.
 struct Gradient {
-    sun: Vec3,
-    zenith: Vec3,
-    horizon: Vec3,
+    sun: Vec3A,
+    zenith: Vec3A,
+    horizon: Vec3A,
     /// Share of the dusk's colour in the horizon's towards the sun.
     dusk: f32,
 }
@@ -64,11 +65,11 @@ impl Field for Gradient {
     #[inline(always)]
     fn light<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
         let (zero, above) = (F::<S>::splat(simd, 0.0), d.y.simd_ge(0.0));
-        let level = vec3(self.sun.x, 0.0, self.sun.z).normalize();
+        let level = unit(vec3a(self.sun.x, 0.0, self.sun.z));
         let towards = d.dot1(level) / (d.x * d.x + d.z * d.z).sqrt() * 0.5 + 0.5;
         let dusk = towards * towards * self.dusk;
         let low = V3::splat(simd, self.horizon);
-        let low = low + (V3::splat(simd, vec3(0.95, 0.36, 0.10)) - low) * Lane(dusk);
+        let low = low + (V3::splat(simd, vec3a(0.95, 0.36, 0.10)) - low) * Lane(dusk);
         let fall = math::exp2(simd, above.select(d.y * (-5.0 * LOG2_E), d.y * (6.0 * LOG2_E)));
         let up = low + (V3::splat(simd, self.zenith) - low) * Lane(F::<S>::splat(simd, 1.0) - fall);
         let color = V3::select(above, up, low * Lane(fall));
@@ -81,7 +82,7 @@ impl Field for Gradient {
         let c32 = c16 * c16;
         let c64 = c32 * c32;
         let c220 = (c64 * c64 * c64) * (c16 * c8 * c4);
-        color + V3::splat(simd, vec3(1.0, 0.55, 0.22)) * Lane(c8 * c2 * 0.22 + c220 * 0.5)
+        color + V3::splat(simd, vec3a(1.0, 0.55, 0.22)) * Lane(c8 * c2 * 0.22 + c220 * 0.5)
     }
 }
 
@@ -101,13 +102,13 @@ pub struct Cycle {
 impl Cycle {
     fn new(spec: &FrameSpec, view: View, cells: Cells) -> Cycle {
         let (sin, cos) = (spec.get(&SPEED) * spec.time + spec.get(&START)).sin_cos();
-        let sun = vec3(spec.get(&TILT) as f32 * cos as f32, sin as f32, cos as f32).normalize();
+        let sun = unit(vec3a(spec.get(&TILT) as f32 * cos as f32, sin as f32, cos as f32));
         let day = smoothstep(-0.15, 0.25, sun.y);
         let dusk = 0.75 * f64::from(-18.0 * sun.y * sun.y).exp() as f32;
-        let zenith = vec3(0.003, 0.006, 0.022).lerp(vec3(0.05, 0.16, 0.46), day);
-        let horizon = vec3(0.010, 0.016, 0.045).lerp(vec3(0.48, 0.62, 0.82), day);
+        let zenith = vec3a(0.003, 0.006, 0.022).lerp(vec3a(0.05, 0.16, 0.46), day);
+        let horizon = vec3a(0.010, 0.016, 0.045).lerp(vec3a(0.48, 0.62, 0.82), day);
         // The cosine of the disc's edge is 0.99978. A circle on a flat screen is stretched away from the middle.
-        let stretch = |d: Vec3| 1.0 / d.dot(view.camera().forward).max(0.1);
+        let stretch = |d: Vec3A| 1.0 / d.dot(view.camera().forward).max(0.1);
         let disc = view.project(sun).map(|(x, y, scale)| (x, y, 0.021 * scale * stretch(sun) + 1.0));
         let mut stars = Vec::new();
         if day < 1.0 {
@@ -128,7 +129,7 @@ impl Cycle {
     }
 
     /// Adds `light` of a direction to the pixels of a tile around a point of the picture, averaged over each pixel.
-    fn add(&self, tile: &mut Tile, (x, y, radius): (f32, f32, f32), light: impl Fn(Vec3) -> Vec3) {
+    fn add(&self, tile: &mut Tile, (x, y, radius): (f32, f32, f32), light: impl Fn(Vec3A) -> Vec3A) {
         let (left, top) = (tile.x as u32 as f32, tile.y as u32 as f32);
         let clip = |at: f32, size: usize| at.clamp(0.0, size as u32 as f32) as usize;
         let columns = clip((x - radius - left).floor(), tile.width)..clip((x + radius - left).ceil(), tile.width);
@@ -137,11 +138,11 @@ impl Cycle {
         let step = 1.0 / grid as u32 as f32;
         for row in rows {
             for column in columns.clone() {
-                let mut sum = Vec3::ZERO;
+                let mut sum = Vec3A::ZERO;
                 for part in 0..grid * grid {
                     let dx = ((part % grid) as u32 as f32 + 0.5) * step;
                     let dy = ((part / grid) as u32 as f32 + 0.5) * step;
-                    let d = self.view.ray(left + column as u32 as f32 + dx, top + row as u32 as f32 + dy).normalize();
+                    let d = unit(self.view.ray(left + column as u32 as f32 + dx, top + row as u32 as f32 + dy));
                     sum += light(d) * if d.y >= 0.0 { step * step } else { 0.0 };
                 }
                 let at = row * Tile::SIZE + column;
@@ -163,12 +164,12 @@ impl Layer for Cycle {
                 self.add(tile, (x, y, radius), |d| {
                     let q = (1.0 - (d * 120.0 - place).length() / 0.22).max(0.0);
                     let light = self.night * (8.0 * d.y).min(1.0) * strength * q * q;
-                    vec3(0.9, 0.95, 1.0) * light
+                    vec3a(0.9, 0.95, 1.0) * light
                 });
             }
         }
         if let Some(disc) = self.disc {
-            self.add(tile, disc, |d| vec3(3.0, 2.4, 1.6) * smoothstep(0.99978, 0.99990, d.dot(self.gradient.sun)));
+            self.add(tile, disc, |d| vec3a(3.0, 2.4, 1.6) * smoothstep(0.99978, 0.99990, d.dot(self.gradient.sun)));
         }
         Stats::default()
     }
@@ -176,19 +177,19 @@ impl Layer for Cycle {
 
 /// The point and the strength of every star that the sphere of 120 cells meets. They do not depend on time and are made
 /// once.
-fn catalogue() -> &'static [(Vec3, f32)] {
-    static STARS: OnceLock<Vec<(Vec3, f32)>> = OnceLock::new();
+fn catalogue() -> &'static [(Vec3A, f32)] {
+    static STARS: OnceLock<Vec<(Vec3A, f32)>> = OnceLock::new();
     STARS.get_or_init(|| {
         let mut stars = Vec::new();
         for n in 0..1u32 << 24 {
             let cell = [n & 255, n >> 8 & 255, n >> 16].map(|k| k as f32 - 128.0);
-            let cell = Vec3::from(cell);
+            let cell = Vec3A::from(cell);
             // Nearer to the sphere than half of a cell's diagonal and a little more.
             if cell.y < -1.0 || ((cell + 0.5).length() - 120.0).abs() > 1.1 {
                 continue;
             }
             let draw = |j: u32| (pcg(pcg(n).wrapping_add(j)) >> 8) as f32 / 16_777_216.0;
-            let place = cell + 0.3 + 0.4 * vec3(draw(1), draw(2), draw(3));
+            let place = cell + 0.3 + 0.4 * vec3a(draw(1), draw(2), draw(3));
             if draw(0) < 0.03 && (place.length() - 120.0).abs() < 0.23 {
                 stars.push((place, 0.3 + 1.7 * draw(4) * draw(4)));
             }

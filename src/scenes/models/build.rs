@@ -6,7 +6,7 @@ use crate::raster::Mesh;
 use crate::raster::form::Rings;
 use crate::scenes::script::{Script, VARIABLES, Word, operations, variable};
 use crate::simd::hash::rnd;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 
 operations! {
     /// The columns of a matrix that turns and scales the next bodies.
@@ -37,13 +37,13 @@ pub const STREAM: u32 = 5;
 /// Adds to a mesh what a script builds of `bodies` on a `foot`, metres. A unit of the script is `unit` metres; random
 /// numbers are those of `seed`.
 #[inline(never)]
-pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: Vec3, unit: f32, seed: u32) {
-    let (mut turn, mut out) = (Mat3::IDENTITY, Vec3::ZERO);
+pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: Vec3A, unit: f32, seed: u32) {
+    let (mut turn, mut out) = (Mat3A::IDENTITY, Vec3A::ZERO);
     loop {
         let operation = script.next();
         let n: &[f32; 9] = script.numbers[VARIABLES..].first_chunk().unwrap();
         match operation {
-            op::turn => turn = Mat3::from_cols_array(n),
+            op::turn => turn = Mat3A::from_cols_array(n),
             op::rotate => {
                 turn = angle::turn_y(n[0]) * angle::turn_x(n[1]);
                 out = turn.z_axis * n[2];
@@ -52,8 +52,8 @@ pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: V
             op::random => script.numbers[CHANCE_AT] = rnd(STREAM, seed, n[0] as u32),
             op::body => {
                 let [x, y, z, a, b, c, index, ..] = *n;
-                let size = turn * Mat3::from_diagonal(vec3(a, b, c) * (0.1 * unit));
-                let at = foot + (vec3(x, y, z) + out) * unit;
+                let size = turn * Mat3A::from_diagonal((vec3a(a, b, c) * (0.1 * unit)).into());
+                let at = foot + (vec3a(x, y, z) + out) * unit;
                 mesh.rings(&bodies[index as usize], &size, at, script.numbers[0] as u16);
             }
             _ => return,

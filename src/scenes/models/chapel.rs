@@ -9,7 +9,7 @@ use super::paint::{BARK, PAINTS, ROOF, STONE};
 use crate::raster::Mesh;
 use crate::raster::form::{Rings, SQUARE};
 use crate::scenes::script::{COUNT, Script, Word, instruction, script};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// What the chapel is built of.
 const PIECES: &[u8] = script! {
@@ -124,7 +124,7 @@ static BODIES: [Rings; 4] = [
 /// The chapel where it stands, flat-shaded.
 pub fn chapel() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    build(&mut mesh, &mut Script::new(PIECES, [0.0; 2]), &BODIES, Vec3::ZERO, 1.0, 0);
+    build(&mut mesh, &mut Script::new(PIECES, [0.0; 2]), &BODIES, Vec3A::ZERO, 1.0, 0);
     mesh.weather(0, 0.06, 0.7);
     mesh
 }

@@ -8,7 +8,8 @@ use crate::angle;
 use crate::noise::octaves;
 use crate::raster::Mesh;
 use crate::simd::math::{smooth1, to_f32};
-use glam::{Mat3, Vec3, vec3};
+use crate::vector::unit;
+use glam::{Mat3A, Vec3A, vec3a};
 use std::f32::consts::TAU;
 
 /// Height of the lake, metres.
@@ -20,7 +21,7 @@ pub const EDGE: f32 = 6078.0;
 /// Height of the ground at a place, metres.
 #[inline(never)]
 pub fn height(x: f32, z: f32) -> f32 {
-    let p = vec3(x, 0.3, z);
+    let p = vec3a(x, 0.3, z);
     let r2 = x * x + z * z;
     let r = r2.sqrt();
     // Distance from the valley's winding middle, metres. The valley opens the mountains to the east and to the west.
@@ -37,14 +38,14 @@ pub fn height(x: f32, z: f32) -> f32 {
 
 /// The normal of the ground at a place, from differences over `reach` metres.
 #[inline(never)]
-pub fn normal(x: f32, z: f32, reach: f32) -> Vec3 {
+pub fn normal(x: f32, z: f32, reach: f32) -> Vec3A {
     let y = height(x, z);
-    vec3(y - height(x + reach, z), reach, y - height(x, z + reach)).normalize()
+    unit(vec3a(y - height(x + reach, z), reach, y - height(x, z + reach)))
 }
 
 /// How wooded a place is: above 0 woods grow, below -0.2 are the widest meadows.
 pub fn wooded(x: f32, z: f32) -> f32 {
-    let p = vec3(x, 9.1, z);
+    let p = vec3a(x, 9.1, z);
     // No woods around the chapel, and more of them farther away.
     octaves(p * 0.006, 3, false) - 0.03 - 12.0 / (12.0 + p.length())
 }
@@ -91,7 +92,7 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
             let k = k % ROUND / step * step;
             let (sin, cos) = angle::sin_cos(to_f32(k) * (TAU / to_f32(ROUND)));
             let (x, z) = (r * cos, r * sin);
-            mesh.points.push(vec3(x, height(x, z), z));
+            mesh.points.push(vec3a(x, height(x, z), z));
             mesh.normals.push(normal(x, z, 0.5 + 0.01 * r));
         }
     }
@@ -103,6 +104,6 @@ fn patch(from: usize, to: usize, start: usize) -> Mesh {
 /// The lakes: the upper side of a box as wide as the land, flat-shaded.
 pub fn lake() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    mesh.block(&(Mat3::IDENTITY * EDGE), Vec3::Y * (WATER - EDGE), paint::WATER);
+    mesh.block(&(Mat3A::IDENTITY * EDGE), Vec3A::Y * (WATER - EDGE), paint::WATER);
     mesh
 }

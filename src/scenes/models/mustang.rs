@@ -8,7 +8,7 @@ use super::build::{build, op};
 use crate::raster::form::{Rings, SQUARE};
 use crate::raster::{Mesh, Paint};
 use crate::scenes::script::{COUNT, Script, Word, script, variable};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 
 /// Bare metal, olive drab, the canopy's glass, yellow, white and black. Rows name them by hexadecimal digits.
 pub static PAINTS: [Paint; 6] = [
@@ -21,7 +21,7 @@ pub static PAINTS: [Paint; 6] = [
 ];
 
 const fn plain(red: f32, green: f32, blue: f32) -> Paint {
-    Paint { albedo: vec3(red, green, blue), texture: None, gloss: 0.0 }
+    Paint { albedo: vec3a(red, green, blue), texture: None, gloss: 0.0 }
 }
 
 /// The fuselage from tail to nose: units of 5 cm along, of 1 cm across.
@@ -224,7 +224,7 @@ const PARTS: &[u8] = script! {
 /// line.
 pub fn airframe() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    build(&mut mesh, &mut Script::new(PARTS, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
+    build(&mut mesh, &mut Script::new(PARTS, [0.0; 2]), &BODIES, Vec3A::ZERO, 0.1, 0);
     mesh.mirror();
     mesh.smooth();
     mesh
@@ -249,6 +249,6 @@ const SIN: Word = variable(5);
 /// The propeller: four blades around the z axis, about which they turn. Flat-shaded.
 pub fn propeller() -> Mesh {
     let mut mesh = Mesh::painted(&PAINTS);
-    build(&mut mesh, &mut Script::new(BLADES, [0.0; 2]), &BODIES, Vec3::ZERO, 0.1, 0);
+    build(&mut mesh, &mut Script::new(BLADES, [0.0; 2]), &BODIES, Vec3A::ZERO, 0.1, 0);
     mesh
 }

@@ -12,14 +12,14 @@ use crate::raster::Mesh;
 use crate::raster::form::Rings;
 use crate::scenes::script::{Script, Word, fragment, script, variable, words};
 use crate::simd::hash::rnd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use std::f32::consts::TAU;
 
 /// A tree of the woods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
     /// The foot, on the ground, metres.
-    pub foot: Vec3,
+    pub foot: Vec3A,
     /// Height, metres.
     pub height: f32,
     /// The number of the tree, from which its random numbers come.
@@ -164,7 +164,7 @@ pub fn trees() -> Vec<Tree> {
             // Firs on the heights.
             let fir = e < 0.45 + 0.02 * y;
             trees.push(Tree {
-                foot: vec3(x, y, z),
+                foot: vec3a(x, y, z),
                 height: if fir { 9.0 + 8.0 * c } else { 7.0 + 4.0 * c },
                 seed,
                 fir,

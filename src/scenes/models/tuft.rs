@@ -7,7 +7,7 @@ use crate::angle;
 use crate::raster::form::Rings;
 use crate::raster::{Body, Mesh};
 use crate::simd::hash::rnd;
-use glam::{Affine3A, Vec2, Vec3, Vec3Swizzles as _, uvec2, vec2, vec3};
+use glam::{Affine3A, Vec2, Vec3A, Vec3Swizzles as _, uvec2, vec2, vec3a};
 use std::f32::consts::TAU;
 
 /// A blade of unit height: a triangle with two sides.
@@ -35,13 +35,13 @@ pub fn tufts() -> Vec<Mesh> {
         let mut mesh = Mesh::painted(&PAINTS);
         for tuft in patch * TUFTS..(patch + 1) * TUFTS {
             let Vec2 { x, y: z } = place(patch, rnd(STREAM, tuft, 5), rnd(STREAM, tuft, 6));
-            let foot = vec3(x, height(x, z), z);
+            let foot = vec3a(x, height(x, z), z);
             for blade in 0..BLADES {
                 let chance = rnd(STREAM, tuft * BLADES + blade, 7);
                 let turn = angle::turn_y(TAU * chance) * angle::turn_x(chance);
                 mesh.rings(&BLADE, &(turn * (0.006 - 0.003 * chance)), foot, GRASS);
                 // Nearly as bright as the ground, and steep enough to stay out of the snow.
-                mesh.normals.resize(mesh.points.len(), turn.z_axis + Vec3::Y * 0.7);
+                mesh.normals.resize(mesh.points.len(), turn.z_axis + Vec3A::Y * 0.7);
             }
         }
         patches.push(mesh);
@@ -51,9 +51,9 @@ pub fn tufts() -> Vec<Mesh> {
 
 /// Lets patches sink into the ground with their distance from the eye, by a metre at 25 m: from there on blades would be
 /// finer than pixels, which four samples show as noise. The farther ones sink out of sight, where they cost nothing.
-pub fn sink(patches: &mut [Body], eye: Vec3) {
+pub fn sink(patches: &mut [Body], eye: Vec3A) {
     for (patch, body) in patches[..COUNT].iter_mut().enumerate() {
         let near = place(patch as u32, 0.5, 0.5).distance_squared(eye.xz()) * (1.0 / 650.0);
-        body.put(Affine3A::from_translation(Vec3::Y * -(near * near * (near * near))));
+        body.put(Affine3A::from_translation((Vec3A::Y * -(near * near * (near * near))).into()));
     }
 }

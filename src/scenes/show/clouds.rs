@@ -12,9 +12,10 @@ use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::raster::CloudShadow;
 use crate::simd::math::to_f32;
 use crate::timeline;
+use crate::vector::unit;
 use crate::view::Camera;
 use fearless_simd::dispatch;
-use glam::{Mat3, Vec2, Vec3, vec3};
+use glam::{Mat3A, Vec2, Vec3A, vec3a};
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -122,22 +123,22 @@ pub static SHOTS: &[(f64, Shot)] = &[
 impl Shot {
     /// Where the aeroplane is `t` seconds after the start of the shot: it winds along its heading.
     #[inline(never)]
-    fn way(&self, t: f32) -> Vec3 {
+    fn way(&self, t: f32) -> Vec3A {
         let course = angle::turn_y(-self.heading);
-        course * vec3(70.0 * t, 8.0 * angle::sin(0.6 * t), 40.0 * angle::sin(0.35 * t)) + Vec3::from(self.start)
+        course * vec3a(70.0 * t, 8.0 * angle::sin(0.6 * t), 40.0 * angle::sin(0.35 * t)) + Vec3A::from(self.start)
     }
 }
 
 /// A shape of cloud, and the sun that it is lit by: none at first.
 struct Shape {
     voxels: Option<Arc<Voxels>>,
-    sun: Vec3,
+    sun: Vec3A,
     kind: u32,
     extinction: f32,
 }
 
 impl Shape {
-    const NONE: Shape = Shape { voxels: None, sun: Vec3::ZERO, kind: 0, extinction: 0.0 };
+    const NONE: Shape = Shape { voxels: None, sun: Vec3A::ZERO, kind: 0, extinction: 0.0 };
 }
 
 /// The shapes that clouds have, kept from frame to frame.
@@ -149,13 +150,13 @@ keep!(Shapes, Shapes { all: [const { Shape::NONE }; 6], grain: None });
 
 impl Shapes {
     /// The shapes lit by a sun in a direction. Each is lit anew when the sun has moved by some degree.
-    fn lit(&mut self, spec: &FrameSpec, towards: Vec3, extinction: f32) -> Vec<Arc<Voxels>> {
+    fn lit(&mut self, spec: &FrameSpec, towards: Vec3A, extinction: f32) -> Vec<Arc<Voxels>> {
         let level = spec.workers.level();
         let only = spec.get(&KIND) as u32;
         spec.workers.each(self.all.iter_mut().enumerate(), |(number, shape)| {
             // Two shapes at a time, one for each core of most machines that are slow, lest one frame has to light all.
             let turn = to_f32(number / 2) / 3.0;
-            let sun = ((towards * 64.0 + turn).floor() - turn + 0.5).normalize();
+            let sun = unit((towards * 64.0 + turn).floor() - turn + 0.5);
             let other = cuts::PARAMETERS && shape.kind != only;
             if other || shape.sun != sun || cuts::PARAMETERS && shape.extinction != extinction {
                 let kind = match only {
@@ -198,10 +199,10 @@ fn altered(spec: &FrameSpec) -> CloudField {
 
 /// The clouds of a field around the eye, carried by the wind that the parameters say: what it differs by from the
 /// field's own moves both the clouds and the eye that they are looked for around.
-fn blown(spec: &FrameSpec, field: &CloudField, eye: Vec3, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
+fn blown(spec: &FrameSpec, field: &CloudField, eye: Vec3A, shapes: &[Arc<Voxels>]) -> Vec<Cloud> {
     let time = spec.time as f32;
     let [east, south] = [&EAST, &SOUTH].map(|wind| (spec.get(wind) - wind.default) as f32);
-    let more = vec3(east, 0.0, south) * (time * (field.height * 0.002).sqrt());
+    let more = vec3a(east, 0.0, south) * (time * (field.height * 0.002).sqrt());
     let mut clouds = field.around(eye - more, time, shapes);
     for cloud in &mut clouds {
         cloud.centre += more;
@@ -217,8 +218,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     // The steeper it turns, the steeper it banks.
     let bank = 0.42 * angle::sin(0.35 * since + 0.26);
     let Camera { right: x, up: y, forward: ahead, .. } = Camera::look_at(place, next, FRAC_PI_2, bank);
-    let turn = Mat3::from_cols(x, y, -ahead);
-    let eye = shot.way(since * shot.follows * 0.01) + angle::turn_y(-shot.heading) * Vec3::from(shot.eye);
+    let turn = Mat3A::from_cols(x, y, -ahead);
+    let eye = shot.way(since * shot.follows * 0.01) + angle::turn_y(-shot.heading) * Vec3A::from(shot.eye);
     let target = place + ahead * shot.ahead;
     let camera = Camera::look_at(eye, target, shot.fov.to_radians(), bank * shot.ahead * 0.01);
     #[cfg(feature = "full")]
@@ -256,7 +257,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         let end = clouds.iter().rposition(reaches).map_or(first, |last| last + 1);
         let mut points = Vec::new();
         for column in 0..CloudShadow::SIDE {
-            points.push(vec3(corner.x + to_f32(column) * texel, 0.0, z));
+            points.push(vec3a(corner.x + to_f32(column) * texel, 0.0, z));
         }
         passes.append(&mut shadow::shares(&clouds[first..end], now.direction, &points));
     }
@@ -272,7 +273,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         sun: sun * (0.75 * spec.get(&LIGHT) as f32),
         phase: [0.8, 0.8],
     };
-    let air = |d: Vec3| dome.radiance(vec3(d.x, d.y.max(0.03), d.z).normalize());
+    let air = |d: Vec3A| dome.radiance(unit(vec3a(d.x, d.y.max(0.03), d.z)));
     let clouds = CloudLayer::new(clouds.clone(), light, &view, &spec.quality.cloud)
         .in_air(9000.0, air)
         .shaded_by(&clouds)

@@ -10,7 +10,7 @@ use crate::frame::{FrameSpec, Parameter, Picture, Scene};
 use crate::scenes::script::{Script, Word, operations, script};
 use crate::timeline::{self, ease};
 use crate::view::Camera;
-use glam::vec3;
+use glam::vec3a;
 
 /// The scene.
 pub const DAY: Scene = Scene {
@@ -89,7 +89,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     course.next();
     let key: [f32; 8] = timeline::sample(course.stack().as_chunks().0, 0.1 * hour);
     let [_, x, y, z, tx, ty, tz, fov] = key.map(|n| 10.0 * n);
-    let camera = Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0);
+    let camera = Camera::look_at(vec3a(x, y, z), vec3a(tx, ty, tz), fov.to_radians(), 0.0);
     let (date, textures) = valley::season(day);
     // Central European Time is an hour ahead of UT.
     let start = spec.get(&START) - FIRST_HOUR - 1.0;
@@ -103,7 +103,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let flights = (spec.time + 2.0) / 6.0;
     let way = (flights - flights.floor() - 0.5) as f32 * 900.0;
     let turn = angle::turn_y(-1.0) * angle::turn_z(0.25);
-    let place = turn * vec3(0.0, 0.0, -way) + vec3(-4.0, 30.0, -20.0);
+    let place = turn * vec3a(0.0, 0.0, -way) + vec3a(-4.0, 30.0, -20.0);
     #[cfg(feature = "full")]
     let (place, turn) = spec.flown(place, turn);
     let view = spec.view(camera);

@@ -7,7 +7,7 @@ use crate::frame::{FrameSpec, Picture, Scene};
 use crate::particles::{Emitter, Lens, ParticleLayer, Strokes};
 use crate::timeline::{self, ease};
 use crate::view::Camera;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 
 /// The show.
 pub const INTRO: Scene = Scene {
@@ -96,18 +96,18 @@ fn write(spec: &FrameSpec, picture: &mut Picture) {
         if light > 0.0 {
             let [x, y, size] = [x, y, size].map(|n| n / 16.0);
             lines.push(Emitter::Strokes(Strokes {
-                lines: letters::write(text, vec3(x, y, -2.0), Vec3::X * size, Vec3::Y * size),
+                lines: letters::write(text, vec3a(x, y, -2.0), Vec3A::X * size, Vec3A::Y * size),
                 each: 250,
                 spread: 0.005 + 0.5 * ((1.0 - comes) * (1.0 - comes) + goes * goes),
                 radius: 0.16 * size,
-                light: vec3(0.3, 0.2, 0.1) * light,
+                light: vec3a(0.3, 0.2, 0.1) * light,
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.2, 0.5], ..Lens::SHARP },
             }));
         }
     }
     if !lines.is_empty() {
         // Written on the screen, wherever in the scene its eye is put.
-        let view = spec.screen(Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.8, 0.0));
+        let view = spec.screen(Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, 0.8, 0.0));
         let sparks = ParticleLayer::new(lines, &view, &spec.quality.particles);
         picture.layers.push(Box::new(sparks));
     }

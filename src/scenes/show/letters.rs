@@ -1,6 +1,6 @@
 //! A font of strokes, with the letters and digits that the show writes.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A line per letter or digit: its name, then the points that a stroke joins, with a blank where the pen is lifted.
 /// Points are small letters, three in a row, from `a` to `c` at the foot up to `m` to `o` at the top.
@@ -26,7 +26,7 @@ Wmaeco";
 
 /// The strokes of a text, each from one point to another. The foot of the first letter is at `corner`; `right` is half
 /// of a letter's width, `up` a quarter of its height.
-pub fn write(text: &str, mut corner: Vec3, right: Vec3, up: Vec3) -> Vec<[Vec3; 2]> {
+pub fn write(text: &str, mut corner: Vec3A, right: Vec3A, up: Vec3A) -> Vec<[Vec3A; 2]> {
     let mut lines = Vec::new();
     for letter in text.bytes() {
         // One pass over all bytes, as splitting into lines takes a searcher of 500 bytes in the 64 kB build.

@@ -15,8 +15,9 @@ use crate::scenes::single::traced;
 use crate::texture::Texture;
 use crate::timeline::{self, ease};
 use crate::trace::{Background, Emitter, Glow, Light, Material, Object, Shape, World};
+use crate::vector::unit;
 use crate::view::Camera;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 
 /// The scene.
 pub const LUMEN: Scene = Scene {
@@ -134,7 +135,7 @@ pub fn stage(time: f64) -> (World, Camera) {
     let mut script = Script::new(bytes, [time as f32, 1.0 - ease(-2.0, 14.0, time)]);
     set.build(&mut script, time);
     let [_, x, y, z, tx, ty, tz, fov, _] = set.key;
-    (set.world, Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), (10.0 * fov).to_radians(), 0.0))
+    (set.world, Camera::look_at(vec3a(x, y, z), vec3a(tx, ty, tz), (10.0 * fov).to_radians(), 0.0))
 }
 
 /// A world that is being built.
@@ -142,13 +143,13 @@ struct Set {
     world: World,
     /// The last body; the next one inherits what no operation changes.
     object: Object,
-    at: Vec3,
-    turn: Mat3,
+    at: Vec3A,
+    turn: Mat3A,
     /// The camera: a [`key`].
     key: [f32; 9],
 }
 
-const EMPTY: Set = Set { world: World::EMPTY, object: CLEAR, at: Vec3::ZERO, turn: Mat3::IDENTITY, key: [0.0; 9] };
+const EMPTY: Set = Set { world: World::EMPTY, object: CLEAR, at: Vec3A::ZERO, turn: Mat3A::IDENTITY, key: [0.0; 9] };
 
 impl Set {
     /// Runs a shot's script, `time` seconds after the shot's start.
@@ -157,7 +158,7 @@ impl Set {
         loop {
             let operation = script.next();
             let n: &[f32; 17] = script.numbers[VARIABLES..].first_chunk().unwrap();
-            let vector = |i: usize| vec3(n[i], n[i + 1], n[i + 2]);
+            let vector = |i: usize| vec3a(n[i], n[i + 1], n[i + 2]);
             let at = self.at;
             let material = &mut self.object.material;
             match operation {
@@ -166,11 +167,11 @@ impl Set {
                     script.numbers[NUMBER] = self.key[8];
                 }
                 op::at => self.at = vector(0),
-                op::away => self.at = at.normalize() * (100.0 * n[0]),
-                op::turn => self.turn = Mat3::from_cols(vector(0), vector(3), vector(6)),
+                op::away => self.at = unit(at) * (100.0 * n[0]),
+                op::turn => self.turn = Mat3A::from_cols(vector(0), vector(3), vector(6)),
                 op::texture => {
                     material.albedo = texture(n, &self.turn, at);
-                    self.turn = Mat3::IDENTITY;
+                    self.turn = Mat3A::IDENTITY;
                 }
                 op::surface => {
                     material.reflectance = vector(0);
@@ -183,24 +184,24 @@ impl Set {
                     let half = n[0] * 0.5;
                     self.object.shape = match operation {
                         op::ball => Shape::Sphere { center: at, radius: n[0] },
-                        op::block => Shape::Block { center: at, half: vector(0), turn: Mat3::IDENTITY },
+                        op::block => Shape::Block { center: at, half: vector(0), turn: Mat3A::IDENTITY },
                         op::column => {
-                            Shape::Cylinder { center: at + Vec3::Y * half, axis: Vec3::Y, half, radius: n[1] }
+                            Shape::Cylinder { center: at + Vec3A::Y * half, axis: Vec3A::Y, half, radius: n[1] }
                         }
-                        _ => Shape::Plane { normal: Vec3::Y * n[0], offset: n[1] },
+                        _ => Shape::Plane { normal: Vec3A::Y * n[0], offset: n[1] },
                     };
                     self.world.objects.push(self.object);
                 }
                 op::sun | op::lamp => {
                     let emitter = match operation {
-                        op::sun => Emitter::Directional(at.normalize()),
+                        op::sun => Emitter::Directional(unit(at)),
                         _ => Emitter::Point(at),
                     };
                     self.world.lights.push(Light { emitter, color: vector(0), radius: n[3] });
                 }
                 _ => {
                     self.world.ambient = vector(0);
-                    let glow = Glow { direction: at.normalize(), color: vector(9), exponent: 10.0 * n[12] };
+                    let glow = Glow { direction: unit(at), color: vector(9), exponent: 10.0 * n[12] };
                     self.world.background = Background { horizon: vector(3), zenith: vector(6), glow };
                     self.world.max_level = n[13] as u32;
                     return;
@@ -212,8 +213,8 @@ impl Set {
 
 /// A body of glass.
 const CLEAR: Object = Object {
-    shape: Shape::Sphere { center: Vec3::ZERO, radius: 0.0 },
-    material: Material::glass(1.5, vec3(0.9375, 0.984375, 0.984375)).shiny(0.75, 200.0),
+    shape: Shape::Sphere { center: Vec3A::ZERO, radius: 0.0 },
+    material: Material::glass(1.5, vec3a(0.9375, 0.984375, 0.984375)).shiny(0.75, 200.0),
     casts_shadow: true,
 };
 

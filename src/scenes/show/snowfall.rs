@@ -16,8 +16,9 @@ use crate::scenes::flakes;
 use crate::scenes::models::{land, tuft};
 use crate::sky::time::days;
 use crate::timeline::{self, Key, ease};
+use crate::vector::unit;
 use crate::view::Camera;
-use glam::{DVec3, Mat3, Vec2, Vec3, dvec3, vec2, vec3};
+use glam::{DVec3, Mat3A, Vec2, Vec3A, dvec3, vec2, vec3a};
 
 /// The scene.
 pub const SNOWFALL: Scene = Scene {
@@ -58,7 +59,7 @@ static WALK: [Key<5>; 6] = [
 const NEAR: Flakes = Flakes {
     seed: 3,
     count: 120_000,
-    extent: vec3(30.0, 16.0, 30.0),
+    extent: vec3a(30.0, 16.0, 30.0),
     reach: 15.0,
     opacity: 0.9,
     fall: [0.8, 0.6],
@@ -74,7 +75,7 @@ static FIELDS: [Flakes; 2] = [
     Flakes {
         seed: 4,
         count: 160_000,
-        extent: vec3(100.0, 40.0, 100.0),
+        extent: vec3a(100.0, 40.0, 100.0),
         reach: 50.0,
         radius: [0.03, 0.03],
         lens: Lens { near: [8.0, 16.0], ..NEAR.lens },
@@ -123,28 +124,28 @@ fn picture(spec: &FrameSpec) -> Picture {
     let [_, x, z, heading, pitch] = timeline::sample(&WALK, spec.time);
     // A step is 0.85 m.
     let step = 0.025 * angle::sin(7.4 * z);
-    let eye = vec3(x, land::height(x, z) + 1.7 + step, z);
+    let eye = vec3a(x, land::height(x, z) + 1.7 + step, z);
     let (sin, cos) = angle::sin_cos(heading);
-    let camera = Camera::look_at(eye, eye + vec3(sin, angle::tan(pitch), -cos), 0.82, 0.0);
+    let camera = Camera::look_at(eye, eye + vec3a(sin, angle::tan(pitch), -cos), 0.82, 0.0);
     let view = spec.view(camera);
     // The land in autumn's colours. Clouds hide the sky of that day, and its light is replaced below.
     let dome = valley::sky(spec, days(2026, 11, 28));
     let textures = valley::season(1).1;
-    let mut world = valley::world(&dome, textures, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    let mut world = valley::world(&dome, textures, Mat3A::IDENTITY, Vec3A::ZERO, 0.0);
     tuft::sink(&mut world.bodies, view.camera().eye);
     // Without the aeroplane and its propeller.
     world.bodies.truncate(world.bodies.len() - 2);
     // What is left of the daylight turns blue.
     let dusk = ease(0.0, LENGTH, spec.time);
-    let sky = vec3(1.0, 1.04, 1.1) * (dvec3(2.5, 2.1, 1.6) * -f64::from(dusk)).exp().as_vec3();
+    let sky = vec3a(1.0, 1.04, 1.1) * (dvec3(2.5, 2.1, 1.6) * -f64::from(dusk)).exp().as_vec3a();
     let amount = 0.04 * (spec.time - 2.0).clamp(0.0, 25.0) as f32;
     // What the ground reflects: more as it whitens.
     let ground = 0.15 + 0.65 * amount;
     // Flakes come from where the wind blows. What stands above shelters the ground softly, so a coarse map will do.
-    let towards = vec3(-0.3, 1.0, 0.15).normalize();
-    let views = vec![Projection::parallel(towards, vec3(-15.0, 0.0, 40.0), 512.0, 512)];
+    let towards = unit(vec3a(-0.3, 1.0, 0.15));
+    let views = vec![Projection::parallel(towards, vec3a(-15.0, 0.0, 40.0), 512.0, 512)];
     let shelter = ShadowViews { first_caster: valley::FIRST_CASTER, ..ShadowViews::new(views, Bias::SHOW) };
-    let fall = Light::sun(towards, Vec3::ONE).with_shadow(shelter);
+    let fall = Light::sun(towards, Vec3A::ONE).with_shadow(shelter);
     if !cfg!(without = "snow-cover") {
         // Whoever has lit the lamp came this way.
         let track = [vec2(-36.0, 58.0), vec2(-4.0, 9.0)];
@@ -153,7 +154,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     world.lights.clear();
     world.ambient = [sky * (0.25 + 0.2 * ground), sky * (0.15 - 0.2 * ground)];
     valley::lamp(&mut world, ease(20.0, 26.0, spec.time));
-    let air = Vec3::ONE - (sky * (0.35 * dusk - 0.8)).as_dvec3().exp().as_vec3();
+    let air = Vec3A::ONE - (sky * (0.35 * dusk - 0.8)).as_dvec3().exp().as_vec3a();
     world.haze = Haze::even(air, 0.0);
     world.zenith = air * 1.2;
     let weather = weather_in([spec.get(&EAST), spec.get(&SOUTH)], spec.time);
@@ -167,7 +168,7 @@ fn picture(spec: &FrameSpec) -> Picture {
         field.calm = Calm { wind: weather.wind, height: 1.7, depth: 1.5 };
         fields.push(Emitter::Snow(field));
     }
-    let flakes = ParticleLayer::new(fields, &view, &spec.quality.particles).colored((air * 1.7 + 0.04).min(Vec3::ONE));
+    let flakes = ParticleLayer::new(fields, &view, &spec.quality.particles).colored((air * 1.7 + 0.04).min(Vec3A::ONE));
     let drawn = RasterLayer::new(world, &view, &spec.quality.raster);
     let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(drawn)];
     if !cfg!(without = "fog") {

@@ -14,7 +14,7 @@ use crate::scenes::models::paint::{self, PAINTS};
 use crate::sky::time::days;
 use crate::timeline::{self, Key};
 use crate::view::{Camera, View};
-use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
+use glam::{Affine3A, Mat3A, Vec2, Vec3A, vec3a};
 use std::sync::{Arc, Mutex};
 
 /// The scene.
@@ -151,13 +151,13 @@ fn bowls() -> Body {
     let make = || {
         let mut mesh = Mesh::painted(&PAINTS);
         for [x, y, z, inner, outer, _] in FIRES {
-            let mut size = Mat3::IDENTITY;
+            let mut size = Mat3A::IDENTITY;
             // Torches lean out of the walls, towards the middle of the nave.
             if outer < 0.2 {
                 size.y_axis.x = -0.18 * x;
             }
             if inner == 0.0 {
-                mesh.rings(&BOWL, &(size * (0.1 * outer)), vec3(x, y, z), paint::BARK);
+                mesh.rings(&BOWL, &(size * (0.1 * outer)), vec3a(x, y, z), paint::BARK);
             }
         }
         Body::new(Arc::new(mesh), Affine3A::IDENTITY)
@@ -171,12 +171,12 @@ fn light(spec: &FrameSpec, number: u32, from: u32) -> Light {
     let root = scale.sqrt();
     // It comes from where the fire flares.
     let [a, b, c] = [1, 2, 3].map(|k| flicker(4 * number + k, spec.time, -1.0));
-    let position = vec3(x, y + 0.3 * scale, z) + vec3(a, b, c) * (0.2 * scale);
+    let position = vec3a(x, y + 0.3 * scale, z) + vec3a(a, b, c) * (0.2 * scale);
     // The bass of the score has a note every two seconds, which fires answer within a fifth.
     let since = (spec.time * 0.5).rem_euclid(1.0) as f32;
     let left = (1.0 - since) * (1.0 - since);
     let flare = 1.0 + spec.get(&BEAT) as f32 * (since * 10.0).min(1.0) * left * left;
-    let color = vec3(12.0, 4.0, 0.75) * (root * flare * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
+    let color = vec3a(12.0, 4.0, 0.75) * (root * flare * flicker(4 * number, spec.time, spec.get(&STEADY) as f32));
     // The thesis has 1 / (1 + 0.0004 D + 0.000028 D^2), where a unit of the game is taken as half a centimetre.
     let traced = cuts::TRACED_SHADOWS && spec.quality.raster.shadow_map == 0;
     valley::point(position, color, Vec2::new(0.08, 1.12), spec.get(&REACH) as f32 * root, [384, from], traced)
@@ -194,7 +194,7 @@ static FLAMES: [Flame; 2] = [
         slows: 0.5,
         lift: 0.7,
         radius: [0.11, 0.03],
-        light: [vec3(0.02, 0.0105, 0.003), vec3(0.012, 0.002, 0.0003)],
+        light: [vec3a(0.02, 0.0105, 0.003), vec3a(0.012, 0.002, 0.0003)],
     },
     Flame {
         life: [0.8, 1.2],
@@ -206,7 +206,7 @@ static FLAMES: [Flame; 2] = [
         slows: 0.2,
         lift: 0.4,
         radius: [0.008, 0.005],
-        light: [vec3(0.25, 0.12, 0.04), vec3(0.2, 0.05, 0.01)],
+        light: [vec3a(0.25, 0.12, 0.04), vec3a(0.2, 0.05, 0.01)],
     },
 ];
 
@@ -218,14 +218,14 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
         for (flame, count) in FLAMES.iter().zip([count, count / 75.0]) {
             let mut fire = Fire {
                 flame: *flame,
-                place: vec3(x, y, z),
+                place: vec3a(x, y, z),
                 scale,
                 time: spec.time,
                 seed: number as u32,
                 first: 0,
                 count,
                 weight: 1.0,
-                wind: vec3(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32),
+                wind: vec3a(spec.get(&EAST) as f32, 0.0, spec.get(&SOUTH) as f32),
                 lens: Lens { radius: [0.7, f32::MAX], near: [0.25, 0.5], ..Lens::SHARP },
             };
             fire.flame.ring = [inner / scale, outer / scale];
@@ -245,18 +245,18 @@ fn flames(spec: &FrameSpec, view: &View) -> ParticleLayer {
 fn picture(spec: &FrameSpec) -> Picture {
     let (keys, since) = timeline::cut(SHOTS, LENGTH, spec.time);
     let [_, x, y, z, tx, ty, tz, fov] = timeline::sample(keys, since);
-    let view = spec.view(Camera::look_at(vec3(x, y, z), vec3(tx, ty, tz), fov.to_radians(), 0.0));
+    let view = spec.view(Camera::look_at(vec3a(x, y, z), vec3a(tx, ty, tz), fov.to_radians(), 0.0));
     let mut dome = valley::sky(spec, valley::date(spec, &DATE) + (spec.get(&START) - 1.0) * HOUR);
     // The eye has adapted to the fires.
     dome.exposure *= 0.6;
-    let mut world = valley::world(&dome, valley::season(2).1, Mat3::IDENTITY, Vec3::ZERO, 0.0);
+    let mut world = valley::world(&dome, valley::season(2).1, Mat3A::IDENTITY, Vec3A::ZERO, 0.0);
     // The chapel and what it holds cast shadows of the fires' light, the land does not. There is no aeroplane.
     let from = world.bodies.len() - 3;
     world.bodies.truncate(from + 1);
     world.bodies.push(bowls());
     let moon = &mut world.lights[0];
     // Silver, as moonlight seems beside fires.
-    moon.color *= vec3(0.9, 1.1, 1.5);
+    moon.color *= vec3a(0.9, 1.1, 1.5);
     moon.shadow = valley::cascades(spec, view.camera(), dome.lighting().direction, &[10.0, 45.0, 240.0]);
     for number in 0..spec.get(&LIGHTS) as u32 {
         world.lights.push(light(spec, number, from as u32));

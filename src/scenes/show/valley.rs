@@ -22,8 +22,9 @@ use crate::sky::place::Place;
 use crate::sky::time::days;
 use crate::texture::Texture;
 use crate::timeline::ease;
+use crate::vector::unit;
 use crate::view::{Camera, View};
-use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
+use glam::{Affine3A, Mat3A, Vec2, Vec3A, vec3a};
 use std::f32::consts::TAU;
 use std::sync::{Arc, Mutex};
 
@@ -180,7 +181,7 @@ pub fn season(number: usize) -> (f32, Vec<Texture>) {
             op::date => days = 20.0 * seasons.numbers[VARIABLES],
             op::texture => {
                 let operands = seasons.numbers[VARIABLES..].first_chunk().unwrap();
-                textures.push(texture(operands, &Mat3::IDENTITY, Vec3::ZERO));
+                textures.push(texture(operands, &Mat3A::IDENTITY, Vec3A::ZERO));
             }
             _ => return (days, textures),
         }
@@ -208,18 +209,18 @@ pub fn show(spec: &FrameSpec, dome: Dome, mut world: World, view: View, between:
 /// The land under a sky, lit by sun or moon, without shadows. The aeroplane is turned by `turn` and stands at `place`;
 /// its propeller turns and the waves go by `time`, seconds.
 #[inline(never)]
-pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3, place: Vec3, time: f64) -> World {
+pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3A, place: Vec3A, time: f64) -> World {
     let now = dome.lighting();
     let mut bodies = bodies();
-    textures[WAVES].origin = Vec3::splat(time as f32);
+    textures[WAVES].origin = Vec3A::splat(time as f32);
     // The same at every height, as the ground is but gentle slopes: there noise takes two thirds of its time.
-    textures[GRASS].turn.y_axis = Vec3::ZERO;
+    textures[GRASS].turn.y_axis = Vec3A::ZERO;
     // Five turns per second.
     let turns = 5.0 * time;
     let spin = turn * angle::turn_z((turns - turns.floor()) as f32 * TAU);
     let aeroplane = bodies.len() - 2;
     for (body, turn) in bodies[aeroplane..].iter_mut().zip([turn, spin]) {
-        body.put(Affine3A::from_mat3_translation(turn, place));
+        body.put(Affine3A { matrix3: turn, translation: place });
     }
     // The sky glows where the sun is or was, also while the moon lights the land.
     let sun = level(dome.sky.sun);
@@ -236,10 +237,10 @@ pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3, place: Vec3, t
         haze: Haze {
             color: haze,
             density: 1.0 / 9000.0,
-            glow: (sun, (glow - haze).max(Vec3::ZERO)),
+            glow: (sun, (glow - haze).max(Vec3A::ZERO)),
             image: (level(now.direction), image),
         },
-        zenith: dome.radiance(Vec3::Y),
+        zenith: dome.radiance(Vec3A::Y),
         film: true,
         background: None,
     }
@@ -247,17 +248,17 @@ pub fn world(dome: &Dome, mut textures: Vec<Texture>, turn: Mat3, place: Vec3, t
 
 /// A direction just above the horizon, below the given one.
 #[inline(never)]
-fn level(d: Vec3) -> Vec3 {
-    vec3(d.x, 0.05, d.z).normalize()
+fn level(d: Vec3A) -> Vec3A {
+    unit(vec3a(d.x, 0.05, d.z))
 }
 
 /// Lights a lamp in the chapel as it gets `dark`, 0 to 1.
 #[inline(never)]
 pub fn lamp(world: &mut World, dark: f32) {
     if dark > 0.0 {
-        let color = vec3(3.2, 1.5, 0.5) * dark;
+        let color = vec3a(3.2, 1.5, 0.5) * dark;
         world.lights.push(point(
-            vec3(0.0, 14.5, 1.0),
+            vec3a(0.0, 14.5, 1.0),
             color,
             Vec2::new(0.05, 0.06),
             30.0,
@@ -270,7 +271,14 @@ pub fn lamp(world: &mut World, dark: f32) {
 /// A lamp whose shadows are a cube of depth maps of `texels` along an edge, or traced. It reaches `reach` metres;
 /// bodies before number `from` cast no shadow of it.
 #[inline(never)]
-pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, from]: [u32; 2], traced: bool) -> Light {
+pub fn point(
+    position: Vec3A,
+    color: Vec3A,
+    falloff: Vec2,
+    reach: f32,
+    [texels, from]: [u32; 2],
+    traced: bool,
+) -> Light {
     let shadow = ShadowViews::new(fit::cube(position, texels), Bias::SHOW);
     let shadow = ShadowViews { traced, first_caster: from as usize, ..shadow };
     Light::lamp(position, color, falloff, reach).with_shadow(shadow)
@@ -279,7 +287,7 @@ pub fn point(position: Vec3, color: Vec3, falloff: Vec2, reach: f32, [texels, fr
 /// The shadows of the sun or the moon, which stands in direction `towards`, over what a camera sees: one depth map up
 /// to each of the distances `ends`, metres.
 #[inline(never)]
-pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3, ends: &[f32]) -> Option<ShadowViews> {
+pub fn cascades(spec: &FrameSpec, camera: &Camera, towards: Vec3A, ends: &[f32]) -> Option<ShadowViews> {
     let aspect = to_f32(spec.width) / to_f32(spec.height);
     let shadow_map = spec.quality.raster.built().shadow_map;
     let size = if shadow_map == 0 { 1024 } else { shadow_map };

@@ -1,6 +1,6 @@
 //! Keys of the camera: recorded where one stands, played as the show plays its tables, and written as rows of these.
 
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::timeline::{Key, sample};
 use paprsek::view::{Camera, Pose};
 use std::fmt::Write;
@@ -53,7 +53,7 @@ impl Keyframes {
             return None;
         }
         let [_, x, y, z, tx, ty, tz, fov] = sample(&self.0, time);
-        let camera = Camera::look_at(Vec3::new(x, y, z), Vec3::new(tx, ty, tz), fov.to_radians(), 0.0);
+        let camera = Camera::look_at(Vec3A::new(x, y, z), Vec3A::new(tx, ty, tz), fov.to_radians(), 0.0);
         Some(Pose { fov: fov.into(), ..Pose::of(&camera) })
     }
 

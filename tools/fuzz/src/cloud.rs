@@ -3,7 +3,7 @@
 use crate::input::Input;
 use crate::{pixels, solid};
 use fearless_simd::{Level, dispatch};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{Cloud, CloudLayer, CloudLight, Voxels, sunlight};
 use paprsek::frame::{Layer, Stats, Tile};
 use paprsek::settings::{CloudSettings, Quality};
@@ -21,9 +21,9 @@ pub fn run(bytes: &[u8]) {
     // All light comes from everywhere, and is 1; so clouds send as much light as they hide.
     let is_furnace = input.flag();
     let light = CloudLight {
-        ambient: if is_furnace { [Vec3::ONE; 2] } else { [input.color(), input.color()] },
+        ambient: if is_furnace { [Vec3A::ONE; 2] } else { [input.color(), input.color()] },
         towards: input.direction(),
-        sun: if is_furnace { Vec3::ZERO } else { input.color() * 10.0 },
+        sun: if is_furnace { Vec3A::ZERO } else { input.color() * 10.0 },
         phase: [input.number(0.0, 1.0), input.number(0.0, 1.0)],
     };
     let air = (!is_furnace && input.flag()).then(|| (input.number(1.0, 100.0), input.color()));
@@ -42,10 +42,10 @@ pub fn run(bytes: &[u8]) {
         }
         let mut layers: Vec<Box<dyn Layer>> = vec![Box::new(Blank)];
         if let Some((center, radius)) = ball {
-            let ball = Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3::ONE));
+            let ball = Object::new(Shape::Sphere { center, radius }, Material::plain(Vec3A::ONE));
             // The background is the layers' that follow.
             let world =
-                World { background: Background::even(Vec3::ZERO), ambient: Vec3::ONE, ..World::new(vec![ball]) };
+                World { background: Background::even(Vec3A::ZERO), ambient: Vec3A::ONE, ..World::new(vec![ball]) };
             layers.push(Box::new(TraceLayer::new(world, &view, &Quality::EXACT.trace)));
         }
         layers.push(Box::new(seen));
@@ -73,7 +73,7 @@ fn settings(input: &mut Input) -> CloudSettings {
 }
 
 /// Voxels of any bytes, a few repeated or one alone, in any light of a sun in the direction of `towards`.
-fn cloud(input: &mut Input, towards: Vec3) -> Cloud {
+fn cloud(input: &mut Input, towards: Vec3A) -> Cloud {
     let edge = input.one_of(&[4, 8, 16, 32]);
     let voxels = edge * edge * edge;
     let density = if input.flag() {
@@ -94,7 +94,7 @@ fn cloud(input: &mut Input, towards: Vec3) -> Cloud {
 }
 
 /// The voxels in sunlight, which has to be the same bytes at the best SIMD level and at the least.
-fn baked(voxels: &Voxels, towards: Vec3, extinction: f32, is_wild: bool) -> Voxels {
+fn baked(voxels: &Voxels, towards: Vec3A, extinction: f32, is_wild: bool) -> Voxels {
     let bake = |level: Level| {
         let mut voxels = voxels.clone();
         dispatch!(level, simd => sunlight::bake(simd, &mut voxels, towards, extinction));
@@ -122,7 +122,7 @@ impl Layer for Furnace {
     fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
         for y in 0..tile.height {
             for at in y * Tile::SIZE..y * Tile::SIZE + tile.width {
-                let light = vec3(tile.red[at], tile.green[at], tile.blue[at]);
+                let light = vec3a(tile.red[at], tile.green[at], tile.blue[at]);
                 let off = (light - tile.coverage[at]).abs().max_element();
                 assert!(off <= ROUNDING, "{light} where {} is covered", tile.coverage[at]);
             }

@@ -1,7 +1,7 @@
 //! Numbers and vectors from the bytes of an input.
 
 use arbitrary::Unstructured;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 
 /// Numbers beyond what a scene would have.
 const WILD: [f32; 16] = [
@@ -82,27 +82,31 @@ impl<'a> Input<'a> {
     }
 
     /// A vector whose coordinates are from `-most` to `most`, or wild. Often on a grid, so that things touch.
-    pub fn vector(&mut self, most: f32) -> Vec3 {
+    pub fn vector(&mut self, most: f32) -> Vec3A {
         let is_on_grid = self.flag();
-        let v = vec3(self.number(-most, most), self.number(-most, most), self.number(-most, most));
+        let v = vec3a(self.number(-most, most), self.number(-most, most), self.number(-most, most));
         if is_on_grid && !self.is_wild { v.round() } else { v }
     }
 
     /// A direction of length 1, often an axis; or a wild vector.
-    pub fn direction(&mut self) -> Vec3 {
+    pub fn direction(&mut self) -> Vec3A {
         let v = self.vector(2.0);
-        if self.is_wild { v } else { v.try_normalize().unwrap_or(Vec3::Y) }
+        if self.is_wild { v } else { v.try_normalize().unwrap_or(Vec3A::Y) }
     }
 
     /// A rotation.
-    pub fn turn(&mut self) -> Mat3 {
+    pub fn turn(&mut self) -> Mat3A {
         let axis = self.direction();
         let angle = self.number(-4.0, 4.0);
-        if self.is_wild { Mat3::from_cols(axis, axis * angle, Vec3::Y) } else { Mat3::from_axis_angle(axis, angle) }
+        if self.is_wild {
+            Mat3A::from_cols(axis, axis * angle, Vec3A::Y)
+        } else {
+            Mat3A::from_axis_angle(axis.into(), angle)
+        }
     }
 
     /// A colour, linear light up to 2.
-    pub fn color(&mut self) -> Vec3 {
-        vec3(self.number(0.0, 2.0), self.number(0.0, 2.0), self.number(0.0, 2.0))
+    pub fn color(&mut self) -> Vec3A {
+        vec3a(self.number(0.0, 2.0), self.number(0.0, 2.0), self.number(0.0, 2.0))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use crate::{pixels, solid};
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine3A, Vec2, Vec3A};
 use paprsek::raster::{Bias, Body, Face, Haze, Light, Mesh, Paint, RasterLayer, ShadowViews, World, fit};
 use paprsek::settings::{Quality, RasterSettings};
 use paprsek::view::View;
@@ -29,7 +29,7 @@ fn world(input: &mut Input, view: &View) -> World {
         haze: Haze::even(input.color(), input.number(0.0, 0.5)),
         zenith: input.color(),
         film: input.flag(),
-        background: input.flag().then_some(Vec3::splat(0.25)),
+        background: input.flag().then_some(Vec3A::splat(0.25)),
         ..World::default()
     };
     for _ in 0..input.below(3) {
@@ -42,8 +42,7 @@ fn world(input: &mut Input, view: &View) -> World {
     }
     while world.bodies.len() < BODIES && !input.is_empty() {
         let mesh = Arc::new(mesh(input, world.textures.len()));
-        let place =
-            Affine3A { matrix3: (input.turn() * input.number(0.1, 3.0)).into(), translation: input.vector(8.0).into() };
+        let place = Affine3A { matrix3: input.turn() * input.number(0.1, 3.0), translation: input.vector(8.0) };
         world.bodies.push(Body::new(mesh, place));
     }
     world
@@ -92,7 +91,7 @@ fn mesh(input: &mut Input, textures: usize) -> Mesh {
     }
     for _ in 0..1 + input.below(3) {
         let texture = (textures > 0 && input.flag()).then(|| input.below(textures) as u8);
-        let paint = Paint { albedo: input.color().min(Vec3::ONE), texture, gloss: input.number(0.0, 1.0) };
+        let paint = Paint { albedo: input.color().min(Vec3A::ONE), texture, gloss: input.number(0.0, 1.0) };
         mesh.paints.push(paint);
     }
     for _ in 0..1 + input.below(FACES) {

@@ -27,6 +27,6 @@ pub fn texture(input: &mut Input) -> Texture {
 pub fn view(input: &mut Input) -> View {
     let (width, height) = (1 + input.below(130), 1 + input.below(70));
     let (eye, target) = (input.vector(20.0), input.vector(4.0));
-    let target = if target == eye { eye - glam::Vec3::Z } else { target };
+    let target = if target == eye { eye - glam::Vec3A::Z } else { target };
     View::new(Camera::look_at(eye, target, input.number(0.05, 2.5), input.number(-4.0, 4.0)), width, height)
 }

@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use crate::{pixels, solid};
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::settings::{Quality, TraceSettings};
 use paprsek::trace::{Background, Emitter, Glow, Light, Material, Object, Shape, TraceLayer, World};
 
@@ -56,7 +56,7 @@ fn world(input: &mut Input) -> World {
             if let Shape::Sphere { center, .. } | Shape::Block { center, .. } | Shape::Cylinder { center, .. } =
                 &mut object.shape
             {
-                *center += Vec3::new(i as f32 % 8.0, i as f32 / 8.0, 0.5 * i as f32);
+                *center += Vec3A::new(i as f32 % 8.0, i as f32 / 8.0, 0.5 * i as f32);
             }
             world.objects.push(object);
         }
@@ -79,8 +79,8 @@ fn object(input: &mut Input) -> Object {
     };
     let albedo = solid::texture(input);
     let material = match input.below(4) {
-        0 => Material::glass(input.number(1.0, 2.5), input.color().min(Vec3::ONE)),
-        1 => Material::mirror(input.color().min(Vec3::ONE)),
+        0 => Material::glass(input.number(1.0, 2.5), input.color().min(Vec3A::ONE)),
+        1 => Material::mirror(input.color().min(Vec3A::ONE)),
         2 => Material::matte(albedo),
         _ => {
             let shiny = Material::matte(albedo).polished(input.number(0.0, 1.0), input.number(0.0, 1.0), 1.0);

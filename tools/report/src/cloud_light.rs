@@ -9,7 +9,7 @@
 use crate::options::{Quick, Result};
 use fearless_simd::{Level, dispatch, prelude::*};
 use fearless_simd_macros::simd;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{CloudKind, Voxels, sunlight};
 use paprsek::simd::block::{BLOCK, load, store};
 use paprsek::simd::lanes::{F, V3};
@@ -28,9 +28,9 @@ const MODES: [&str; 5] = ["rays to the sun", "baked", "real time", "both", "no s
 
 /// The sunlight that a cloud sends along parallel rays, with its inner light by one of the [`MODES`].
 #[simd]
-fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3, d: Vec3, mode: usize) -> Vec<f32> {
+fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3A, d: Vec3A, mode: usize) -> Vec<f32> {
     let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let right = d.cross(Vec3::Y).normalize();
+    let right = d.cross(Vec3A::Y).normalize();
     let up = right.cross(d);
     let half = voxels.edge() as u32 as f32 * 0.5;
     let most = voxels.edge() as u32 as f32 - 1.0;
@@ -38,7 +38,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3, d: Vec3, mode: usiz
         let u = |p: F<S>| (p * half + (half - 0.5)).max(zero).min(F::<S>::splat(simd, most));
         V3 { x: u(p.x), y: u(p.y), z: u(p.z) }
     };
-    let moved = |p: V3<S>, by: Vec3, t: F<S>| V3 { x: p.x + t * by.x, y: p.y + t * by.y, z: p.z + t * by.z };
+    let moved = |p: V3<S>, by: Vec3A, t: F<S>| V3 { x: p.x + t * by.x, y: p.y + t * by.y, z: p.z + t * by.z };
     let length = 3.4 / STEPS as f32;
     let mut picture = vec![0.0; SIDE * SIDE];
     let (mut x, mut y) = ([0.0; BLOCK], [0.0; BLOCK]);
@@ -110,14 +110,14 @@ pub fn run(options: &Quick) -> Result {
     let mut bake = f32::INFINITY;
     for height in [8f32, 35.0, 65.0] {
         let (sin, cos) = height.to_radians().sin_cos();
-        let towards = vec3(cos * 0.8, sin, cos * 0.6);
+        let towards = vec3a(cos * 0.8, sin, cos * 0.6);
         let mut squares = vec![0.0; MODES.len()];
         for (kind, seed) in [(CloudKind::CUMULUS, 0), (CloudKind::CUMULUS, 1), (CloudKind::CONGESTUS, 4)] {
             let mut voxels = dispatch!(level, simd => CloudKind::grow(simd, &kind, seed, 64));
             let start = Instant::now();
             dispatch!(level, simd => sunlight::bake(simd, &mut voxels, towards, EXTINCTION));
             bake = bake.min(start.elapsed().as_secs_f32() * 1e3);
-            for d in [vec3(1.0, 0.1, 0.2), vec3(-1.0, 0.0, 0.3), vec3(0.2, -0.4, -1.0)] {
+            for d in [vec3a(1.0, 0.1, 0.2), vec3a(-1.0, 0.0, 0.3), vec3a(0.2, -0.4, -1.0)] {
                 let mut truth = Vec::new();
                 for (mode, row) in rows.iter_mut().enumerate() {
                     let mut found = Vec::new();

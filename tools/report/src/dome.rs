@@ -3,7 +3,7 @@
 use crate::options::{Quick, Result};
 use crate::picture::rgb;
 use fearless_simd::Level;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use image::{RgbImage, imageops};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Tile};
@@ -24,8 +24,8 @@ pub fn sky(altitude: f32, haze: f32) -> Sky {
     Sky { air: Air { haze, ..sky.air }, ..sky }
 }
 
-fn render(dome: Dome, settings: &SkySettings, target: Vec3, fov: f32, size: (usize, usize)) -> RgbImage {
-    let camera = Camera::look_at(Vec3::ZERO, target, fov.to_radians(), 0.0);
+fn render(dome: Dome, settings: &SkySettings, target: Vec3A, fov: f32, size: (usize, usize)) -> RgbImage {
+    let camera = Camera::look_at(Vec3A::ZERO, target, fov.to_radians(), 0.0);
     let mut frame = Frame::new(size.0, size.1);
     let layer = SkyLayer::new(dome, &View::new(camera, size.0, size.1), settings);
     Renderer::new(1).unwrap().draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);
@@ -44,7 +44,7 @@ fn difference(a: &RgbImage, b: &RgbImage) -> (f64, u8) {
 fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32) -> (Vec<RgbImage>, f64) {
     let mut best = f64::MAX;
     for _ in 0..repeat {
-        let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
+        let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let start = std::time::Instant::now();
         let layer =
             SkyLayer::new(Dome::new(sky(altitude, HAZE), &quality), &View::new(camera, size.0, size.1), &quality);
@@ -56,7 +56,7 @@ fn views(quality: SkySettings, altitude: f32, size: (usize, usize), repeat: u32)
         best = best.min(start.elapsed().as_secs_f64() * 1000.0);
     }
     let dome = Dome::new(sky(altitude, HAZE), &quality);
-    let views = [-1.0, 1.0].map(|side| render(dome, &quality, vec3(0.0, 0.35, side), 50.0, size));
+    let views = [-1.0, 1.0].map(|side| render(dome, &quality, vec3a(0.0, 0.35, side), 50.0, size));
     (views.to_vec(), best)
 }
 
@@ -111,7 +111,7 @@ fn heights(quality: SkySettings, haze: f32) -> RgbImage {
     for altitude in ALTITUDES {
         let dome = Dome::new(sky(altitude, haze), &quality);
         println!("{altitude}: level {:.3e} exposure {:.3e}", dome.level, dome.exposure);
-        pictures.extend([-1.0, 1.0].map(|side| render(dome, &quality, vec3(0.0, 0.45, side), 75.0, (320, 200))));
+        pictures.extend([-1.0, 1.0].map(|side| render(dome, &quality, vec3a(0.0, 0.45, side), 75.0, (320, 200))));
     }
     sheet(&pictures, 4)
 }
@@ -124,8 +124,8 @@ fn day(quality: SkySettings) -> RgbImage {
         let sky = Sky::new(days + hour / 24.0, &Place::PLZEN);
         let dome = Dome::new(sky, &quality);
         println!("{hour}: sun {:.1} {:.2?}", sky.sun.y.asin().to_degrees(), dome.lighting());
-        for d in [sky.sun, sky.moon, vec3(0.1, 0.0, -1.0)] {
-            pictures.push(render(dome, &quality, vec3(d.x, d.y.max(0.35), d.z), 50.0, (480, 270)));
+        for d in [sky.sun, sky.moon, vec3a(0.1, 0.0, -1.0)] {
+            pictures.push(render(dome, &quality, vec3a(d.x, d.y.max(0.35), d.z), 50.0, (480, 270)));
         }
     }
     sheet(&pictures, 3)

@@ -6,7 +6,7 @@
 
 use crate::options::{Common, Result};
 use crate::plot;
-use glam::{Affine3A, Mat3, Vec2, Vec3, vec3};
+use glam::{Affine3A, Mat3A, Vec2, Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::raster::{Bias, Body, Haze, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, World, fit};
@@ -72,20 +72,20 @@ struct Stage {
 impl Stage {
     fn new() -> Result<Stage> {
         let paint = |albedo| Paint { albedo, texture: None, gloss: 0.0 };
-        let mut plane = Mesh::painted(&[paint(vec3(0.6, 0.6, 0.55))]);
+        let mut plane = Mesh::painted(&[paint(vec3a(0.6, 0.6, 0.55))]);
         for z in [1.0, -1.0] {
-            plane.points.extend([-1.0, 1.0].map(|x| vec3(x, 0.0, z) * (0.5 * FIELD)));
+            plane.points.extend([-1.0, 1.0].map(|x| vec3a(x, 0.0, z) * (0.5 * FIELD)));
         }
         plane.loft(0, 2, 0, &[]);
-        let mut cube = Mesh::painted(&[paint(vec3(0.7, 0.35, 0.2))]);
-        cube.block(&Mat3::IDENTITY, Vec3::ZERO, 0);
+        let mut cube = Mesh::painted(&[paint(vec3a(0.7, 0.35, 0.2))]);
+        cube.block(&Mat3A::IDENTITY, Vec3A::ZERO, 0);
         let cube = Arc::new(cube);
         let place = |i: usize| {
             // 389 and 1024 have no common factor, so every cell is used once, and even few cubes are spread over the plane.
             let cell = (i * 389 + ROW * ROW / 2 + ROW / 2) % (ROW * ROW);
             let [x, z] = [cell % ROW, cell / ROW].map(|n| (n as f32 + 0.5 - 0.5 * ROW as f32) * FIELD / ROW as f32);
-            let turn = Mat3::from_rotation_y(i as f32) * 0.6;
-            Body::new(cube.clone(), Affine3A::from_mat3_translation(turn, vec3(x, 0.6, z)))
+            let turn = Mat3A::from_rotation_y(i as f32) * 0.6;
+            Body::new(cube.clone(), Affine3A { matrix3: turn, translation: vec3a(x, 0.6, z) })
         };
         let bodies = std::iter::once(Body::new(Arc::new(plane), Affine3A::IDENTITY)).chain((0..ROW * ROW).map(place));
         let renderer = Renderer::new(THREADS)?;
@@ -99,21 +99,21 @@ impl Stage {
         let shadow_views = |views| ShadowViews { smooth: false, ..ShadowViews::new(views, bias) };
         if kind == Kind::Suns {
             let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
-            let towards = vec3(cos, 0.8, sin).normalize();
-            let view = Projection::parallel(towards, Vec3::ZERO, 1.5 * FIELD, MAP);
-            let color = Vec3::splat(1.0 / count as f32);
+            let towards = vec3a(cos, 0.8, sin).normalize();
+            let view = Projection::parallel(towards, Vec3A::ZERO, 1.5 * FIELD, MAP);
+            let color = Vec3A::splat(1.0 / count as f32);
             return Light::sun(towards, color).with_shadow(shadow_views(vec![view]));
         }
         // A spiral of equal areas, which turns.
         let radius = 0.45 * FIELD * ((index as f32 + 0.5) / count as f32).sqrt();
         let (sin, cos) = (index as f32 * 2.4 + time).sin_cos();
-        let position = vec3(radius * cos, 2.5, radius * sin);
+        let position = vec3a(radius * cos, 2.5, radius * sin);
         let (reach, shadow) = match kind {
             Kind::CubeLamps(reach) => (reach, Some(shadow_views(fit::cube(position, 256)))),
             Kind::Lamps(reach) => (reach, None),
             Kind::Suns => unreachable!("suns are made above"),
         };
-        Light { shadow, ..Light::lamp(position, vec3(1.5, 1.2, 0.8), Vec2::new(0.0, 0.1), reach) }
+        Light { shadow, ..Light::lamp(position, vec3a(1.5, 1.2, 0.8), Vec2::new(0.0, 0.1), reach) }
     }
 
     /// Draws a frame, and returns its milliseconds.
@@ -132,11 +132,11 @@ impl Stage {
             if case.apart { lights.into_iter().map(|light| vec![light]).collect() } else { vec![lights] };
         let mut ms = 0.0;
         for lights in passes {
-            let camera = Camera::look_at(vec3(0.0, 26.0, 44.0), vec3(0.0, 0.0, 4.0), 50f32.to_radians(), 0.0);
-            let fog = vec3(0.4, 0.5, 0.7);
+            let camera = Camera::look_at(vec3a(0.0, 26.0, 44.0), vec3a(0.0, 0.0, 4.0), 50f32.to_radians(), 0.0);
+            let fog = vec3a(0.4, 0.5, 0.7);
             let world = World {
                 lights,
-                ambient: [Vec3::splat(0.1); 2],
+                ambient: [Vec3A::splat(0.1); 2],
                 haze: Haze::even(fog, 0.0),
                 zenith: fog,
                 background: Some(fog),

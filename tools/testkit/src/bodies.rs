@@ -5,7 +5,7 @@ use super::lines::{BALL, Case, ROUGH, TURNED, Worst, alone, bodies, place, spans
 use super::span::span as exact_span;
 use super::{ULP, random::Random};
 use fearless_simd::dispatch;
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::{Material, Shape};
 
@@ -17,7 +17,7 @@ pub fn balls(count: u32) -> Worst {
         let radius = random.log(1e-6, 1e6) as f32;
         let distance = radius as f64 * random.log(1e-3, 1e6);
         let o = random.direction() * distance as f32;
-        let center = if random.unit() < 0.5 { Vec3::ZERO } else { random.direction() * random.log(1e-6, 1e6) as f32 };
+        let center = if random.unit() < 0.5 { Vec3A::ZERO } else { random.direction() * random.log(1e-6, 1e6) as f32 };
         let o = center + o;
         let aim = toward(o, center);
         let offset = radius as f64 * random.range(0.0, 1.2);
@@ -36,9 +36,9 @@ pub fn far_balls() -> Worst {
     let mut worst = Worst::default();
     for distance in [1e4f32, 3e4, 1e5, 3e5, 1e6] {
         for k in 0..=200 {
-            let shape = Shape::Sphere { center: vec3(0.0, 0.0, -distance), radius: 1.0 };
-            let o = vec3(k as f32 / 128.0, 0.0, 0.0);
-            worst.check(&Case { shape, o, d: Vec3::NEG_Z }, BALL);
+            let shape = Shape::Sphere { center: vec3a(0.0, 0.0, -distance), radius: 1.0 };
+            let o = vec3a(k as f32 / 128.0, 0.0, 0.0);
+            worst.check(&Case { shape, o, d: Vec3A::NEG_Z }, BALL);
         }
     }
     worst
@@ -50,11 +50,11 @@ pub fn sides() -> Found {
     let mut found = Found::default();
     for radius in [1e-6f32, 1e-3, 0.55, 1.0, 7.3, 1e3, 1e6] {
         for axis in 0..3 {
-            let (d, side) = (Vec3::AXES[axis], Vec3::AXES[(axis + 1) % 3]);
+            let (d, side) = (Vec3A::AXES[axis], Vec3A::AXES[(axis + 1) % 3]);
             for distance in [-3.0, -1.0, 0.0, 1.0, 3.0] {
                 for (factor, meets) in [(1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
                     let o = d * (-distance * radius) + side * (radius as f64 * factor) as f32;
-                    for (name, span) in spans(&Case { shape: Shape::Sphere { center: Vec3::ZERO, radius }, o, d }) {
+                    for (name, span) in spans(&Case { shape: Shape::Sphere { center: Vec3A::ZERO, radius }, o, d }) {
                         found.judge(span.is_some() == meets, || format!("{name}: {radius} {axis} {distance} {factor}"));
                     }
                 }
@@ -71,7 +71,7 @@ pub fn tangents(count: u32) -> Worst {
     for _ in 0..count {
         let d = random.direction();
         let o = d * -random.log(0.1, 100.0) as f32 + random.across(d) * random.range(1.0 - 1e-5, 1.0 + 1e-5) as f32;
-        worst.check(&Case { shape: Shape::Sphere { center: Vec3::ZERO, radius: 1.0 }, o, d }, BALL);
+        worst.check(&Case { shape: Shape::Sphere { center: Vec3A::ZERO, radius: 1.0 }, o, d }, BALL);
     }
     worst
 }
@@ -82,8 +82,8 @@ pub fn globes(count: u32) -> Worst {
     let mut random = Random(3);
     for _ in 0..count {
         let radius = random.log(1e5, 1e9) as f32;
-        let normal = if random.unit() < 0.5 { Vec3::Y } else { random.direction() };
-        let touch = if random.unit() < 0.5 { Vec3::ZERO } else { random.direction() * 100.0 };
+        let normal = if random.unit() < 0.5 { Vec3A::Y } else { random.direction() };
+        let touch = if random.unit() < 0.5 { Vec3A::ZERO } else { random.direction() * 100.0 };
         let height = random.log(1e-3, 1e3) as f32 * [1.0, 1.0, 1.0, -1.0, 0.0][(random.unit() * 5.0) as usize];
         let o = touch + normal * height + random.across(normal) * random.log(1e-3, 1e3) as f32;
         let d = if random.unit() < 0.3 {
@@ -101,7 +101,7 @@ pub fn planes(count: u32) -> Worst {
     let mut worst = Worst::default();
     let mut random = Random(4);
     for _ in 0..count {
-        let normal = if random.unit() < 0.5 { Vec3::Y } else { random.direction() };
+        let normal = if random.unit() < 0.5 { Vec3A::Y } else { random.direction() };
         let shape = Shape::Plane { normal, offset: random.log(1e-3, 1e3) as f32 };
         let o = random.direction() * random.log(1e-3, 1e4) as f32;
         worst.check(&Case { shape, o, d: random.direction() }, BALL);
@@ -114,12 +114,12 @@ pub fn blocks(count: u32) -> Worst {
     let mut worst = Worst::default();
     let mut random = Random(5);
     for _ in 0..count {
-        let half = vec3(random.log(1e-2, 1e2) as f32, random.log(1e-2, 1e2) as f32, random.log(1e-2, 1e2) as f32);
-        let turn = if random.unit() < 0.3 { Mat3::IDENTITY } else { random.turn() };
+        let half = vec3a(random.log(1e-2, 1e2) as f32, random.log(1e-2, 1e2) as f32, random.log(1e-2, 1e2) as f32);
+        let turn = if random.unit() < 0.3 { Mat3A::IDENTITY } else { random.turn() };
         let center = random.direction() * random.log(1e-3, 1e2) as f32;
         let inside = |random: &mut Random, k: f64| {
             let mut side = || random.range(-k, k) as f32;
-            center + turn.transpose() * (half * vec3(side(), side(), side()))
+            center + turn.transpose() * (half * vec3a(side(), side(), side()))
         };
         let o = if random.unit() < 0.2 {
             inside(&mut random, 1.0)
@@ -129,7 +129,7 @@ pub fn blocks(count: u32) -> Worst {
         let mut aim = inside(&mut random, 1.3);
         if random.unit() < 0.5 {
             let mut pick = || [-1.0, 1.0, 1.0, random.range(-1.0, 1.0) as f32][(random.unit() * 4.0) as usize];
-            aim = center + turn.transpose() * (half * vec3(pick(), pick(), pick()));
+            aim = center + turn.transpose() * (half * vec3a(pick(), pick(), pick()));
         }
         worst.check(&Case { shape: Shape::Block { center, half, turn }, o, d: toward(o, aim) }, TURNED);
     }
@@ -141,7 +141,7 @@ pub fn cylinders(count: u32) -> Worst {
     let mut worst = Worst::default();
     let mut random = Random(6);
     for _ in 0..count {
-        let axis = if random.unit() < 0.3 { Vec3::Y } else { random.direction() };
+        let axis = if random.unit() < 0.3 { Vec3A::Y } else { random.direction() };
         let (half, radius) = (random.log(1e-2, 1e2) as f32, random.log(1e-2, 1e2) as f32);
         let center = random.direction() * random.log(1e-3, 1e2) as f32;
         let size = half.hypot(radius);
@@ -179,7 +179,7 @@ pub fn segments(count: usize) -> (Found, [u32; 2]) {
         let end = o + d * reach;
         let slack = ROUGH * ULP * (o.distance(center) + reach + 2.0 * scale) as f64;
         // Both ends lie outside of it: there the shortest line through the grown body starts or ends beyond them.
-        let inside = |p: Vec3| {
+        let inside = |p: Vec3A| {
             let through = exact_span(&shape, p, d, 4.0 * slack);
             through.is_some_and(|s| s[0].t <= 0.0 && s[1].t >= 0.0)
         };
@@ -201,7 +201,7 @@ pub fn segments(count: usize) -> (Found, [u32; 2]) {
 }
 
 /// Rays that meet a body from outside, at all scales and up to grazing.
-pub fn arrivals(seed: u64, count: usize, mut each: impl FnMut(Shape, Vec3, Vec3)) {
+pub fn arrivals(seed: u64, count: usize, mut each: impl FnMut(Shape, Vec3A, Vec3A)) {
     let mut random = Random(seed);
     for round in 0..count {
         let scale = random.log(1e-3, 1e6) as f32;
@@ -219,10 +219,10 @@ pub fn arrivals(seed: u64, count: usize, mut each: impl FnMut(Shape, Vec3, Vec3)
 /// met a second time.
 pub fn reflected(count: usize) -> Found {
     let mut found = Found::default();
-    let mirror = Material::mirror(Vec3::ONE);
+    let mirror = Material::mirror(Vec3A::ONE);
     arrivals(10, count, |shape, o, d| {
         let light = reference::radiance(&alone(shape, mirror, 2), Ray::new(o, d), 1);
-        found.judge(light == Vec3::ONE, || format!("{light}: {shape:?} from {o} along {d}"));
+        found.judge(light == Vec3A::ONE, || format!("{light}: {shape:?} from {o} along {d}"));
     });
     found
 }
@@ -233,7 +233,7 @@ pub fn reflected(count: usize) -> Found {
 /// Every crossing leaves half; nothing is reflected at equal indices; a plane and a globe are left by neither. A ray that
 /// missed the far side would bring 1/2, one that met the near side again 1/8 or black.
 pub fn refracted(count: usize) -> (Found, u64) {
-    let clear = Material::glass(1.0, Vec3::splat(0.5));
+    let clear = Material::glass(1.0, Vec3A::splat(0.5));
     let (mut found, mut grazing) = (Found::default(), 0);
     arrivals(11, count, |shape, o, d| {
         if matches!(shape, Shape::Plane { .. } | Shape::Globe { .. }) {
@@ -249,7 +249,7 @@ pub fn refracted(count: usize) -> (Found, u64) {
             return;
         }
         let light = reference::radiance(&alone(shape, clear, 3), Ray::new(o, d), 1);
-        let right = (light - Vec3::splat(0.25)).abs().max_element() < 1e-6;
+        let right = (light - Vec3A::splat(0.25)).abs().max_element() < 1e-6;
         found.judge(right, || format!("{light}: {shape:?} from {o} along {d}"));
     });
     (found, grazing)

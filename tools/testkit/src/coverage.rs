@@ -5,7 +5,7 @@
 
 use super::random::Random;
 use fearless_simd::{Level, Simd, dispatch};
-use glam::{Affine3A, Vec3, Vec4, vec3};
+use glam::{Affine3A, Vec3A, Vec4, vec3a};
 use paprsek::frame::Tile;
 use paprsek::raster::bins::Bins;
 use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
@@ -34,12 +34,12 @@ pub const GUARD: i32 = 16384 * SUB;
 
 /// Triangles set up for a picture of that size.
 pub fn piece(triangles: &[Corners], size: [u32; 2], back_faces: bool) -> SetupMesh {
-    let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }], ..Mesh::default() };
+    let mut mesh = Mesh { paints: vec![Paint { albedo: Vec3A::ONE, texture: None, gloss: 0.0 }], ..Mesh::default() };
     for corners in triangles {
         let first = mesh.points.len() as u16;
         mesh.faces.push(Face { corners: [first, first + 1, first + 2], paint: 0 });
         let step = 1.0 / SUB as f32;
-        mesh.points.extend(corners.map(|c| vec3(c.x as f32 * step, c.y as f32 * step, c.near)));
+        mesh.points.extend(corners.map(|c| vec3a(c.x as f32 * step, c.y as f32 * step, c.near)));
     }
     let projection = Projection { rows: Vec4::AXES, size, texel: 1.0 };
     TriangleSetup { projection, back_faces, shaded: false }.set_up(&mesh, &Affine3A::IDENTITY)

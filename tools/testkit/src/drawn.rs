@@ -1,7 +1,7 @@
 //! What the rasterizer makes of a world, in linear light, and simple worlds.
 
 use fearless_simd::Level;
-use glam::{Affine3A, DVec3, Mat3, Vec3};
+use glam::{Affine3A, DVec3, Mat3A, Vec3A};
 use paprsek::frame::{Cache, Layer, Renderer, Tile};
 use paprsek::raster::{Body, Face, Mesh, Paint, RasterLayer, RasterMemory, World};
 use paprsek::settings::Quality;
@@ -17,7 +17,7 @@ pub struct Planes {
     /// Rows.
     pub height: usize,
     /// Linear light.
-    pub color: Vec<Vec3>,
+    pub color: Vec<Vec3A>,
     /// 1 / distance along the axis; 0 for nothing.
     pub inv_depth: Vec<f32>,
     /// Share of the pixel that something covers, 0 to 1.
@@ -28,7 +28,7 @@ impl Planes {
     /// The first pixel that has other bits, if any.
     pub fn differs(&self, other: &Planes) -> Option<usize> {
         let bits = |p: &Planes, i: usize| {
-            let Vec3 { x, y, z } = p.color[i];
+            let [x, y, z] = p.color[i].to_array();
             [x, y, z, p.inv_depth[i], p.coverage[i]].map(f32::to_bits)
         };
         (0..self.color.len().max(other.color.len())).find(|&i| bits(self, i) != bits(other, i))
@@ -51,7 +51,7 @@ pub fn draw_with(
 ) -> Planes {
     let n = width * height;
     let mut planes =
-        Planes { width, height, color: vec![Vec3::NAN; n], inv_depth: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
+        Planes { width, height, color: vec![Vec3A::NAN; n], inv_depth: vec![f32::NAN; n], coverage: vec![f32::NAN; n] };
     let renderer = Renderer::new(1).unwrap().at_level(level);
     let mut layer = RasterLayer::new(world.clone(), &View::new(camera, width, height), &quality.raster);
     layer.prepare(renderer.workers(), cache);
@@ -62,7 +62,7 @@ pub fn draw_with(
         layer.draw(level, &mut tile);
         for (y, x) in (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| (y, x))) {
             let (from, to) = (y * Tile::SIZE + x, (tile.y + y) * width + tile.x + x);
-            planes.color[to] = Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
+            planes.color[to] = Vec3A::new(tile.red[from], tile.green[from], tile.blue[from]);
             planes.inv_depth[to] = tile.inv_depth[from];
             planes.coverage[to] = tile.coverage[from];
         }
@@ -89,11 +89,11 @@ pub fn body(mesh: Mesh) -> Body {
 
 /// A mesh without triangles whose one paint is white.
 pub fn blank() -> Mesh {
-    Mesh::painted(&[Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 }])
+    Mesh::painted(&[Paint { albedo: Vec3A::ONE, texture: None, gloss: 0.0 }])
 }
 
 /// Flat triangles.
-pub fn triangles(faces: &[[Vec3; 3]]) -> Mesh {
+pub fn triangles(faces: &[[Vec3A; 3]]) -> Mesh {
     let mut mesh = blank();
     for face in faces {
         let first = mesh.points.len() as u16;
@@ -104,9 +104,9 @@ pub fn triangles(faces: &[[Vec3; 3]]) -> Mesh {
 }
 
 /// A box along the axes.
-pub fn block(low: Vec3, high: Vec3) -> Mesh {
+pub fn block(low: Vec3A, high: Vec3A) -> Mesh {
     let mut mesh = blank();
-    mesh.block(&Mat3::from_diagonal(0.5 * (high - low)), 0.5 * (low + high), 0);
+    mesh.block(&Mat3A::from_diagonal((0.5 * (high - low)).into()), 0.5 * (low + high), 0);
     mesh
 }
 
@@ -116,7 +116,7 @@ pub fn ground(half: f32, height: f32, cells: usize) -> Mesh {
     for j in 0..=cells {
         for i in 0..=cells {
             let at = |k: usize| (2.0 * k as f32 / cells as f32 - 1.0) * half;
-            mesh.points.push(Vec3::new(at(i), height, -at(j)));
+            mesh.points.push(Vec3A::new(at(i), height, -at(j)));
         }
     }
     mesh.loft(0, cells + 1, 0, &[]);
@@ -124,7 +124,7 @@ pub fn ground(half: f32, height: f32, cells: usize) -> Mesh {
 }
 
 /// Where a ray enters a box, and through which axis.
-pub fn enters(o: DVec3, d: DVec3, (low, high): (Vec3, Vec3)) -> Option<(f64, usize)> {
+pub fn enters(o: DVec3, d: DVec3, (low, high): (Vec3A, Vec3A)) -> Option<(f64, usize)> {
     let (a, b) = ((low.as_dvec3() - o) / d, (high.as_dvec3() - o) / d);
     let first = a.min(b);
     let (enter, leave) = (first.max_element(), a.max(b).min_element());

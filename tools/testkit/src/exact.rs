@@ -71,7 +71,7 @@ pub struct Exact3(pub [Exact; 3]);
 
 impl Exact3 {
     /// The exact value of a vector.
-    pub fn new(v: glam::Vec3) -> Exact3 {
+    pub fn new(v: glam::Vec3A) -> Exact3 {
         Exact3(v.to_array().map(|x| Exact::new(x as f64)))
     }
 

@@ -7,7 +7,7 @@ use super::found::Found;
 use super::span::{Crossing, span as exact_span};
 use super::{ULP, random::Random};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::simd::lanes::{F, M, U, V3};
 use paprsek::trace::bounds::Bounds;
 use paprsek::trace::ray::{RayPacket, Search, nearest};
@@ -29,9 +29,9 @@ pub struct Case {
     /// The body.
     pub shape: Shape,
     /// Start of the line.
-    pub o: Vec3,
+    pub o: Vec3A,
     /// Its direction.
-    pub d: Vec3,
+    pub d: Vec3A,
 }
 
 /// `Shape::span` in the first lane.
@@ -47,7 +47,7 @@ pub fn wide<S: Simd>(simd: S, case: &Case, roughly: bool) -> Option<(f32, f32)> 
 #[inline(always)]
 pub fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
     let (o, d) = (V3::splat(simd, case.o), V3::splat(simd, case.d));
-    let world = alone(case.shape, Material::plain(Vec3::ONE), 1);
+    let world = alone(case.shape, Material::plain(Vec3A::ONE), 1);
     let (from, inward) = (U::<S>::splat(simd, NOWHERE), M::<S>::splat(simd, false));
     let ray = RayPacket { origin: o, direction: d, from, inward };
     let bounds = Bounds::new(&world);
@@ -58,9 +58,9 @@ pub fn wide_blocks<S: Simd>(simd: S, case: &Case, reach: f32) -> bool {
 
 /// The outward normal in the first lane.
 #[inline(always)]
-pub fn wide_normal<S: Simd>(simd: S, shape: &Shape, p: Vec3) -> Vec3 {
+pub fn wide_normal<S: Simd>(simd: S, shape: &Shape, p: Vec3A) -> Vec3A {
     let n = shape.normal(simd, V3::splat(simd, p));
-    vec3(n.x[0], n.y[0], n.z[0])
+    vec3a(n.x[0], n.y[0], n.z[0])
 }
 
 /// `Shape::span` at one level.
@@ -77,30 +77,30 @@ pub fn spans(case: &Case) -> Vec<(&'static str, Option<(f32, f32)>)> {
 }
 
 /// Where the shape is, and the length that its own numbers bring in.
-pub fn place(shape: &Shape) -> (Vec3, f64) {
+pub fn place(shape: &Shape) -> (Vec3A, f64) {
     match *shape {
         Shape::Sphere { center, radius } => (center, radius as f64),
         Shape::Block { center, half, .. } => (center, half.length() as f64),
         Shape::Cylinder { center, half, radius, .. } => (center, half.hypot(radius) as f64),
-        Shape::Plane { offset, .. } => (Vec3::ZERO, offset.abs() as f64),
+        Shape::Plane { offset, .. } => (Vec3A::ZERO, offset.abs() as f64),
         Shape::Globe { touch, .. } => (touch, 0.0),
     }
 }
 
 /// The direction from `o` to `p`, normalised in f32.
-pub fn toward(o: Vec3, p: Vec3) -> Vec3 {
-    (p - o).try_normalize().unwrap_or(Vec3::X)
+pub fn toward(o: Vec3A, p: Vec3A) -> Vec3A {
+    (p - o).try_normalize().unwrap_or(Vec3A::X)
 }
 
 /// One body alone under a sky of light 1.
 pub fn alone(shape: Shape, material: Material, max_level: u32) -> World {
-    World { background: Background::even(Vec3::ONE), max_level, ..World::new(vec![Object::new(shape, material)]) }
+    World { background: Background::even(Vec3A::ONE), max_level, ..World::new(vec![Object::new(shape, material)]) }
 }
 
 /// One body of each kind at a scale, its surface some way from the origin.
 pub fn bodies(random: &mut Random, scale: f32) -> Vec<Shape> {
     let center = random.direction() * scale * random.range(0.0, 3.0) as f32;
-    let half = vec3(1.0, 0.4, 1.7) * scale;
+    let half = vec3a(1.0, 0.4, 1.7) * scale;
     vec![
         Shape::Sphere { center, radius: scale },
         Shape::Block { center, half, turn: random.turn() },

@@ -1,6 +1,6 @@
 //! Perlin's improved noise in f64, apart from the renderer's: the paper's permutation, fade and edges `[Perlin02]`.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Perlin's permutation, copied apart from the source so that a slip in either shows.
 #[rustfmt::skip]
@@ -67,6 +67,6 @@ pub fn exact(p: [f64; 3]) -> f64 {
 }
 
 /// The same at a point in f32.
-pub fn exact_at(p: Vec3) -> f64 {
+pub fn exact_at(p: Vec3A) -> f64 {
     exact(p.to_array().map(|x| x as f64))
 }

@@ -1,6 +1,6 @@
 //! The same cases in every run: a generator of one line and what is drawn from it.
 
-use glam::{Mat3, Quat, Vec3};
+use glam::{Mat3A, Quat, Vec3A};
 
 /// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 pub struct Random(
@@ -28,19 +28,19 @@ impl Random {
     }
 
     /// Uniform over the sphere, normalised in f32.
-    pub fn direction(&mut self) -> Vec3 {
+    pub fn direction(&mut self) -> Vec3A {
         let (z, a) = (self.range(-1.0, 1.0), self.range(0.0, std::f64::consts::TAU));
         let r = (1.0 - z * z).sqrt();
-        Vec3::new((r * a.cos()) as f32, (r * a.sin()) as f32, z as f32).normalize()
+        Vec3A::new((r * a.cos()) as f32, (r * a.sin()) as f32, z as f32).normalize()
     }
 
     /// A direction across `d`.
-    pub fn across(&mut self, d: Vec3) -> Vec3 {
+    pub fn across(&mut self, d: Vec3A) -> Vec3A {
         d.cross(self.direction()).try_normalize().unwrap_or_else(|| d.any_orthonormal_vector())
     }
 
     /// A rotation.
-    pub fn turn(&mut self) -> Mat3 {
-        Mat3::from_quat(Quat::from_axis_angle(self.direction(), self.range(0.0, 6.3) as f32))
+    pub fn turn(&mut self) -> Mat3A {
+        Mat3A::from_quat(Quat::from_axis_angle(self.direction().into(), self.range(0.0, 6.3) as f32))
     }
 }

@@ -1,6 +1,6 @@
 //! Skies, and what their air scatters once, in f64 by brute force.
 
-use glam::{DVec3, Mat3, Vec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, vec3a};
 use paprsek::sky::air::Air;
 use paprsek::sky::dome::Sky;
 
@@ -8,20 +8,20 @@ use paprsek::sky::dome::Sky;
 pub fn sky(altitude: f32) -> Sky {
     let a = altitude.to_radians();
     Sky {
-        sun: vec3(0.0, a.sin(), -a.cos()),
-        moon: -Vec3::Y,
-        moon_to_sun: Vec3::X,
+        sun: vec3a(0.0, a.sin(), -a.cos()),
+        moon: -Vec3A::Y,
+        moon_to_sun: Vec3A::X,
         lit: 0.0,
         moon_radius: 0.0045,
-        turn: Mat3::IDENTITY,
+        turn: Mat3A::IDENTITY,
         air: Air { haze: 1.3, ozone: 1.1, again: 0.7 },
     }
 }
 
 /// The unit direction at an altitude and an azimuth, degrees.
-pub fn toward(altitude: f32, azimuth: f32) -> Vec3 {
+pub fn toward(altitude: f32, azimuth: f32) -> Vec3A {
     let ((y, level), (x, z)) = (altitude.to_radians().sin_cos(), azimuth.to_radians().sin_cos());
-    vec3(level * x, y, -level * z)
+    vec3a(level * x, y, -level * z)
 }
 
 /// Light scattered once, in f64 by brute force: every optical depth is summed, the earth is opaque.

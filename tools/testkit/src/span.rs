@@ -3,7 +3,7 @@
 //! `b^2 - ac`, which cancels in floating point, is right here: nothing is rounded before the last root and quotient.
 
 use super::exact::{Exact, Exact3};
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::trace::Shape;
 
 /// One crossing of a surface.
@@ -19,7 +19,7 @@ pub struct Crossing {
 pub type Span = Option<[Crossing; 2]>;
 
 /// Crossings of the body grown by `grow` on all sides; none where the line misses it or only touches it.
-pub fn span(shape: &Shape, o: Vec3, d: Vec3, grow: f64) -> Span {
+pub fn span(shape: &Shape, o: Vec3A, d: Vec3A, grow: f64) -> Span {
     let number = |x: f32| Exact::new(x as f64);
     let (o, d) = (Exact3::new(o), Exact3::new(d));
     let length = d.dot(&d).value().sqrt();

@@ -2,7 +2,7 @@
 
 use super::particles::{Camera, Spot, random, smoothstep};
 use fearless_simd::Level;
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Layer, Picture, Renderer, Stats, Tile};
 use paprsek::particles::{Emitter, Fire, ParticleLayer, Snow};
@@ -17,11 +17,11 @@ use std::sync::{Arc, Mutex};
 pub type Size = (usize, usize);
 
 /// What is at a pixel before particles are: light, and metres along the view axis to a solid, if there is one.
-pub type Behind = fn(usize, usize) -> (Vec3, Option<f32>);
+pub type Behind = fn(usize, usize) -> (Vec3A, Option<f32>);
 
 /// What is behind where it does not matter.
-pub fn dusk(x: usize, y: usize) -> (Vec3, Option<f32>) {
-    (Vec3::new(0.3, 0.2, 0.1) + 0.001 * (x % 7) as f32 + 0.002 * (y % 5) as f32, None)
+pub fn dusk(x: usize, y: usize) -> (Vec3A, Option<f32>) {
+    (Vec3A::new(0.3, 0.2, 0.1) + 0.001 * (x % 7) as f32 + 0.002 * (y % 5) as f32, None)
 }
 
 /// Draws what is behind.
@@ -42,7 +42,7 @@ impl Layer for Below {
 }
 
 /// A layer that draws nothing and remembers what is below it: pixels row by row, and how many there are in a row.
-struct Probe(Arc<Mutex<Vec<Vec3>>>, usize);
+struct Probe(Arc<Mutex<Vec<Vec3A>>>, usize);
 
 impl Layer for Probe {
     fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
@@ -51,7 +51,7 @@ impl Layer for Probe {
             for column in 0..tile.width {
                 let from = row * Tile::SIZE + column;
                 light[(tile.y + row) * self.1 + tile.x + column] =
-                    Vec3::new(tile.red[from], tile.green[from], tile.blue[from]);
+                    Vec3A::new(tile.red[from], tile.green[from], tile.blue[from]);
             }
         }
         Stats::default()
@@ -59,17 +59,17 @@ impl Layer for Probe {
 }
 
 /// The view of the bench scenes from an eye towards a direction.
-pub fn view(eye: Vec3, forward: Vec3, size: Size) -> View {
+pub fn view(eye: Vec3A, forward: Vec3A, size: Size) -> View {
     View::new(view::Camera::look_at(eye, eye + forward, 50f32.to_radians(), 0.0), size.0, size.1)
 }
 
 /// The light of a picture with particles over what is behind.
-pub fn draw(renderer: &mut Renderer, particles: ParticleLayer, size: Size, behind: Behind) -> Vec<Vec3> {
+pub fn draw(renderer: &mut Renderer, particles: ParticleLayer, size: Size, behind: Behind) -> Vec<Vec3A> {
     over(renderer, Box::new(Below(behind)), particles, size)
 }
 
-fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer, size: Size) -> Vec<Vec3> {
-    let light = Arc::new(Mutex::new(vec![Vec3::NAN; size.0 * size.1]));
+fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer, size: Size) -> Vec<Vec3A> {
+    let light = Arc::new(Mutex::new(vec![Vec3A::NAN; size.0 * size.1]));
     let probe = Probe(light.clone(), size.0);
     let layers: Vec<Box<dyn Layer>> = vec![below, Box::new(particles), Box::new(probe)];
     renderer.draw(Picture { layers, transfer: Transfer::Linear }, &mut Frame::new(size.0, size.1));
@@ -78,7 +78,7 @@ fn over(renderer: &mut Renderer, below: Box<dyn Layer>, particles: ParticleLayer
 }
 
 /// The same for fires seen along `forward` from `eye`, on two threads.
-pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<Vec3> {
+pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3A, forward: Vec3A, size: Size, behind: Behind) -> Vec<Vec3A> {
     let particles = ParticleLayer::new(
         fires.iter().copied().map(Emitter::Fire).collect(),
         &view(eye, forward, size),
@@ -89,26 +89,26 @@ pub fn burn(fires: &[Fire], exposure: f32, eye: Vec3, forward: Vec3, size: Size,
 }
 
 /// Snow over the background of the bench scene.
-pub fn snow(field: Snow, eye: Vec3, forward: Vec3, size: Size) -> Vec<Vec3> {
+pub fn snow(field: Snow, eye: Vec3A, forward: Vec3A, size: Size) -> Vec<Vec3A> {
     struct Gradient(f32);
     impl Layer for Gradient {
         fn draw(&self, _: Level, tile: &mut Tile) -> Stats {
             for at in 0..Tile::AREA {
                 let up = 1.0 - ((tile.y + at / Tile::SIZE) as f32 + 0.5) / self.0;
-                let light = vec3(0.58, 0.63, 0.70).lerp(vec3(0.16, 0.20, 0.30), up);
+                let light = vec3a(0.58, 0.63, 0.70).lerp(vec3a(0.16, 0.20, 0.30), up);
                 [tile.red[at], tile.green[at], tile.blue[at]] = light.to_array();
             }
             Stats::default()
         }
     }
     let layer = ParticleLayer::new(vec![field.into()], &view(eye, forward, size), &Quality::EXACT.particles)
-        .colored(vec3(0.95, 0.97, 1.0));
+        .colored(vec3a(0.95, 0.97, 1.0));
     over(&mut Renderer::new(2).unwrap(), Box::new(Gradient(size.1 as f32)), layer, size)
 }
 
 /// A particle that stands still: where it is, its radius, and its light where it is brightest. It is number 0 of the bench
 /// scene's stream.
-pub fn still(place: Vec3, radius: f32, light: Vec3) -> Fire {
+pub fn still(place: Vec3A, radius: f32, light: Vec3A) -> Fire {
     let mut fire = fires(0.0)[0];
     fire.flame.life = [1.0, 0.0];
     (fire.flame.ring, fire.flame.speed, fire.flame.lift) = ([0.0; 2], [0.0; 2], 0.0);
@@ -170,7 +170,7 @@ fn softs(fire: &Fire, eye: DVec3, camera: &Camera, height: usize) -> Vec<Soft> {
 }
 
 /// What [`burn`] should give: the light of all sprites on film, over what is behind.
-pub fn truth(fires: &[Fire], exposure: f64, eye: Vec3, forward: Vec3, size: Size, behind: Behind) -> Vec<DVec3> {
+pub fn truth(fires: &[Fire], exposure: f64, eye: Vec3A, forward: Vec3A, size: Size, behind: Behind) -> Vec<DVec3> {
     let camera = Camera::new(forward.as_dvec3(), size);
     let mut sum = vec![DVec3::ZERO; size.0 * size.1];
     for soft in fires.iter().flat_map(|fire| softs(fire, eye.as_dvec3(), &camera, size.1)) {
@@ -189,9 +189,9 @@ pub fn truth(fires: &[Fire], exposure: f64, eye: Vec3, forward: Vec3, size: Size
 }
 
 /// The largest difference of a channel; infinite where there is no number.
-pub fn worst(found: &[Vec3], truth: &[DVec3]) -> f64 {
+pub fn worst(found: &[Vec3A], truth: &[DVec3]) -> f64 {
     assert_eq!(found.len(), truth.len());
-    let off = |(a, b): (&Vec3, &DVec3)| {
+    let off = |(a, b): (&Vec3A, &DVec3)| {
         let off = (a.as_dvec3() - *b).abs().max_element();
         if a.is_finite() { off } else { f64::INFINITY }
     };
@@ -199,12 +199,12 @@ pub fn worst(found: &[Vec3], truth: &[DVec3]) -> f64 {
 }
 
 /// The same between two pictures.
-pub fn off(a: &[Vec3], b: &[Vec3]) -> f64 {
+pub fn off(a: &[Vec3A], b: &[Vec3A]) -> f64 {
     worst(a, &b.iter().map(|c| c.as_dvec3()).collect::<Vec<_>>())
 }
 
 /// Have two pictures the same bits?
-pub fn same(a: &[Vec3], b: &[Vec3]) -> bool {
-    let bits = |light: &[Vec3]| light.iter().map(|c| c.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+pub fn same(a: &[Vec3A], b: &[Vec3A]) -> bool {
+    let bits = |light: &[Vec3A]| light.iter().map(|c| c.to_array().map(f32::to_bits)).collect::<Vec<_>>();
     bits(a) == bits(b)
 }

@@ -1,7 +1,7 @@
 //! A box above level ground under a sun, by a depth map and by what stands between a point and the sun in f64.
 
 use super::drawn::{Count, Planes, block, body, dark, draw, enters, ground, ray};
-use glam::{DVec2, DVec3, Vec3, dvec3, vec3};
+use glam::{DVec2, DVec3, Vec3A, dvec3, vec3a};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
@@ -62,7 +62,7 @@ pub struct Sunny {
 }
 
 /// The box, where the sun is not low.
-pub const BOX: (Vec3, Vec3) = (vec3(-1.5, 2.5, -1.0), vec3(1.5, 4.0, 2.0));
+pub const BOX: (Vec3A, Vec3A) = (vec3a(-1.5, 2.5, -1.0), vec3a(1.5, 4.0, 2.0));
 
 impl Sunny {
     /// Unit direction to the sun.
@@ -71,13 +71,13 @@ impl Sunny {
     }
 
     /// It stands on the ground where the sun is low, and else above it: so that the shadow is seen.
-    pub fn block(&self) -> (Vec3, Vec3) {
+    pub fn block(&self) -> (Vec3A, Vec3A) {
         (if self.elevation < 10.0 { BOX.0.with_y(0.0) } else { BOX.0 }, BOX.1)
     }
 
     /// Its map.
     pub fn shadow_views(&self) -> ShadowViews {
-        let view = Projection::parallel(self.towards().as_vec3(), Vec3::ZERO, self.width, self.texels);
+        let view = Projection::parallel(self.towards().as_vec3a(), Vec3A::ZERO, self.width, self.texels);
         let Sunny { bias, smooth, back_faces, traced, .. } = *self;
         ShadowViews { back_faces, traced, smooth, ..ShadowViews::new(vec![view], bias) }
     }
@@ -86,7 +86,7 @@ impl Sunny {
     pub fn draw(&self, camera: Camera) -> Planes {
         let (low, high) = self.block();
         let bodies = vec![body(ground(14.0, 0.0, 6)), body(block(low, high))];
-        let lights = vec![Light::sun(self.towards().as_vec3(), Vec3::ONE).with_shadow(self.shadow_views())];
+        let lights = vec![Light::sun(self.towards().as_vec3a(), Vec3A::ONE).with_shadow(self.shadow_views())];
         draw(&World { lights, ..dark(bodies) }, camera, SIZE, QUALITY, super::levels()[0].1)
     }
 
@@ -116,7 +116,7 @@ impl Sunny {
         let flat = |p: DVec3| DVec2::new(p.dot(side), p.dot(over));
         let (low, high) = self.block();
         let corners: Vec<DVec2> = (0..8)
-            .map(|i| flat(Vec3::select(glam::BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), low, high).as_dvec3()))
+            .map(|i| flat(Vec3A::select(glam::BVec3A::new(i & 1 != 0, i & 2 != 0, i & 4 != 0), low, high).as_dvec3()))
             .collect();
         let mut count = Count::default();
         for (p, share) in self.receivers(camera) {
@@ -130,6 +130,6 @@ impl Sunny {
 
 /// From above and from the side.
 pub fn cameras() -> [Camera; 2] {
-    let look = |eye: Vec3| Camera::look_at(eye, vec3(0.0, 0.0, 0.5), 0.9, 0.0);
-    [look(vec3(3.0, 16.0, 9.0)), look(vec3(-9.0, 5.0, 7.0))]
+    let look = |eye: Vec3A| Camera::look_at(eye, vec3a(0.0, 0.0, 0.5), 0.9, 0.0);
+    [look(vec3a(3.0, 16.0, 9.0)), look(vec3a(-9.0, 5.0, 7.0))]
 }

@@ -1,7 +1,7 @@
 //! What clouds are held against, in f64 and without shortcuts, and rays to ask the kernel by.
 
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 use paprsek::cloud::march::march;
 use paprsek::cloud::{Cloud, CloudLight, Voxels};
 use paprsek::noise::{fbm, noise};
@@ -12,18 +12,18 @@ use std::sync::Arc;
 
 /// All light comes from everywhere, and is 1: then light and transmittance make 1.
 pub const FURNACE: CloudLight =
-    CloudLight { ambient: [Vec3::ONE; 2], towards: Vec3::Y, sun: Vec3::ZERO, phase: [0.0; 2] };
+    CloudLight { ambient: [Vec3A::ONE; 2], towards: Vec3A::Y, sun: Vec3A::ZERO, phase: [0.0; 2] };
 /// Light that differs by height and direction.
 pub const DAY: CloudLight = CloudLight {
-    ambient: [vec3(0.2, 0.3, 0.4), vec3(0.4, 0.4, 0.5)],
-    towards: Vec3::Y,
-    sun: Vec3::ONE,
+    ambient: [vec3a(0.2, 0.3, 0.4), vec3a(0.4, 0.4, 0.5)],
+    towards: Vec3A::Y,
+    sun: Vec3A::ONE,
     phase: [0.8, 0.5],
 };
 
 /// A cloud in the cube from -1 to 1.
 pub fn cloud(voxels: Voxels, extinction: f32) -> Cloud {
-    Cloud { voxels: Arc::new(voxels), centre: Vec3::ZERO, size: 1.0, extinction }
+    Cloud { voxels: Arc::new(voxels), centre: Vec3A::ZERO, size: 1.0, extinction }
 }
 
 /// Voxels by their place.
@@ -41,11 +41,11 @@ pub fn ball(edge: usize, narrow: f32) -> Voxels {
 }
 
 /// An eye around a cloud and a direction into its middle part, for each number another.
-pub fn aim(k: usize) -> (Vec3, Vec3) {
+pub fn aim(k: usize) -> (Vec3A, Vec3A) {
     let a = k as f32;
     let away = 0.3 + 0.03 * (k % 90) as f32;
-    let eye = vec3((a * 0.77).sin(), 0.7 * (a * 0.31).sin(), (a * 0.77).cos()) * away;
-    let target = vec3((a * 1.7).sin(), (a * 2.3).sin(), (a * 2.9).sin()) * 0.5;
+    let eye = vec3a((a * 0.77).sin(), 0.7 * (a * 0.31).sin(), (a * 0.77).cos()) * away;
+    let target = vec3a((a * 1.7).sin(), (a * 2.3).sin(), (a * 2.9).sin()) * 0.5;
     (eye, (target - eye).normalize())
 }
 
@@ -54,11 +54,11 @@ pub fn rays(
     level: Level,
     cloud: &Cloud,
     look: &CloudLight,
-    eye: Vec3,
-    d: &[Vec3; 16],
+    eye: Vec3A,
+    d: &[Vec3A; 16],
     limit: f32,
     cut: [f32; 2],
-) -> Vec<(Vec3, f32)> {
+) -> Vec<(Vec3A, f32)> {
     fine_rays(level, (cloud, None), look, eye, d, limit, cut)
 }
 
@@ -67,18 +67,18 @@ pub fn fine_rays(
     level: Level,
     (cloud, fine): (&Cloud, Option<&Voxels>),
     look: &CloudLight,
-    eye: Vec3,
-    d: &[Vec3; 16],
+    eye: Vec3A,
+    d: &[Vec3A; 16],
     limit: f32,
     cut: [f32; 2],
-) -> Vec<(Vec3, f32)> {
+) -> Vec<(Vec3A, f32)> {
     fn all<S: Simd>(
         simd: S,
-        (cloud, fine, look, eye): (&Cloud, Option<&Voxels>, &CloudLight, Vec3),
-        d: &[Vec3; 16],
+        (cloud, fine, look, eye): (&Cloud, Option<&Voxels>, &CloudLight, Vec3A),
+        d: &[Vec3A; 16],
         limit: f32,
         cut: [f32; 2],
-    ) -> Vec<(Vec3, f32)> {
+    ) -> Vec<(Vec3A, f32)> {
         let mut found = Vec::new();
         for d in d.chunks(F::<S>::LEN) {
             let axis = |axis: usize| d.iter().map(|d| d[axis]).collect::<Vec<_>>();
@@ -88,7 +88,7 @@ pub fn fine_rays(
             let met = march(simd, (cloud, fine), eye, d, limit, cut[0], opaque);
             let (light, left) = met.shine(simd, look, d);
             for i in 0..F::<S>::LEN {
-                found.push((vec3(light.x[i], light.y[i], light.z[i]), left[i]));
+                found.push((vec3a(light.x[i], light.y[i], light.z[i]), left[i]));
             }
         }
         found
@@ -97,7 +97,7 @@ pub fn fine_rays(
 }
 
 /// Light and transmittance along one ray that nothing ends before `limit`.
-pub fn ray(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, limit: f32, steps: f32) -> (Vec3, f32) {
+pub fn ray(cloud: &Cloud, look: &CloudLight, eye: Vec3A, d: Vec3A, limit: f32, steps: f32) -> (Vec3A, f32) {
     rays(Level::new(), cloud, look, eye, &[d; 16], limit, [steps, 0.0])[0]
 }
 
@@ -110,7 +110,7 @@ pub fn eighths(whole: &Cloud) -> [Cloud; 8] {
             let at = |axis: usize| (place[axis] + 32 * corner[axis]).clamp(2, 65) - 2;
             whole.voxels.density()[at(0) + 64 * (at(1) + 64 * at(2))]
         });
-        let centre = Vec3::from(corner.map(|bit| bit as f32 - 0.5));
+        let centre = Vec3A::from(corner.map(|bit| bit as f32 - 0.5));
         let (size, extinction) = (36.0 / 64.0, whole.extinction * 36.0 / 64.0);
         Cloud { voxels: Arc::new(voxels), centre, size, extinction }
     })
@@ -118,9 +118,9 @@ pub fn eighths(whole: &Cloud) -> [Cloud; 8] {
 
 /// Transmittance along x at a height and a depth, -1 to 1: of the whole cloud, and of its eighths one after the other.
 pub fn whole_and_eighths(whole: &Cloud, parts: &[Cloud; 8], y: f32, z: f32) -> [f32; 2] {
-    let one = ray(whole, &FURNACE, vec3(-1.0, y, z), Vec3::X, 2.0, 1600.0).1;
+    let one = ray(whole, &FURNACE, vec3a(-1.0, y, z), Vec3A::X, 2.0, 1600.0).1;
     let met = |part: &&Cloud| (part.centre.y > 0.0) == (y > 0.0) && (part.centre.z > 0.0) == (z > 0.0);
-    let through = |part: &Cloud| ray(part, &FURNACE, vec3(part.centre.x - 0.5, y, z), Vec3::X, 1.0, 800.0).1;
+    let through = |part: &Cloud| ray(part, &FURNACE, vec3a(part.centre.x - 0.5, y, z), Vec3A::X, 1.0, 800.0).1;
     [one, parts.iter().filter(met).map(through).product()]
 }
 
@@ -176,7 +176,7 @@ fn look_up(voxels: &Voxels, u: DVec3) -> [f64; 2] {
 }
 
 /// The march in f64, with about `steps` steps for an edge of the cube, but that nothing ends it.
-pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, steps: u32) -> (DVec3, f64) {
+pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3A, d: Vec3A, steps: u32) -> (DVec3, f64) {
     fine_truth((cloud, None), look, eye, d, steps)
 }
 
@@ -184,8 +184,8 @@ pub fn truth(cloud: &Cloud, look: &CloudLight, eye: Vec3, d: Vec3, steps: u32) -
 pub fn fine_truth(
     (cloud, fine): (&Cloud, Option<&Voxels>),
     look: &CloudLight,
-    eye: Vec3,
-    d: Vec3,
+    eye: Vec3A,
+    d: Vec3A,
     steps: u32,
 ) -> (DVec3, f64) {
     let (q, d) = ((eye - cloud.centre).as_dvec3() / cloud.size as f64, d.as_dvec3());
@@ -247,7 +247,7 @@ pub fn cumulus(k: u32, place: [usize; 3]) -> f64 {
     }
     let o = 17.3 * (k + 1) as f64;
     let p = DVec3::from(place.map(|i| (i as f64 + 0.5) / 32.0 - 1.0));
-    let warp = |a: f64| 0.22 * fbm((1.6 * p + dvec3(o + a, a, -a)).as_vec3(), 2) as f64;
+    let warp = |a: f64| 0.22 * fbm((1.6 * p + dvec3(o + a, a, -a)).as_vec3a(), 2) as f64;
     let q = p + dvec3(warp(0.0), warp(31.7), warp(63.1));
     let mut d = f64::INFINITY;
     for i in 0..9 {
@@ -259,10 +259,10 @@ pub fn cumulus(k: u32, place: [usize; 3]) -> f64 {
     }
     for m in 0..4 {
         let f = 3.0 * 2.03f64.powi(m);
-        let billow = noise((f * q + dvec3(o, 0.0, 0.0)).as_vec3()).abs() as f64 * 0.5f64.powi(m + 1);
+        let billow = noise((f * q + dvec3(o, 0.0, 0.0)).as_vec3a()).abs() as f64 * 0.5f64.powi(m + 1);
         d -= 0.42 * billow;
     }
     d += 0.42 * 0.16;
-    let base = p.y + 0.46 + 0.1 * fbm(dvec3(3.0 * p.x + o, 0.0, 3.0 * p.z).as_vec3(), 4) as f64;
+    let base = p.y + 0.46 + 0.1 * fbm(dvec3(3.0 * p.x + o, 0.0, 3.0 * p.z).as_vec3a(), 4) as f64;
     255.0 * (-d / 0.12).clamp(0.0, 1.0) * (base / 0.1).clamp(0.0, 1.0)
 }

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::Level;
-use glam::{Vec3, dvec3, vec3};
+use glam::{Vec3A, dvec3, vec3a};
 use paprsek::frame::{Frame, Renderer};
 use paprsek::scenes;
 use paprsek::settings::Quality;
@@ -80,21 +80,21 @@ const SCREEN: f32 = 100.0;
 const SKY: f64 = 0.4;
 
 fn screen() -> Camera {
-    Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan(), 0.0)
+    Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, 2.0 * (SMALL.1 as f32 * 0.5 / SCREEN).atan(), 0.0)
 }
 
 /// The point of the screen at a place in the picture, pixels from its top left.
-fn on_screen(x: f64, y: f64) -> Vec3 {
-    vec3((x - SMALL.0 as f64 * 0.5) as f32, (SMALL.1 as f64 * 0.5 - y) as f32, -SCREEN)
+fn on_screen(x: f64, y: f64) -> Vec3A {
+    vec3a((x - SMALL.0 as f64 * 0.5) as f32, (SMALL.1 as f64 * 0.5 - y) as f32, -SCREEN)
 }
 
 fn flat(objects: Vec<Object>) -> World {
-    World { ambient: Vec3::ONE, background: Background::even(Vec3::splat(SKY as f32)), ..World::new(objects) }
+    World { ambient: Vec3A::ONE, background: Background::even(Vec3A::splat(SKY as f32)), ..World::new(objects) }
 }
 
 fn ball(x: f64, y: f64, radius: f64) -> World {
     let shape = Shape::Sphere { center: on_screen(x, y), radius: radius as f32 };
-    flat(vec![Object::new(shape, Material::plain(Vec3::ONE))])
+    flat(vec![Object::new(shape, Material::plain(Vec3A::ONE))])
 }
 
 const RADII: [f64; 12] = [0.5, 2.0, 0.1, 8.0, 0.2, 0.35, 0.71, 1.0, 1.5, 3.0, 4.0, 6.0];

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::{Level, dispatch};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{Cloud, sunlight};
 use std::f64::consts::PI;
 use testkit::random::Random;
@@ -80,7 +80,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// One ray at every level; the answers have the same bits, or the error is infinite.
-pub fn at_levels(found: &mut Found, cloud: &Cloud, eye: Vec3, d: Vec3, limit: f32, steps: f32) -> (Vec3, f32) {
+pub fn at_levels(found: &mut Found, cloud: &Cloud, eye: Vec3A, d: Vec3A, limit: f32, steps: f32) -> (Vec3A, f32) {
     let all: Vec<_> = levels()
         .into_iter()
         .map(|(_, level)| rays(level, cloud, &DAY, eye, &[d; 16], limit, [steps, 0.0])[0])
@@ -94,10 +94,10 @@ pub fn at_levels(found: &mut Found, cloud: &Cloud, eye: Vec3, d: Vec3, limit: f3
 
 fn every(found: &mut Found, largest: f64, error: impl Fn(f64, f64) -> f64) {
     let ways = [
-        (vec3(0.0, 0.0, 5.0), Vec3::NEG_Z, 2.0),
-        (Vec3::ZERO, Vec3::X, 1.0),
-        (Vec3::splat(-3.0), Vec3::ONE.normalize(), 12f64.sqrt()),
-        (vec3(0.25, 0.5, 0.0), Vec3::NEG_Y, 1.5),
+        (vec3a(0.0, 0.0, 5.0), Vec3A::NEG_Z, 2.0),
+        (Vec3A::ZERO, Vec3A::X, 1.0),
+        (Vec3A::splat(-3.0), Vec3A::ONE.normalize(), 12f64.sqrt()),
+        (vec3a(0.25, 0.5, 0.0), Vec3A::NEG_Y, 1.5),
     ];
     for extinction in [0.0, 1e-30, 1e-7, 1e-3, 0.1, 1.0, 2.5, 10.0, 100.0, 1000.0] {
         let cloud = cloud(filled(32, |_| 255), extinction);
@@ -127,7 +127,7 @@ fn relative(_: &Effort) -> Found {
 
 fn thin(effort: &Effort) -> Found {
     let mut found = Found::default();
-    let (eye, d) = (vec3(0.25, 0.5, 4.0), vec3(-0.05, 0.1, -1.0).normalize());
+    let (eye, d) = (vec3a(0.25, 0.5, 4.0), vec3a(-0.05, 0.1, -1.0).normalize());
     let Some((entry, exit)) = span(eye.as_dvec3(), d.as_dvec3()) else { return found };
     let n = effort.of(1300).max(130);
     for k in 0..=n {
@@ -152,8 +152,8 @@ fn opaque(_: &Effort) -> Found {
         for steps in [1.0, 100.0] {
             for (name, level) in levels() {
                 let (light, left) =
-                    rays(level, &cloud, &FURNACE, vec3(0.0, 0.0, 3.0), &[Vec3::NEG_Z; 16], FOREVER, [steps, 0.0])[0];
-                let right = (0.0..1e-30).contains(&left) && (light - Vec3::ONE).abs().max_element() < 1e-5;
+                    rays(level, &cloud, &FURNACE, vec3a(0.0, 0.0, 3.0), &[Vec3A::NEG_Z; 16], FOREVER, [steps, 0.0])[0];
+                let right = (0.0..1e-30).contains(&left) && (light - Vec3A::ONE).abs().max_element() < 1e-5;
                 found.judge(right, || format!("{name}, {extinction} in {steps}: {light}, {left}"));
             }
         }
@@ -166,10 +166,10 @@ fn ramp(_: &Effort) -> Found {
     for axis in 0..3 {
         let cloud = cloud(filled(32, |place| 8 * place[axis] as u8), 1.0);
         for (x, y) in [(0.1, 0.2), (0.0, 0.0), (-0.77, 0.93)] {
-            let mut eye = vec3(x, y, x * y);
+            let mut eye = vec3a(x, y, x * y);
             eye[axis] = -1.0 + 0.5 / 16.0;
             for voxels in [4.0, 10.0, 31.0] {
-                let left = at_levels(&mut found, &cloud, eye, Vec3::AXES[axis], voxels / 16.0, 2.0 * voxels).1;
+                let left = at_levels(&mut found, &cloud, eye, Vec3A::AXES[axis], voxels / 16.0, 2.0 * voxels).1;
                 // The mean density of the way is half of that at its end.
                 let exact = (-(voxels as f64) / 16.0 * 4.0 * voxels as f64 / 255.0).exp();
                 found.see((left as f64 - exact).abs(), || format!("{voxels} voxels along axis {axis}: {left}"));
@@ -185,9 +185,9 @@ fn through(effort: &Effort, narrow: f32, mut each: impl FnMut(f64, f64, f64)) {
     let mut random = Random(80);
     for _ in 0..effort.of(200) {
         let (x, y) = (random.range(-0.5, 0.5) as f32, random.range(-0.5, 0.5) as f32);
-        let eye = vec3(x, y, 4.0);
-        let left = ray(&cloud, &FURNACE, eye, Vec3::NEG_Z, FOREVER, 64.0).1;
-        each(left as f64, truth(&cloud, &FURNACE, eye, Vec3::NEG_Z, 6400).1, (x * x + y * y) as f64);
+        let eye = vec3a(x, y, 4.0);
+        let left = ray(&cloud, &FURNACE, eye, Vec3A::NEG_Z, FOREVER, 64.0).1;
+        each(left as f64, truth(&cloud, &FURNACE, eye, Vec3A::NEG_Z, 6400).1, (x * x + y * y) as f64);
     }
 }
 
@@ -232,7 +232,7 @@ fn slab(_: &Effort) -> Found {
     for extinction in [1.0, 5.0, 20.0] {
         for axis in 0..3 {
             let mut voxels = filled(64, |place| (place[axis] * 4) as u8);
-            let towards = Vec3::AXES[axis];
+            let towards = Vec3A::AXES[axis];
             dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, towards, extinction));
             for at in 0..64 {
                 // Every layer beyond, and half of its own.

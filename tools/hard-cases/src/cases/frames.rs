@@ -1,7 +1,7 @@
 //! Fog, eyes, and bytes of frames.
 
 use crate::case::{Case, Effort, Runs};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::effects::{Fog, FogLayer};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::scenes;
@@ -64,9 +64,12 @@ fn fog(effort: &Effort) -> Found {
     let size = [150, 100];
     for _ in 0..effort.of(60) {
         let camera =
-            Camera::look_at(vec3(3.0, 2.0, -1.0), random.direction() * 9.0, random.range(0.2, 1.5) as f32, 0.1);
-        let fog =
-            Fog { light: vec3(0.5, 0.6, 0.8), density: random.log(1e-5, 1e3) as f32, end: random.log(1.0, 1e5) as f32 };
+            Camera::look_at(vec3a(3.0, 2.0, -1.0), random.direction() * 9.0, random.range(0.2, 1.5) as f32, 0.1);
+        let fog = Fog {
+            light: vec3a(0.5, 0.6, 0.8),
+            density: random.log(1e-5, 1e3) as f32,
+            end: random.log(1.0, 1e5) as f32,
+        };
         let mut before = Tile::at(2, 1, size[0], size[1]);
         for at in 0..Tile::AREA {
             before.coverage[at] = [0.0, 0.25, 0.75, 1.0][at % 4];
@@ -101,7 +104,7 @@ fn eyes(effort: &Effort) -> Found {
     let (width, height) = (640, 720);
     for _ in 0..effort.of(20_000) {
         let fov = random.range(0.3, 1.4) as f32;
-        let camera = Camera::look_at(Vec3::ZERO, random.direction(), fov, random.range(-1.0, 1.0) as f32);
+        let camera = Camera::look_at(Vec3A::ZERO, random.direction(), fov, random.range(-1.0, 1.0) as f32);
         let stereo = Stereo { eye_distance: random.log(1e-3, 1.0) as f32, convergence: random.log(0.5, 50.0) as f32 };
         let [left, right] = [-0.5, 0.5].map(|side| View::new(camera.at(stereo.eye(side)), width, height));
         let depth = stereo.convergence as f64 * random.log(0.3, 1e4);

@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::dispatch;
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::noise::{Scratch, noise, noise_block};
 use paprsek::simd::block::BLOCK;
 use testkit::perlin::{exact, exact_at};
@@ -68,7 +68,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// Points at every implementation against a truth.
-fn compare(found: &mut Found, points: &[Vec3; BLOCK], truth: &dyn Fn(Vec3) -> f64) {
+fn compare(found: &mut Found, points: &[Vec3A; BLOCK], truth: &dyn Fn(Vec3A) -> f64) {
     let [x, y, z] = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
     let exact = points.map(truth);
     let mut see = |name: &str, values: &[f32; BLOCK], first: bool| {
@@ -89,7 +89,7 @@ fn compare(found: &mut Found, points: &[Vec3; BLOCK], truth: &dyn Fn(Vec3) -> f6
 fn published(_: &Effort) -> Found {
     let mut found = Found::default();
     let value = 0.136_919_958_784_000_12;
-    found.see((noise(Vec3::new(3.14, 42.0, 7.0)) as f64 - value).abs(), || "f32".into());
+    found.see((noise(Vec3A::new(3.14, 42.0, 7.0)) as f64 - value).abs(), || "f32".into());
     // The oracle, too: an error of 1e-15 there would be seen nowhere else.
     found.see((exact([3.14, 42.0, 7.0]) - value).abs() * 1e9, || "the oracle".into());
     found
@@ -105,7 +105,9 @@ fn any_size(effort: &Effort) -> Found {
         let radius = [1.0, 10.0, 300.0, 5000.0, 1e6][round as usize % 5];
         let within = |random: &mut Random| random.range(-radius, radius) as f32;
         let points = std::array::from_fn(|_| {
-            Vec3::from_array([0; 3].map(|_| if round % 2 == 0 { coordinate(&mut random) } else { within(&mut random) }))
+            Vec3A::from_array(
+                [0; 3].map(|_| if round % 2 == 0 { coordinate(&mut random) } else { within(&mut random) }),
+            )
         });
         compare(&mut found, &points, &exact_at);
     }
@@ -127,7 +129,7 @@ fn near_lattice(effort: &Effort) -> Found {
         let points = std::array::from_fn(|k| {
             let pick = |random: &mut Random, on| if on { near(random) } else { free(random) };
             let k = k % 7 + 1;
-            Vec3::new(pick(&mut random, k & 1 > 0), pick(&mut random, k & 2 > 0), pick(&mut random, k & 4 > 0))
+            Vec3A::new(pick(&mut random, k & 1 > 0), pick(&mut random, k & 2 > 0), pick(&mut random, k & 4 > 0))
         });
         compare(&mut found, &points, &exact_at);
     }
@@ -135,7 +137,7 @@ fn near_lattice(effort: &Effort) -> Found {
 }
 
 /// Failures to have bits that are equal to a truth's, of every implementation.
-fn same(found: &mut Found, points: &[Vec3; BLOCK], truth: &dyn Fn(Vec3) -> f32) {
+fn same(found: &mut Found, points: &[Vec3A; BLOCK], truth: &dyn Fn(Vec3A) -> f32) {
     for &p in points {
         let (v, t) = (noise(p), truth(p));
         found.judge(v.to_bits() == t.to_bits(), || format!("{p:?}: {v:e} for {t:e}"));
@@ -151,7 +153,7 @@ fn lattice(effort: &Effort) -> Found {
     for round in 0..effort.of(2_000) {
         let reach = if round % 2 == 0 { 300.0 } else { 16_777_216.0 };
         let points =
-            std::array::from_fn(|_| Vec3::from_array([0; 3].map(|_| random.range(-reach, reach).floor() as f32)));
+            std::array::from_fn(|_| Vec3A::from_array([0; 3].map(|_| random.range(-reach, reach).floor() as f32)));
         same(&mut found, &points, &|_| 0.0);
     }
     found
@@ -161,9 +163,9 @@ fn period(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(63));
     for round in 0..effort.of(2_000) {
         // Multiples of 1/64, so that adding 256 is exact.
-        let axis = Vec3::AXES[round as usize % 3] * 256.0;
+        let axis = Vec3A::AXES[round as usize % 3] * 256.0;
         let points = std::array::from_fn(|_| {
-            Vec3::from_array([0; 3].map(|_| (random.range(-512.0, 512.0) * 64.0).floor() as f32 / 64.0))
+            Vec3A::from_array([0; 3].map(|_| (random.range(-512.0, 512.0) * 64.0).floor() as f32 / 64.0))
         });
         same(&mut found, &points, &|p| noise(p + axis));
     }
@@ -176,8 +178,8 @@ fn huge(_: &Effort) -> Found {
     all.extend([8_388_607.5, 16_777_215.0, 16_777_216.0, 2_147_483_520.0, 2_147_483_648.0, 4_294_967_296.0, 9.3e18]);
     all.extend(all.clone().iter().map(|x| -x));
     let triples = all.iter().flat_map(|&x| all.iter().map(move |&y| (x, y)));
-    let points: Vec<Vec3> =
-        triples.flat_map(|(x, y)| [Vec3::new(x, y, 0.4), Vec3::new(0.7, x, y), Vec3::new(y, -0.3, x)]).collect();
+    let points: Vec<Vec3A> =
+        triples.flat_map(|(x, y)| [Vec3A::new(x, y, 0.4), Vec3A::new(0.7, x, y), Vec3A::new(y, -0.3, x)]).collect();
     for chunk in points.chunks(BLOCK) {
         let chunk = std::array::from_fn(|k| chunk[k % chunk.len()]);
         compare(&mut found, &chunk, &|p| {
@@ -193,7 +195,7 @@ fn not_numbers(_: &Effort) -> Found {
     for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for k in 1..8 {
             for other in [0.5, 0.0, -1e30, 1e-45, 7.0] {
-                let p = Vec3::from_array([0, 1, 2].map(|axis| if k >> axis & 1 == 1 { bad } else { other }));
+                let p = Vec3A::from_array([0, 1, 2].map(|axis| if k >> axis & 1 == 1 { bad } else { other }));
                 found.judge(noise(p).is_nan(), || format!("{p}: {}", noise(p)));
                 for (name, level) in levels() {
                     let [x, y, z] = p.to_array().map(|x| [x; BLOCK]);

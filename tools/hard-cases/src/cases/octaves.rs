@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::dispatch;
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::noise::reference::{fade, gradient};
 use paprsek::noise::{fbm, noise, octaves_block, turbulence};
 use paprsek::simd::block::BLOCK;
@@ -74,11 +74,11 @@ fn fades(effort: &Effort) -> Found {
 fn octaves(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(65));
     for round in 0..effort.of(600) {
-        let points: [Vec3; BLOCK] =
-            std::array::from_fn(|_| Vec3::from_array([0; 3].map(|_| random.range(-50.0, 50.0) as f32)));
+        let points: [Vec3A; BLOCK] =
+            std::array::from_fn(|_| Vec3A::from_array([0; 3].map(|_| random.range(-50.0, 50.0) as f32)));
         let [x, y, z] = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
         let (count, absolute) = (1 + round % 8, round % 16 < 8);
-        let truth = |p: Vec3| {
+        let truth = |p: Vec3A| {
             let octave = |m: u32| exact_at(p * (1u32 << m) as f32);
             (0..count)
                 .map(|m| if absolute { octave(m).abs() } else { octave(m) } * 0.5f64.powi(m as i32 + 1))
@@ -106,11 +106,11 @@ fn smooth(effort: &Effort) -> Found {
     const STEP: f32 = 1.0 / 64.0;
     let (mut found, mut random) = (Found::default(), Random(66));
     for round in 0..effort.of(100_000) {
-        let mut p = Vec3::from_array([0; 3].map(|_| random.range(-200.0, 200.0) as f32));
+        let mut p = Vec3A::from_array([0; 3].map(|_| random.range(-200.0, 200.0) as f32));
         let axis = round as usize % 3;
         p[axis] = p[axis].floor();
         let slopes = [-STEP, STEP].map(|step| {
-            let [here, near, far] = [0.0, 1.0, 2.0].map(|k| noise(p + Vec3::AXES[axis] * (k * step)));
+            let [here, near, far] = [0.0, 1.0, 2.0].map(|k| noise(p + Vec3A::AXES[axis] * (k * step)));
             ((4.0 * near - 3.0 * here - far) / (2.0 * step)) as f64
         });
         found.see((slopes[0] - slopes[1]).abs(), || format!("{p}: {slopes:?}"));
@@ -123,7 +123,7 @@ fn spread(effort: &Effort) -> Found {
     let n = effort.of(2_000_000).max(200_000);
     let (mut sums, mut truths) = ([0.0; 2], 0.0);
     for k in 0..n {
-        let p = Vec3::from_array([0; 3].map(|_| random.range(0.0, 256.0) as f32));
+        let p = Vec3A::from_array([0; 3].map(|_| random.range(0.0, 256.0) as f32));
         let v = noise(p) as f64;
         sums = [sums[0] + v, sums[1] + v * v];
         if k < n / 4 {

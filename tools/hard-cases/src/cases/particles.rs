@@ -1,7 +1,7 @@
 //! Sprites and their closed forms of time.
 
 use crate::case::{Case, Effort, Runs};
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::frame::{Frame, Renderer};
 use paprsek::particles::Fire;
 use paprsek::scenes::{self, bench::particles::fires};
@@ -126,19 +126,19 @@ fn fire(effort: &Effort) -> Found {
 
 /// The largest difference of what burns before an eye in the origin that looks along -z.
 fn error(fires: &[Fire], exposure: f32) -> f64 {
-    let found = burn(fires, exposure, Vec3::ZERO, Vec3::NEG_Z, SIZE, dusk);
-    worst(&found, &truth(fires, f64::from(exposure), Vec3::ZERO, Vec3::NEG_Z, SIZE, dusk))
+    let found = burn(fires, exposure, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, dusk);
+    worst(&found, &truth(fires, f64::from(exposure), Vec3A::ZERO, Vec3A::NEG_Z, SIZE, dusk))
 }
 
 /// Light of any colour.
-fn color(random: &mut Random) -> Vec3 {
-    Vec3::from_array([0; 3].map(|_| random.unit() as f32))
+fn color(random: &mut Random) -> Vec3A {
+    Vec3A::from_array([0; 3].map(|_| random.unit() as f32))
 }
 
 /// A sprite anywhere in the picture.
 fn sprite(random: &mut Random) -> Fire {
     let depth = random.log(0.4, 100.0) as f32;
-    let place = vec3(random.range(-0.7, 0.7) as f32, random.range(-0.6, 0.6) as f32, -1.0) * depth;
+    let place = vec3a(random.range(-0.7, 0.7) as f32, random.range(-0.6, 0.6) as f32, -1.0) * depth;
     still(place, depth * random.log(1e-3, 0.5) as f32, color(random))
 }
 
@@ -146,7 +146,7 @@ fn discs(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(90));
     for round in 0..effort.of(400) {
         let fire = match round % 4 {
-            0 => still(vec3(0.0, 0.0, -3.0), random.log(1.0, 1e18) as f32, color(&mut random)),
+            0 => still(vec3a(0.0, 0.0, -3.0), random.log(1.0, 1e18) as f32, color(&mut random)),
             _ => sprite(&mut random),
         };
         found.see(error(&[fire], 1.0), || format!("{fire:?}"));
@@ -157,11 +157,11 @@ fn discs(effort: &Effort) -> Found {
 fn near(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(91));
     for round in 0..effort.of(200) {
-        let side = random.direction().with_z(0.0).normalize_or(Vec3::X);
+        let side = random.direction().with_z(0.0).normalize_or(Vec3A::X);
         let away = random.log(0.5, 300.0) as f32;
         let (place, radius) = match round % 2 {
-            0 => (vec3(0.0, 0.0, -0.25 * random.range(1.0001, 1.2) as f32), random.log(0.01, 1.0) as f32),
-            _ => (side * away + Vec3::NEG_Z, away + random.range(-0.3, 0.3) as f32),
+            0 => (vec3a(0.0, 0.0, -0.25 * random.range(1.0001, 1.2) as f32), random.log(0.01, 1.0) as f32),
+            _ => (side * away + Vec3A::NEG_Z, away + random.range(-0.3, 0.3) as f32),
         };
         let fire = still(place, radius.max(0.01), color(&mut random));
         // Of middles that many pixels away the last bits are missing.
@@ -172,8 +172,8 @@ fn near(effort: &Effort) -> Found {
 
 fn nowhere(effort: &Effort) -> Found {
     const NAN: f32 = f32::NAN;
-    let good = still(vec3(0.0, 0.0, -3.0), 0.5, Vec3::ONE);
-    let at = |x, y, z| Fire { place: vec3(x, y, z), ..good };
+    let good = still(vec3a(0.0, 0.0, -3.0), 0.5, Vec3A::ONE);
+    let at = |x, y, z| Fire { place: vec3a(x, y, z), ..good };
     let mut all = vec![
         at(0.0, 0.0, 3.0),
         at(0.0, 0.0, 0.0),
@@ -199,7 +199,7 @@ fn nowhere(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(92));
     let others: Vec<Fire> = (0..effort.of(40)).map(|_| sprite(&mut random)).collect();
     for others in [&[], &others[..]] {
-        let draw = |fires: &[Fire]| burn(fires, 1.0, Vec3::ZERO, Vec3::NEG_Z, SIZE, dusk);
+        let draw = |fires: &[Fire]| burn(fires, 1.0, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, dusk);
         let without = draw(others);
         for case in &all {
             let with = draw(&[others, &[*case]].concat());
@@ -213,7 +213,7 @@ fn nowhere(effort: &Effort) -> Found {
 fn one(generation: f64) -> (Fire, f64) {
     let mut fire = Fire { count: 1.0, first: 77, weight: 20.0, ..fires(0.0)[0] };
     fire.flame.life = [0.75, 0.5];
-    fire.place = vec3(0.0, -0.8, -4.0);
+    fire.place = vec3a(0.0, -0.8, -4.0);
     let life = 0.75 + 0.5 * chance(fire.seed, 77, 0);
     (fire, (generation - chance(fire.seed, 77, 1)) * life)
 }
@@ -232,8 +232,8 @@ fn lives(effort: &Effort) -> Found {
     found
 }
 
-fn draw(fire: Fire) -> Vec<Vec3> {
-    burn(&[fire], 1.6, Vec3::ZERO, Vec3::NEG_Z, SIZE, dusk)
+fn draw(fire: Fire) -> Vec<Vec3A> {
+    burn(&[fire], 1.6, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, dusk)
 }
 
 fn ends(effort: &Effort) -> Found {
@@ -289,7 +289,7 @@ fn orders(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(93));
     for _ in 0..effort.of(20) {
         let mut fires: Vec<Fire> = (0..300).map(|_| sprite(&mut random)).collect();
-        let draw = |fires: &[Fire]| burn(fires, 0.2, Vec3::ZERO, Vec3::NEG_Z, SIZE, dusk);
+        let draw = |fires: &[Fire]| burn(fires, 0.2, Vec3A::ZERO, Vec3A::NEG_Z, SIZE, dusk);
         let first = draw(&fires);
         fires.reverse();
         found.see(off(&draw(&fires), &first), || "reversed".into());
@@ -305,7 +305,7 @@ fn steps(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(94));
     for _ in 0..effort.of(60) {
         let time = [3.0, -3.0, 1000.0, 1e7][(random.unit() * 4.0) as usize] + random.unit();
-        let torch = Fire { time, place: vec3(0.0, -0.8, -4.0), ..fires(0.0)[0] };
+        let torch = Fire { time, place: vec3a(0.0, -0.8, -4.0), ..fires(0.0)[0] };
         let before: Vec<DVec3> = draw(torch).iter().map(|c| c.as_dvec3()).collect();
         for dt in [1e-2, 1e-3, 1e-4, 1e-5] {
             let change = worst(&draw(Fire { time: time + dt, ..torch }), &before);

@@ -1,7 +1,7 @@
 //! Light of traced worlds that is known: conservation, and the plain recursion.
 
 use crate::case::{Case, Effort, Runs};
-use glam::{Mat3, Vec3, vec3};
+use glam::{Mat3A, Vec3A, vec3a};
 use paprsek::settings::Quality;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::{Background, Light, Material, Object, Shape, World};
@@ -55,9 +55,9 @@ fn furnace(effort: &Effort) -> Found {
     for (ior, level) in effort.some(&[(1.5, 3), (2.417, 16), (1.333, 2), (1.1, 4), (1.0001, 3), (1.5, 6), (3.0, 9)], 2)
     {
         let (ior, level): (f64, u32) = (*ior, *level);
-        let ball = Shape::Sphere { center: Vec3::ZERO, radius: 1.0 };
-        let world = alone(ball, Material::glass(ior as f32, Vec3::ONE), level);
-        let camera = Camera::look_at(vec3(0.0, 0.0, 3.0), Vec3::ZERO, 0.8, 0.0);
+        let ball = Shape::Sphere { center: Vec3A::ZERO, radius: 1.0 };
+        let world = alone(ball, Material::glass(ior as f32, Vec3A::ONE), level);
+        let camera = Camera::look_at(vec3a(0.0, 0.0, 3.0), Vec3A::ZERO, 0.8, 0.0);
         let size = (128, 128);
         for (name, simd) in levels() {
             let picture = traced(&world, camera, size, Quality::EXACT, simd);
@@ -83,22 +83,22 @@ fn furnace(effort: &Effort) -> Found {
 }
 
 fn invisible(effort: &Effort) -> Found {
-    let turn = Mat3::from_rotation_x(0.7) * Mat3::from_rotation_y(0.4);
+    let turn = Mat3A::from_rotation_x(0.7) * Mat3A::from_rotation_y(0.4);
     let shapes = [
-        Shape::Sphere { center: Vec3::ZERO, radius: 1.0 },
-        Shape::Block { center: Vec3::ZERO, half: vec3(0.8, 0.5, 1.1), turn },
-        Shape::Cylinder { center: Vec3::ZERO, axis: vec3(0.6, 0.8, 0.0), half: 1.0, radius: 0.7 },
-        Shape::Plane { normal: Vec3::Y, offset: -0.5 },
-        Shape::Globe { touch: vec3(0.0, -0.5, 0.0), normal: Vec3::Y, radius: 1e6 },
+        Shape::Sphere { center: Vec3A::ZERO, radius: 1.0 },
+        Shape::Block { center: Vec3A::ZERO, half: vec3a(0.8, 0.5, 1.1), turn },
+        Shape::Cylinder { center: Vec3A::ZERO, axis: vec3a(0.6, 0.8, 0.0), half: 1.0, radius: 0.7 },
+        Shape::Plane { normal: Vec3A::Y, offset: -0.5 },
+        Shape::Globe { touch: vec3a(0.0, -0.5, 0.0), normal: Vec3A::Y, radius: 1e6 },
     ];
     let mut found = Found::default();
     for shape in effort.some(&shapes, 3) {
-        for eye in [vec3(0.0, 0.3, 4.0), vec3(0.1, 0.0, 0.2), vec3(0.0, 50.0, 0.1)] {
-            let world = alone(*shape, Material::glass(1.0, Vec3::ONE), 4);
-            let camera = Camera::look_at(eye, Vec3::ZERO, 0.9, 0.3);
+        for eye in [vec3a(0.0, 0.3, 4.0), vec3a(0.1, 0.0, 0.2), vec3a(0.0, 50.0, 0.1)] {
+            let world = alone(*shape, Material::glass(1.0, Vec3A::ONE), 4);
+            let camera = Camera::look_at(eye, Vec3A::ZERO, 0.9, 0.3);
             for (name, level) in levels() {
                 for light in traced(&world, camera, (96, 64), Quality::EXACT, level).pixels {
-                    found.see((light - Vec3::ONE).abs().max_element() as f64, || {
+                    found.see((light - Vec3A::ONE).abs().max_element() as f64, || {
                         format!("{name}: {shape:?} from {eye}")
                     });
                 }
@@ -114,11 +114,11 @@ fn mirrors(effort: &Effort) -> Found {
         let scale = random.log(1e-3, 1e6) as f32;
         let shape = testkit::lines::bodies(&mut random, scale)[round as usize % 5];
         let (center, _) = testkit::lines::place(&shape);
-        let world = alone(shape, Material::mirror(Vec3::ONE), 2);
+        let world = alone(shape, Material::mirror(Vec3A::ONE), 2);
         let camera = Camera::look_at(center + random.direction() * 5.0 * scale, center, 0.5, 0.0);
-        let mut see = |name: &str, pixels: Vec<Vec3>| {
+        let mut see = |name: &str, pixels: Vec<Vec3A>| {
             for light in pixels {
-                found.see((light - Vec3::ONE).abs().max_element() as f64, || format!("{name}: {light}, {shape:?}"));
+                found.see((light - Vec3A::ONE).abs().max_element() as f64, || format!("{name}: {light}, {shape:?}"));
             }
         };
         see("scalar", plain(&world, camera, (40, 40)).pixels);
@@ -132,12 +132,12 @@ fn mirrors(effort: &Effort) -> Found {
 fn lambert(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(131));
     for _ in 0..effort.of(200) {
-        let floor = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
+        let floor = Shape::Plane { normal: Vec3A::Y, offset: 0.0 };
         let aim = random.direction().abs();
-        let mut world = alone(floor, Material::plain(Vec3::splat(0.8)), 1);
-        world.lights = vec![Light::directional(aim, Vec3::splat(0.9))];
-        world.ambient = Vec3::splat(0.1);
-        let camera = Camera::look_at(vec3(0.0, 3.0, 0.0), vec3(0.2, 0.0, 0.1), 0.9, 0.0);
+        let mut world = alone(floor, Material::plain(Vec3A::splat(0.8)), 1);
+        world.lights = vec![Light::directional(aim, Vec3A::splat(0.9))];
+        world.ambient = Vec3A::splat(0.1);
+        let camera = Camera::look_at(vec3a(0.0, 3.0, 0.0), vec3a(0.2, 0.0, 0.1), 0.9, 0.0);
         let due = 0.8 * (0.1 + 0.9 * aim.y.max(0.0) as f64);
         for (name, level) in levels() {
             for light in traced(&world, camera, (16, 16), Quality::EXACT, level).pixels {
@@ -152,20 +152,20 @@ fn packets(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(134));
     for _ in 0..effort.of(40) {
         let mut objects = vec![Object::new(
-            Shape::Plane { normal: Vec3::Y, offset: -1.0 },
-            Material::plain(Vec3::splat(0.7)).polished(0.2, 0.0, 1.0),
+            Shape::Plane { normal: Vec3A::Y, offset: -1.0 },
+            Material::plain(Vec3A::splat(0.7)).polished(0.2, 0.0, 1.0),
         )];
         for _ in 0..12 {
             let center = random.direction() * random.range(0.0, 3.0) as f32;
             let shape = match (random.unit() * 3.0) as u32 {
-                0 => Shape::Block { center, half: vec3(0.4, 0.3, 0.5), turn: random.turn() },
+                0 => Shape::Block { center, half: vec3a(0.4, 0.3, 0.5), turn: random.turn() },
                 1 => Shape::Cylinder { center, axis: random.direction(), half: 0.5, radius: 0.3 },
                 _ => Shape::Sphere { center, radius: random.range(0.1, 0.8) as f32 },
             };
             let material = match (random.unit() * 3.0) as u32 {
-                0 => Material::glass(random.range(1.0, 2.4) as f32, Vec3::splat(0.95)),
-                1 => Material::mirror(Vec3::splat(0.9)),
-                _ => Material::plain(vec3(0.8, 0.5, 0.2)).shiny(0.4, 30.0),
+                0 => Material::glass(random.range(1.0, 2.4) as f32, Vec3A::splat(0.95)),
+                1 => Material::mirror(Vec3A::splat(0.9)),
+                _ => Material::plain(vec3a(0.8, 0.5, 0.2)).shiny(0.4, 30.0),
             };
             let object = Object::new(shape, material);
             // In a ball of glass that casts a shadow, what lies before its middle is lit: packets know no more of it.
@@ -173,14 +173,14 @@ fn packets(effort: &Effort) -> Found {
         }
         let world = World {
             lights: vec![
-                Light::point(random.direction().abs() * 6.0, Vec3::splat(0.7)),
-                Light::directional(random.direction().abs(), Vec3::splat(0.3)),
+                Light::point(random.direction().abs() * 6.0, Vec3A::splat(0.7)),
+                Light::directional(random.direction().abs(), Vec3A::splat(0.3)),
             ],
-            ambient: Vec3::splat(0.1),
-            background: Background::gradient(vec3(0.7, 0.8, 0.9), vec3(0.2, 0.4, 0.7)),
+            ambient: Vec3A::splat(0.1),
+            background: Background::gradient(vec3a(0.7, 0.8, 0.9), vec3a(0.2, 0.4, 0.7)),
             ..World::new(objects)
         };
-        let camera = Camera::look_at(random.direction() * 6.0, Vec3::ZERO, 0.9, 0.0);
+        let camera = Camera::look_at(random.direction() * 6.0, Vec3A::ZERO, 0.9, 0.0);
         let size = (80, 60);
         let truth = plain(&world, camera, size);
         for (name, level) in levels() {
@@ -202,7 +202,7 @@ fn packets(effort: &Effort) -> Found {
 const SEEN: f32 = 1e-3;
 
 /// By how much the light of a pixel changes where its ray is turned by up to eight roundings.
-fn doubt(world: &World, camera: &Camera, size: (usize, usize), at: usize, light: Vec3) -> f32 {
+fn doubt(world: &World, camera: &Camera, size: (usize, usize), at: usize, light: Vec3A) -> f32 {
     let d = eye_ray(camera, size, at % size.0, at / size.0);
     let mut random = Random(at as u64);
     let turned = (0..200).map(|_| (d + random.direction() * (8.0 * ULP * random.unit()) as f32).normalize());

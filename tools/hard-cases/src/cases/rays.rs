@@ -1,7 +1,7 @@
 //! Lines and convex bodies.
 
 use crate::case::{Case, Effort, Runs};
-use glam::{DVec3, Mat3, Vec3, vec3};
+use glam::{DVec3, Mat3A, Vec3A, vec3a};
 use paprsek::trace::Material;
 use paprsek::trace::reference::{self, Ray};
 use paprsek::trace::shape::{FAR, Shape};
@@ -94,17 +94,17 @@ pub const CASES: &[Case] = &[
 /// Along the faces of a box, whose slabs divide by zeros of both signs.
 fn zeros(_: &Effort) -> Found {
     let mut all = Found::default();
-    let half = vec3(1.0, 2.0, 3.0);
-    let shape = Shape::Block { center: Vec3::ZERO, half, turn: Mat3::IDENTITY };
+    let half = vec3a(1.0, 2.0, 3.0);
+    let shape = Shape::Block { center: Vec3A::ZERO, half, turn: Mat3A::IDENTITY };
     for (zero, axis) in [(0.0, 0), (0.0, 1), (0.0, 2), (-0.0, 0), (-0.0, 1), (-0.0, 2)] {
-        let mut d = Vec3::splat(zero);
+        let mut d = Vec3A::splat(zero);
         d[axis] = 1.0;
         for other in (0..3).filter(|other| *other != axis) {
             for (at, start) in [0.0f32, -0.0, 0.5, 1.0, -1.0, 1.000_001, -1.000_001]
                 .into_iter()
                 .flat_map(|at| [0.0f32, 1.0, -1.0, -1000.0, 1000.0].map(|start| (at, start)))
             {
-                let mut o = Vec3::ZERO;
+                let mut o = Vec3A::ZERO;
                 o[axis] = if start.abs() > 1.0 { start } else { start * half[axis] };
                 o[other] = at * half[other];
                 let truth = (-half[axis] - o[axis], half[axis] - o[axis]);
@@ -135,8 +135,8 @@ pub fn any(random: &mut Random) -> f32 {
 }
 
 /// A vector of such numbers.
-pub fn any3(random: &mut Random) -> Vec3 {
-    Vec3::from_array([0; 3].map(|_| any(random)))
+pub fn any3(random: &mut Random) -> Vec3A {
+    Vec3A::from_array([0; 3].map(|_| any(random)))
 }
 
 fn any_bits(effort: &Effort) -> Found {
@@ -148,17 +148,17 @@ fn any_bits(effort: &Effort) -> Found {
             0 => Shape::Sphere { center: a, radius: x },
             1 => Shape::Plane { normal: b, offset: x },
             2 => Shape::Globe { touch: a, normal: b, radius: x },
-            3 => Shape::Block { center: a, half: b, turn: Mat3::from_rotation_y(x) },
+            3 => Shape::Block { center: a, half: b, turn: Mat3A::from_rotation_y(x) },
             _ => Shape::Cylinder { center: a, axis: b, half: x, radius: y },
         };
         let (o, d) = (any3(&mut random), any3(&mut random));
-        for d in [d, d.normalize_or(Vec3::X)] {
+        for d in [d, d.normalize_or(Vec3A::X)] {
             let case = lines::Case { shape, o, d };
             let ordered = spans(&case).into_iter().all(|(_, span)| span.is_none_or(|(t0, t1)| t0 <= t1));
             found.judge(ordered, || format!("{case:?}"));
             shape.normal_at(o);
-            reference::radiance(&alone(shape, Material::glass(1.5, Vec3::ONE), 6), Ray::new(o, d), 1);
-            let near = reference::nearest(&alone(shape, Material::plain(Vec3::ONE), 1), o, d, |_| true);
+            reference::radiance(&alone(shape, Material::glass(1.5, Vec3A::ONE), 6), Ray::new(o, d), 1);
+            let near = reference::nearest(&alone(shape, Material::plain(Vec3A::ONE), 1), o, d, |_| true);
             found.fail(near.is_some_and(|(_, t)| t <= 0.0 || t >= FAR), || format!("{case:?}: {near:?}"));
         }
     }
@@ -173,9 +173,9 @@ fn cameras(effort: &Effort) -> Found {
         let away = random.log(1e-8, 1e8) as f32;
         let target = match round % 5 {
             0 => eye,
-            1 => eye + Vec3::Y * away,
-            2 => eye - Vec3::Y * away,
-            3 => eye + (Vec3::Y + random.direction() * random.log(1e-9, 1e-3) as f32) * away,
+            1 => eye + Vec3A::Y * away,
+            2 => eye - Vec3A::Y * away,
+            3 => eye + (Vec3A::Y + random.direction() * random.log(1e-9, 1e-3) as f32) * away,
             _ => eye + random.direction() * away,
         };
         let fov = random.range(0.01, 3.0) as f32;
@@ -195,7 +195,7 @@ fn pixels(effort: &Effort) -> Found {
     let mut random = Random(43);
     for _ in 0..effort.of(100_000) {
         let camera = Camera::look_at(
-            Vec3::ZERO,
+            Vec3A::ZERO,
             random.direction(),
             random.range(0.1, 2.5) as f32,
             random.range(-4.0, 4.0) as f32,
@@ -215,7 +215,7 @@ fn pixels(effort: &Effort) -> Found {
         // Coordinates themselves are rounded to f32.
         let doubt = 4.0 * ULP * (w + h);
         found.see(turned - doubt, what);
-        match view.project((ray * random.log(1e-2, 1e6)).as_vec3()) {
+        match view.project((ray * random.log(1e-2, 1e6)).as_vec3a()) {
             // Wide pictures stretch what is far from the middle, and roundings of the direction with it.
             Some((x, y, _)) => {
                 found.more(((x as f64 - at[0]).hypot(y as f64 - at[1])) / ray.length_squared() - doubt, what)

@@ -1,7 +1,7 @@
 //! Shadow maps against what stands between a point and the light.
 
 use crate::case::{Case, Effort, Runs};
-use glam::{Vec2, Vec3, vec3};
+use glam::{Vec2, Vec3A, vec3a};
 use paprsek::raster::{Bias, Light, Projection, ShadowViews, World};
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
@@ -142,11 +142,11 @@ fn grazing(effort: &Effort) -> Found {
     for &elevation in effort.some(&[1.0, 0.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0, 30.0], 2) {
         for texels in [256, 1024] {
             let (sin, cos) = f64::to_radians(elevation).sin_cos();
-            let towards = vec3((cos * 0.6) as f32, sin as f32, (cos * 0.8) as f32).normalize();
-            let view = Projection::parallel(towards, Vec3::ZERO, 44.0, texels);
+            let towards = vec3a((cos * 0.6) as f32, sin as f32, (cos * 0.8) as f32).normalize();
+            let view = Projection::parallel(towards, Vec3A::ZERO, 44.0, texels);
             let bias = Bias { constant: 0.02, slope: 3.0, normal: 0.5 };
-            let light = Light::sun(towards, Vec3::ONE).with_shadow(ShadowViews::new(vec![view], bias));
-            let camera = Camera::look_at(vec3(0.0, 24.0, -2.0), Vec3::ZERO, 0.9, 0.0);
+            let light = Light::sun(towards, Vec3A::ONE).with_shadow(ShadowViews::new(vec![view], bias));
+            let camera = Camera::look_at(vec3a(0.0, 24.0, -2.0), Vec3A::ZERO, 0.9, 0.0);
             let world = World { lights: vec![light], ..dark(vec![body(ground(18.0, 0.0, 6))]) };
             let planes = drawn::draw(&world, camera, size, Quality::FAST, levels()[0].1);
             let (mut sum, mut n) = (0.0, 0u64);
@@ -228,11 +228,11 @@ fn lamps(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(111));
     let size = [64, 48];
     for _ in 0..effort.of(60) {
-        let lamp = vec3(random.range(-3.0, 3.0) as f32, random.log(0.5, 5.0) as f32, random.range(-3.0, 3.0) as f32);
+        let lamp = vec3a(random.range(-3.0, 3.0) as f32, random.log(0.5, 5.0) as f32, random.range(-3.0, 3.0) as f32);
         let fade = Vec2::new(random.range(0.0, 0.5) as f32, random.log(1e-2, 2.0) as f32);
-        let camera = Camera::look_at(vec3(0.0, 9.0, 6.0), Vec3::ZERO, 0.9, 0.0);
+        let camera = Camera::look_at(vec3a(0.0, 9.0, 6.0), Vec3A::ZERO, 0.9, 0.0);
         let world = World {
-            lights: vec![Light::lamp(lamp, Vec3::ONE, fade, f32::INFINITY)],
+            lights: vec![Light::lamp(lamp, Vec3A::ONE, fade, f32::INFINITY)],
             ..dark(vec![body(ground(20.0, 0.0, 4))])
         };
         for (name, level) in levels() {

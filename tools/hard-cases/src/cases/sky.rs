@@ -1,7 +1,7 @@
 //! The light of the air.
 
 use crate::case::{Case, Effort, Runs};
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::frame::encode::srgb_encode;
 use paprsek::settings::{Quality, SkySettings};
 use paprsek::sky::dome::Dome;
@@ -74,7 +74,7 @@ fn order(_: &Effort) -> Found {
     let mut found = Found::default();
     let mut errors = [0.0f64; 3];
     for altitude in [40.0, 10.0, 2.0] {
-        let light = |steps: u32, d: Vec3| {
+        let light = |steps: u32, d: Vec3A| {
             let mut sky = sky(altitude);
             sky.air.again = 0.0;
             Dome::new(sky, &SkySettings { steps, ..EXACT }).light(d)

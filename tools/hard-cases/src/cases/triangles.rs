@@ -2,7 +2,7 @@
 
 use super::rays::any3;
 use crate::case::{Case, Effort, Runs};
-use glam::{DVec3, Vec3, vec3};
+use glam::{DVec3, Vec3A, vec3a};
 use paprsek::raster::World;
 use paprsek::raster::fill::CENTER;
 use paprsek::raster::project::NEAR;
@@ -182,7 +182,7 @@ fn clipped(effort: &Effort) -> Found {
         let cells = [1, 2, 13, 40][case / 4 % 4];
         let up = random.log(0.06, 100.0);
         let aside = |random: &mut Random| (random.range(-0.8, 0.8) * half) as f32;
-        let eye = vec3(aside(&mut random), up as f32, aside(&mut random));
+        let eye = vec3a(aside(&mut random), up as f32, aside(&mut random));
         let camera = Camera::look_at(eye, eye + random.direction(), FOV, random.range(-1.0, 1.0) as f32);
         let world = dark(vec![body(ground(half as f32, 0.0, cells))]);
         let meets = |d: DVec3| {
@@ -216,7 +216,7 @@ fn clipped(effort: &Effort) -> Found {
 
 fn behind(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(105));
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
     for _ in 0..effort.of(400) {
         // All corners at or behind the near plane, and up to it.
         let corner = |random: &mut Random| {
@@ -225,7 +225,7 @@ fn behind(effort: &Effort) -> Found {
             } else {
                 random.log(1e-6, 1e6) as f32
             };
-            vec3(random.range(-3.0, 3.0) as f32, random.range(-3.0, 3.0) as f32, z)
+            vec3a(random.range(-3.0, 3.0) as f32, random.range(-3.0, 3.0) as f32, z)
         };
         let [a, b, c] = [corner(&mut random), corner(&mut random), corner(&mut random)];
         let world = dark(vec![body(triangles(&[[a, b, c], [a, c, b]]))]);
@@ -239,10 +239,11 @@ fn behind(effort: &Effort) -> Found {
 
 fn any_bits(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(106));
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, FOV, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, FOV, 0.0);
     for round in 0..effort.of(2000) {
-        let faces: Vec<[Vec3; 3]> = (0..4).map(|_| [any3(&mut random), any3(&mut random), any3(&mut random)]).collect();
-        let world = World { ambient: [Vec3::ONE; 2], ..dark(vec![body(triangles(&faces))]) };
+        let faces: Vec<[Vec3A; 3]> =
+            (0..4).map(|_| [any3(&mut random), any3(&mut random), any3(&mut random)]).collect();
+        let world = World { ambient: [Vec3A::ONE; 2], ..dark(vec![body(triangles(&faces))]) };
         let quality = [Quality::EXACT, Quality::DEFAULT][round as usize % 2];
         for (name, level) in levels() {
             let planes = drawn::draw(&world, camera, [33, 21], quality, level);
@@ -258,7 +259,7 @@ fn any_bits(effort: &Effort) -> Found {
 /// Walls that stand one behind another far away, in any order.
 fn layers(effort: &Effort) -> Found {
     let (mut found, mut random) = (Found::default(), Random(107));
-    let camera = Camera::look_at(Vec3::ZERO, Vec3::NEG_Z, 0.1, 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, Vec3A::NEG_Z, 0.1, 0.0);
     for _ in 0..effort.of(60) {
         let (first, gap) = (random.range(4000.0, 5000.0), random.range(1.0, 3.0));
         let mut walls: Vec<f64> = (0..5).map(|k| first + gap * k as f64).collect();
@@ -266,7 +267,7 @@ fn layers(effort: &Effort) -> Found {
             walls.reverse();
         }
         let wall = |z: f64| {
-            let at = |x: f32, y: f32| vec3(x, y, -z as f32);
+            let at = |x: f32, y: f32| vec3a(x, y, -z as f32);
             [[at(-2e3, -2e3), at(2e3, -2e3), at(2e3, 2e3)], [at(-2e3, -2e3), at(2e3, 2e3), at(-2e3, 2e3)]]
         };
         let world = dark(walls.iter().map(|z| body(triangles(&wall(*z)))).collect());

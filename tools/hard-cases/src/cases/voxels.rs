@@ -4,7 +4,7 @@ use super::clouds::at_levels;
 use super::rays::any;
 use crate::case::{Case, Effort, Runs};
 use fearless_simd::{Level, dispatch};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{Cloud, CloudKind, Voxels, sunlight};
 use std::sync::Arc;
 use testkit::random::Random;
@@ -76,7 +76,7 @@ fn grown(kind: &CloudKind, seed: u32, edge: usize) -> Voxels {
 
 fn against_f64(effort: &Effort, count: u32, away: f32) -> Found {
     let mut voxels = grown(&CloudKind::CUMULUS, 3, 64);
-    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3(0.6, 0.5, 0.3).normalize(), 20.0));
+    dispatch!(Level::new(), simd => sunlight::bake(simd, &mut voxels, vec3a(0.6, 0.5, 0.3).normalize(), 20.0));
     let cloud = cloud(voxels, 20.0);
     let mut found = Found::default();
     for k in 0..effort.of(count) {
@@ -116,9 +116,9 @@ fn needles(effort: &Effort) -> Found {
         let edge = [8, 16, 32, 64][(random.unit() * 4.0) as usize];
         let needle = [0; 3].map(|_| (random.unit() * edge as f64) as usize);
         let cloud = cloud(filled(edge, |place| if place == needle { 255 } else { 0 }), 50.0);
-        let target = Vec3::from(needle.map(|i| (2 * i + 1) as f32 / edge as f32 - 1.0));
+        let target = Vec3A::from(needle.map(|i| (2 * i + 1) as f32 / edge as f32 - 1.0));
         for side in 0..20 {
-            let d = if side < 6 { Vec3::AXES[side / 2] * [1.0, -1.0][side % 2] } else { random.direction() };
+            let d = if side < 6 { Vec3A::AXES[side / 2] * [1.0, -1.0][side % 2] } else { random.direction() };
             let eye = target - d * 4.0;
             let (light, left) = ray(&cloud, &DAY, eye, d, FOREVER, 100.0);
             let (exact, exact_left) = truth(&cloud, &DAY, eye, d, 100);
@@ -131,30 +131,30 @@ fn needles(effort: &Effort) -> Found {
 
 fn awkward(_: &Effort) -> Found {
     let solid = cloud(filled(32, |_| 255), 1.0);
-    let (diagonal, s) = (Vec3::ONE.normalize(), 1.0 - 1e-6);
-    let edge = vec3(1.0, 0.0, 1.0);
+    let (diagonal, s) = (Vec3A::ONE.normalize(), 1.0 - 1e-6);
+    let edge = vec3a(1.0, 0.0, 1.0);
     let ways = [
-        (vec3(0.0, 0.0, 2.0), Vec3::Z, 0.0),
-        (Vec3::Z, Vec3::NEG_Z, 2.0),
-        (Vec3::Z, Vec3::Z, 0.0),
+        (vec3a(0.0, 0.0, 2.0), Vec3A::Z, 0.0),
+        (Vec3A::Z, Vec3A::NEG_Z, 2.0),
+        (Vec3A::Z, Vec3A::Z, 0.0),
         (edge, -edge.normalize(), 8f64.sqrt()),
         (edge, edge.normalize(), 0.0),
-        (Vec3::ONE, -diagonal, 12f64.sqrt()),
-        (Vec3::ONE, diagonal, 0.0),
-        (Vec3::ZERO, Vec3::Y, 1.0),
-        (vec3(2.0, s, s), Vec3::NEG_X, 2.0),
-        (vec3(2.0, 1.0 + 1e-5, 0.0), Vec3::NEG_X, 0.0),
-        (vec3(1.0, 0.999, 0.0), vec3(-1.0, 1.0, 0.0).normalize(), 0.001 * 2f64.sqrt()),
-        (vec3(-0.0, -0.0, 3.0), vec3(-0.0, -0.0, -1.0), 2.0),
-        (vec3(0.5, -0.5, 3.0), vec3(1e-42, -1e-42, -1.0), 2.0),
-        (vec3(0.5, -1.0, 3.0), vec3(1e-42, 1e-42, -1.0), 2.0),
-        (vec3(0.0, 0.0, 1024.0), Vec3::NEG_Z, 2.0),
+        (Vec3A::ONE, -diagonal, 12f64.sqrt()),
+        (Vec3A::ONE, diagonal, 0.0),
+        (Vec3A::ZERO, Vec3A::Y, 1.0),
+        (vec3a(2.0, s, s), Vec3A::NEG_X, 2.0),
+        (vec3a(2.0, 1.0 + 1e-5, 0.0), Vec3A::NEG_X, 0.0),
+        (vec3a(1.0, 0.999, 0.0), vec3a(-1.0, 1.0, 0.0).normalize(), 0.001 * 2f64.sqrt()),
+        (vec3a(-0.0, -0.0, 3.0), vec3a(-0.0, -0.0, -1.0), 2.0),
+        (vec3a(0.5, -0.5, 3.0), vec3a(1e-42, -1e-42, -1.0), 2.0),
+        (vec3a(0.5, -1.0, 3.0), vec3a(1e-42, 1e-42, -1.0), 2.0),
+        (vec3a(0.0, 0.0, 1024.0), Vec3A::NEG_Z, 2.0),
     ];
     let mut found = Found::default();
     for (eye, d, length) in ways {
         for turn in 0..3 {
             // The same along every axis.
-            let turned = |v: Vec3| Vec3::from_array(std::array::from_fn(|k| v[(k + turn) % 3]));
+            let turned = |v: Vec3A| Vec3A::from_array(std::array::from_fn(|k| v[(k + turn) % 3]));
             let (eye, d) = (turned(eye), turned(d));
             let left = at_levels(&mut found, &solid, eye, d, FOREVER, 100.0).1;
             found.see((left as f64 - (-length).exp()).abs(), || format!("from {eye} along {d}: {left}"));
@@ -169,14 +169,14 @@ fn furnace(effort: &Effort) -> Found {
     for _ in 0..effort.of(20_000) {
         let size = random.log(1e-3, 1e5) as f32;
         let centre =
-            if random.unit() < 0.5 { Vec3::ZERO } else { random.direction() * size * random.log(1e-2, 10.0) as f32 };
+            if random.unit() < 0.5 { Vec3A::ZERO } else { random.direction() * size * random.log(1e-2, 10.0) as f32 };
         let extinction = if random.unit() < 0.1 { 0.0 } else { random.log(1e-8, 1e3) as f32 };
         let cloud = Cloud { voxels: voxels.clone(), centre, size, extinction };
         let on = |random: &mut Random| {
             [random.range(-4.0, 4.0), 1.0, -1.0, 0.0, 1e-30][(random.unit() * 5.0) as usize] as f32
         };
-        let eye = centre + vec3(on(&mut random), on(&mut random), on(&mut random)) * size;
-        let d = if random.unit() < 0.3 { Vec3::AXES[(random.unit() * 3.0) as usize] } else { random.direction() };
+        let eye = centre + vec3a(on(&mut random), on(&mut random), on(&mut random)) * size;
+        let d = if random.unit() < 0.3 { Vec3A::AXES[(random.unit() * 3.0) as usize] } else { random.direction() };
         let limit = if random.unit() < 0.5 { FOREVER } else { size * random.range(0.0, 5.0) as f32 };
         let steps = random.log(1.0, 300.0).floor() as f32;
         for (name, level) in levels() {
@@ -198,7 +198,7 @@ fn any_bits(effort: &Effort) -> Found {
     for _ in 0..effort.of(20_000) {
         let [size, extinction, limit] = [0; 3].map(|_| any(&mut random).abs());
         let (centre, eye) = (super::rays::any3(&mut random), super::rays::any3(&mut random));
-        let d = super::rays::any3(&mut random).normalize_or(Vec3::Z);
+        let d = super::rays::any3(&mut random).normalize_or(Vec3A::Z);
         let cloud = Cloud { voxels: voxels.clone(), centre, size, extinction };
         // Where squares of lengths have no place in a float there is no way through.
         let sane = |x: f32| x == 0.0 || (1e-9..1e9).contains(&x.abs());
@@ -223,7 +223,7 @@ fn empty(effort: &Effort) -> Found {
         let edge = [8, 16, 32][round as usize % 3];
         let cloud = Cloud {
             voxels: Arc::new(filled(edge, |_| 0)),
-            centre: Vec3::ZERO,
+            centre: Vec3A::ZERO,
             size: random.log(1e-3, 1e5) as f32,
             extinction: random.log(1e-8, 1e8) as f32,
         };
@@ -231,7 +231,7 @@ fn empty(effort: &Effort) -> Found {
         let d = (random.direction() * cloud.size - eye).normalize();
         for (name, level) in levels() {
             let (light, left) = rays(level, &cloud, &DAY, eye, &[d; 16], FOREVER, [100.0, 0.0])[0];
-            found.judge(light == Vec3::ZERO && left == 1.0, || format!("{name}: {light}, {left}"));
+            found.judge(light == Vec3A::ZERO && left == 1.0, || format!("{name}: {light}, {left}"));
         }
     }
     found

@@ -3,7 +3,7 @@
 use super::{SIZE, THREADS};
 use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, dispatch};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::cloud::{Cloud, CloudKind, CloudLayer, CloudLight, Voxels, sunlight};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
@@ -68,25 +68,25 @@ fn draw(renderer: &mut Renderer, frame: &mut Frame, shapes: &[Arc<Voxels>], coun
         }
     }
     let (eye, ahead) = set::camera(2, time);
-    let camera = Camera::look_at(eye.as_vec3(), (eye + ahead).as_vec3(), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(eye.as_vec3a(), (eye + ahead).as_vec3a(), 50f32.to_radians(), 0.0);
     let view = View::new(camera, SIZE.0, SIZE.1);
     let sides = view.sides();
     let mut clouds = Vec::new();
     for i in 0..count as u32 {
         let r = |k: u32| rnd(1, i, k);
         let size = 45.0 + 55.0 * r(3) * r(3);
-        let centre = vec3(1800.0 * (r(0) - 0.5), 130.0 + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
+        let centre = vec3a(1800.0 * (r(0) - 0.5), 130.0 + 0.45 * size + 12.0 * r(2), 1800.0 * (r(1) - 0.5));
         if way.all || sides.iter().all(|side| side.dot(centre - camera.eye) > -1.74 * size) {
             clouds.push(Cloud { voxels: shapes[i as usize % 4].clone(), centre, size, extinction: EXTINCTION });
         }
     }
     let light = CloudLight {
-        ambient: [vec3(0.22, 0.27, 0.36), vec3(0.36, 0.42, 0.51)],
+        ambient: [vec3a(0.22, 0.27, 0.36), vec3a(0.36, 0.42, 0.51)],
         towards: set::sun(),
-        sun: vec3(0.86, 0.78, 0.68),
+        sun: vec3a(0.86, 0.78, 0.68),
         phase: [0.85, 0.5],
     };
-    let clouds = CloudLayer::new(clouds, light, &view, &way.quality).in_air(1400.0, |_| Vec3::ONE);
+    let clouds = CloudLayer::new(clouds, light, &view, &way.quality).in_air(1400.0, |_| Vec3A::ONE);
     renderer.draw(Picture { layers: vec![Box::new(Alone(clouds))], transfer: Transfer::Linear }, frame);
     began.elapsed().as_secs_f64() * 1e3
 }

@@ -3,7 +3,7 @@
 use super::{Row, told};
 use crate::dome;
 use crate::metrics::Error;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Frame, Picture, Renderer};
 use paprsek::settings::Quality;
@@ -57,7 +57,7 @@ fn bennett(apparent: f64) -> f64 {
 fn sky(renderer: &mut Renderer, altitude: f64) -> Frame {
     let quality = Quality::EXACT;
     let mut frame = Frame::new(640, 360);
-    let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.1, -1.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 0.1, -1.0), 50f32.to_radians(), 0.0);
     let view = View::new(camera, frame.width, frame.height);
     let layer = SkyLayer::new(Dome::new(dome::sky(altitude as f32, dome::HAZE), &quality.sky), &view, &quality.sky);
     renderer.draw(Picture { layers: vec![Box::new(layer)], transfer: Transfer::Srgb }, &mut frame);

@@ -2,7 +2,7 @@
 
 use super::{Random, Row, frame, told};
 use crate::metrics::Error;
-use glam::{DVec3, Vec3, dvec3, vec3};
+use glam::{DVec3, Vec3A, dvec3, vec3a};
 use paprsek::trace::reference::{Ray, radiance};
 use paprsek::trace::{Background, Light, Material, Object, Shape, World};
 use std::f64::consts::TAU;
@@ -64,19 +64,19 @@ fn floor(cells: usize, photons: u32, towards: DVec3) -> Vec<f64> {
 
 /// The light on the middles of the cells by the tracer.
 fn traced(cells: usize, towards: DVec3) -> Vec<f64> {
-    let plane = Shape::Plane { normal: Vec3::Y, offset: 0.0 };
-    let ball = Shape::Sphere { center: Vec3::Y, radius: 1.0 };
-    let bodies = [(plane, Material::plain(Vec3::ONE)), (ball, Material::glass(INDEX as f32, Vec3::ONE))];
+    let plane = Shape::Plane { normal: Vec3A::Y, offset: 0.0 };
+    let ball = Shape::Sphere { center: Vec3A::Y, radius: 1.0 };
+    let bodies = [(plane, Material::plain(Vec3A::ONE)), (ball, Material::glass(INDEX as f32, Vec3A::ONE))];
     let world = World {
-        ambient: Vec3::ZERO,
-        background: Background::even(Vec3::ZERO),
+        ambient: Vec3A::ZERO,
+        background: Background::even(Vec3A::ZERO),
         max_level: 1,
-        lights: vec![Light::directional(towards.as_vec3(), Vec3::splat(1.0 / towards.y as f32))],
+        lights: vec![Light::directional(towards.as_vec3a(), Vec3A::splat(1.0 / towards.y as f32))],
         ..World::new(bodies.map(|(shape, material)| Object::new(shape, material)).to_vec())
     };
     let at = |n: usize| ((n as f64 + 0.5) / cells as f64 * 2.0 * HALF - HALF) as f32;
-    let from = |index: usize| vec3(at(index % cells), 1e-3, at(index / cells));
-    (0..cells * cells).map(|index| f64::from(radiance(&world, Ray::new(from(index), Vec3::NEG_Y), 1).x)).collect()
+    let from = |index: usize| vec3a(at(index % cells), 1e-3, at(index / cells));
+    (0..cells * cells).map(|index| f64::from(radiance(&world, Ray::new(from(index), Vec3A::NEG_Y), 1).x)).collect()
 }
 
 /// A ball's shadow as a solid, no shadow at all, and what the tracer draws, against the light that it gathers.

@@ -4,7 +4,7 @@ use super::fire::{MIDDLE, torch};
 use super::{SIZE, START, Stage, camera};
 use crate::metrics::Error as Off;
 use crate::plot::{self, Axis, Curve};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::{Frame, Layer, Renderer, Tile};
 use paprsek::particles::{Emitter, Fire, ParticleLayer};
 use paprsek::scenes::bench::particles::{FIRE_SKY, over};
@@ -27,8 +27,8 @@ const APART: f64 = 0.37;
 
 /// The view of an eye at this distance, metres.
 fn view(away: f32) -> View {
-    let eye = vec3(0.0, MIDDLE, away);
-    View::new(camera(eye, eye + Vec3::NEG_Z), SIZE.0, SIZE.1)
+    let eye = vec3a(0.0, MIDDLE, away);
+    View::new(camera(eye, eye + Vec3A::NEG_Z), SIZE.0, SIZE.1)
 }
 
 /// A fire at this distance, with as many particles as it has there.

@@ -1,7 +1,7 @@
 //! Frames per second against fires, as in `[Fire08]`.
 
 use super::{SIZE, Stage, camera};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::FrameSpec;
 use paprsek::frame::Layer;
 use paprsek::particles::{Emitter, Fire, ParticleLayer};
@@ -34,15 +34,15 @@ pub const MIDDLE: f32 = 0.7;
 
 /// One of the bench scene's torches with its 2000 sprites, at the origin.
 pub fn torch(time: f64) -> Fire {
-    Fire { place: Vec3::ZERO, ..fires(time)[0] }
+    Fire { place: Vec3A::ZERO, ..fires(time)[0] }
 }
 
 /// The fires of a case, with a level of detail in shares of the particles per pixel of height.
 fn particles(case: &Case, shot: &FrameSpec, detail: f32) -> ParticleLayer {
-    let middle = Vec3::Y * MIDDLE;
-    let view = View::new(camera(middle, middle + Vec3::NEG_Z), SIZE.0, SIZE.1);
+    let middle = Vec3A::Y * MIDDLE;
+    let view = View::new(camera(middle, middle + Vec3A::NEG_Z), SIZE.0, SIZE.1);
     let fire = |(number, (before, right)): (usize, &(f32, f32))| {
-        let place = vec3(*right, 0.0, -before);
+        let place = vec3a(*right, 0.0, -before);
         Fire { place, first: 2000 * number as u32, ..torch(shot.time) }
     };
     ParticleLayer::new(

@@ -55,7 +55,7 @@ impl Stage {
 }
 
 /// A camera of the bench scenes.
-fn camera(eye: glam::Vec3, target: glam::Vec3) -> Camera {
+fn camera(eye: glam::Vec3A, target: glam::Vec3A) -> Camera {
     Camera::look_at(eye, target, 50f32.to_radians(), 0.0)
 }
 

@@ -4,7 +4,7 @@ use super::{SIZE, START, STEP, THREADS, camera};
 use crate::limits::{self, NUMBERS};
 use crate::plot::{self, Axis, Curve};
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::{Layer, Renderer};
 use paprsek::particles::{Fire, Flakes, Lens, ParticleLayer};
 use paprsek::scenes::bench::particles::{FLAKES, fires, flakes};
@@ -28,16 +28,16 @@ const NOWHERE: [f32; 2] = [1e30, 2e30];
 
 /// Particles of a kind at an instant, of which some are visible or none.
 fn particles(kind: usize, time: f64, seen: bool) -> ParticleLayer {
-    let eye = if kind == 0 { Vec3::ZERO } else { vec3(0.0, 2.0, 8.0) };
-    let view = View::new(camera(eye, eye + Vec3::NEG_Z), SIZE.0, SIZE.1);
+    let eye = if kind == 0 { Vec3A::ZERO } else { vec3a(0.0, 2.0, 8.0) };
+    let view = View::new(camera(eye, eye + Vec3A::NEG_Z), SIZE.0, SIZE.1);
     // With an empty range the computation is the same, but nothing is visible at its end.
     let lens = |lens: Lens| if seen { lens } else { Lens { near: NOWHERE, ..lens } };
     if kind == 0 {
         let of = Flakes { count: COUNT, lens: lens(FLAKES.lens), ..FLAKES };
-        ParticleLayer::new(vec![flakes(&of, time, Vec3::ZERO).into()], &view, &Quality::EXACT.particles)
+        ParticleLayer::new(vec![flakes(&of, time, Vec3A::ZERO).into()], &view, &Quality::EXACT.particles)
     } else {
         let fire = fires(time)[0];
-        let fire = Fire { place: Vec3::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
+        let fire = Fire { place: Vec3A::Y, count: COUNT as f32, lens: lens(fire.lens), ..fire };
         ParticleLayer::new(vec![fire.into()], &view, &Quality::EXACT.particles)
     }
 }

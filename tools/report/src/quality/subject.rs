@@ -2,7 +2,7 @@
 
 use super::sweep::{Group, Point};
 use crate::dome;
-use glam::{Vec3, vec3};
+use glam::{Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Picture, Renderer, Scene};
 use paprsek::scenes;
@@ -80,7 +80,7 @@ impl Subject {
             return (scene.picture)(&renderer.spec(time, &quality, (width, height)));
         }
         let settings = point.dome.unwrap_or(quality.sky);
-        let camera = Camera::look_at(Vec3::ZERO, vec3(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
+        let camera = Camera::look_at(Vec3A::ZERO, vec3a(0.0, 0.35, -1.0), 50f32.to_radians(), 0.0);
         let layer = SkyLayer::new(
             Dome::new(dome::sky(time as f32, dome::HAZE), &settings),
             &View::new(camera, width, height),

@@ -3,7 +3,7 @@
 use super::set::Set;
 use super::truth::Pixel;
 use fearless_simd::{Level, dispatch};
-use glam::{Affine3A, DMat4, DVec3, Vec3};
+use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::Tile;
 use paprsek::raster::bins::Bins;
 use paprsek::raster::depth_map::EMPTY;
@@ -83,6 +83,6 @@ impl Map {
 }
 
 /// The share of the sun that reaches a pixel, by the first map that contains it.
-pub fn light(maps: &[Map], pixel: &Pixel, towards: Vec3, bias: &Bias, smooth: bool) -> f32 {
+pub fn light(maps: &[Map], pixel: &Pixel, towards: Vec3A, bias: &Bias, smooth: bool) -> f32 {
     maps.iter().find_map(|map| map.light(pixel, towards.as_dvec3(), bias, smooth)).unwrap_or(1.0) as f32
 }

@@ -8,7 +8,7 @@ mod warp;
 
 use crate::options::{Common, Result};
 use crate::plot::{self, Axis, Curve};
-use glam::Vec3;
+use glam::Vec3A;
 use paprsek::frame::Renderer;
 use paprsek::raster::{Bias, ShadowViews};
 use set::{Set, sun};
@@ -97,8 +97,8 @@ const COLUMNS: &str = "wrong, % | acne | leaks | far, lost | far, won | light of
 const LINE: &str = "--:|--:|--:|--:|--:|--:|";
 
 /// The errors of shadow views of the sun.
-fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3, shadow_views: ShadowViews) -> Score {
-    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views))]);
+fn mapped(set: &Set, renderer: &mut Renderer, pixels: &[Pixel], towards: Vec3A, shadow_views: ShadowViews) -> Score {
+    let shot = set.draw(renderer, &[(towards, Vec3A::ONE, Some(shadow_views))]);
     Score::of(pixels, |pixel| shot.pixels[pixel.index][0] / pixel.cosine)
 }
 
@@ -119,9 +119,9 @@ fn heights(effort: &Effort, sets: &[Set], renderer: &mut Renderer, text: &mut St
             let traced = ShadowViews { traced: true, ..set.shadow_views(set.views(towards, None, 1024)) };
             let mut times = vec![[vec![], vec![], vec![]]; all_views.len()];
             for _ in 0..effort.rounds {
-                let slow = set.draw(renderer, &[(towards, Vec3::ONE, Some(traced.clone()))]).all;
+                let slow = set.draw(renderer, &[(towards, Vec3A::ONE, Some(traced.clone()))]).all;
                 for (shadow_views, times) in all_views.iter().zip(&mut times) {
-                    let shot = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views.clone()))]);
+                    let shot = set.draw(renderer, &[(towards, Vec3A::ONE, Some(shadow_views.clone()))]);
                     for (times, value) in times.iter_mut().zip([shot.maps, shot.all, slow / shot.all]) {
                         times.push(value);
                     }

@@ -1,7 +1,7 @@
 //! The scenes in which shadows are judged: everything is white and matt under one sun, so that a pixel shows its light.
 
 use fearless_simd::Level;
-use glam::{Affine3A, Vec3, vec3};
+use glam::{Affine3A, Vec3A, vec3a};
 use paprsek::frame::encode::Transfer;
 use paprsek::frame::{Cache, Frame, Layer, Picture, Renderer, Stats, Tile, Workers};
 use paprsek::raster::{Bias, Body, Light, Mesh, Paint, Projection, RasterLayer, ShadowViews, World, fit};
@@ -30,7 +30,7 @@ pub struct Set {
 }
 
 fn set(meshes: Vec<Mesh>) -> (Vec<Arc<Mesh>>, Vec<Body>) {
-    let white = Paint { albedo: Vec3::ONE, texture: None, gloss: 0.0 };
+    let white = Paint { albedo: Vec3A::ONE, texture: None, gloss: 0.0 };
     let whiten = |mesh: Mesh| Arc::new(Mesh { paints: vec![white; mesh.paints.len()], ..mesh });
     let meshes: Vec<_> = meshes.into_iter().map(whiten).collect();
     let bodies = meshes.iter().map(|mesh| Body::new(mesh.clone(), Affine3A::IDENTITY)).collect();
@@ -40,7 +40,7 @@ fn set(meshes: Vec<Mesh>) -> (Vec<Arc<Mesh>>, Vec<Body>) {
 /// The set by which rasterizers are compared, and the land of `day` in the afternoon.
 pub fn both(size: (usize, usize)) -> [Set; 2] {
     let (meshes, bodies) = set(shadow_set::meshes());
-    let camera = Camera::look_at(shadow_set::eye(2.0).as_vec3(), vec3(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(shadow_set::eye(2.0).as_vec3a(), vec3a(0.0, 0.5, 0.0), 50f32.to_radians(), 0.0);
     let bench = Set {
         name: "bench",
         meshes,
@@ -57,7 +57,7 @@ pub fn both(size: (usize, usize)) -> [Set; 2] {
     meshes.push(chapel::chapel());
     meshes.push(land::lake());
     let (meshes, bodies) = set(meshes);
-    let camera = Camera::look_at(vec3(30.0, 16.0, 40.0), vec3(0.0, 14.0, -2.0), 50f32.to_radians(), 0.0);
+    let camera = Camera::look_at(vec3a(30.0, 16.0, 40.0), vec3a(0.0, 14.0, -2.0), 50f32.to_radians(), 0.0);
     let day = Set {
         name: "day",
         meshes,
@@ -73,11 +73,11 @@ pub fn both(size: (usize, usize)) -> [Set; 2] {
 }
 
 /// The direction of a sun this high above the horizon, degrees: from the left of the camera and a little behind it.
-pub fn sun(set: &Set, elevation: f32) -> Vec3 {
+pub fn sun(set: &Set, elevation: f32) -> Vec3A {
     let (sin, cos) = elevation.to_radians().sin_cos();
-    let side = vec3(-set.camera.right.x, 0.0, -set.camera.right.z).normalize();
-    let back = vec3(-set.camera.forward.x, 0.0, -set.camera.forward.z).normalize();
-    (side * 0.9 + back * 0.436).normalize() * cos + Vec3::Y * sin
+    let side = vec3a(-set.camera.right.x, 0.0, -set.camera.right.z).normalize();
+    let back = vec3a(-set.camera.forward.x, 0.0, -set.camera.forward.z).normalize();
+    (side * 0.9 + back * 0.436).normalize() * cos + Vec3A::Y * sin
 }
 
 /// A picture: red, green, blue and inverse depth of every pixel (0 without a surface), the milliseconds before the tiles, and
@@ -124,12 +124,12 @@ impl Set {
     }
 
     /// The sun's maps of `size` texels as the scene has them, or a number of cascades whose ends grow by equal ratios.
-    pub fn views(&self, towards: Vec3, cascades: Option<usize>, size: u32) -> Vec<Projection> {
+    pub fn views(&self, towards: Vec3A, cascades: Option<usize>, size: u32) -> Vec<Projection> {
         let (near, far) = self.range;
         let grown = |n: usize| (1..=n).map(|i| near * (far / near).powf(i as f32 / n as f32)).collect::<Vec<_>>();
         match cascades {
             Some(n) => fit::cascades(&self.camera, self.aspect(), towards, &grown(n), size),
-            None if self.ends.is_empty() => vec![Projection::parallel(towards, Vec3::ZERO, 72.0, size)],
+            None if self.ends.is_empty() => vec![Projection::parallel(towards, Vec3A::ZERO, 72.0, size)],
             None => fit::cascades(&self.camera, self.aspect(), towards, self.ends, size),
         }
     }
@@ -140,8 +140,8 @@ impl Set {
     }
 
     /// Draws the set under suns, given by direction, colour and shadow views.
-    pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3, Vec3, Option<ShadowViews>)]) -> Shot {
-        let light = |(towards, color, shadow): &(Vec3, Vec3, Option<ShadowViews>)| Light {
+    pub fn draw(&self, renderer: &mut Renderer, suns: &[(Vec3A, Vec3A, Option<ShadowViews>)]) -> Shot {
+        let light = |(towards, color, shadow): &(Vec3A, Vec3A, Option<ShadowViews>)| Light {
             shadow: shadow.clone(),
             ..Light::sun(*towards, *color)
         };

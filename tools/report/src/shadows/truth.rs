@@ -1,7 +1,7 @@
 //! The truth about shadows: rays towards the sun in f64, and whether a pixel is far from any shadow edge.
 
 use super::set::Set;
-use glam::{Affine3A, DMat4, DVec3, Vec3};
+use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::{Renderer, Tile};
 use paprsek::raster::bins::Bins;
 use paprsek::raster::id::parts;
@@ -15,8 +15,8 @@ const LEAST: f32 = 0.02;
 
 /// A pixel that faces the sun.
 pub struct Pixel {
-    pub point: Vec3,
-    pub normal: Vec3,
+    pub point: Vec3A,
+    pub normal: Vec3A,
     pub cosine: f32,
     /// Whether the sun shines on it.
     pub lit: bool,
@@ -67,18 +67,18 @@ impl Tracer {
 }
 
 /// The pixels that face the sun, judged by traced shadows, and what traces them.
-pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>, Tracer) {
-    let axes = |sign: f32| Vec3::AXES.map(|axis| (axis * sign, axis, None));
+pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3A) -> (Vec<Pixel>, Tracer) {
+    let axes = |sign: f32| Vec3A::AXES.map(|axis| (axis * sign, axis, None));
     let (plus, minus) = (set.draw(renderer, &axes(1.0)), set.draw(renderer, &axes(-1.0)));
     // Traced shadows keep a 32nd of the bias, here a centimetre. That is more than the rounding of f32 some kilometres away,
     // while a millimetre would be less.
     let bias = Bias { constant: 0.32, slope: 1.0, normal: 1.0 };
     let shadow_views = ShadowViews { bias, traced: true, ..set.shadow_views(set.views(towards, None, SIZE)) };
-    let traced = set.draw(renderer, &[(towards, Vec3::ONE, Some(shadow_views.clone()))]);
+    let traced = set.draw(renderer, &[(towards, Vec3A::ONE, Some(shadow_views.clone()))]);
     let view = set.view();
     let mut pixels = Vec::new();
     for (index, light) in traced.pixels.iter().enumerate() {
-        let normal = Vec3::from_array([0, 1, 2].map(|k| plus.pixels[index][k] - minus.pixels[index][k]));
+        let normal = Vec3A::from_array([0, 1, 2].map(|k| plus.pixels[index][k] - minus.pixels[index][k]));
         let cosine = normal.dot(towards);
         if light[3] > 0.0 && cosine > LEAST {
             let ray = view.ray((index % set.size.0) as f32 + 0.5, (index / set.size.0) as f32 + 0.5);
@@ -90,7 +90,7 @@ pub fn pixels(set: &Set, renderer: &mut Renderer, towards: Vec3) -> (Vec<Pixel>,
 }
 
 /// Marks the pixels that are farther than 1.5 texels of their view from a shadow's edge.
-pub fn mark(pixels: &mut [Pixel], tracer: &Tracer, towards: Vec3, views: &[Projection]) {
+pub fn mark(pixels: &mut [Pixel], tracer: &Tracer, towards: Vec3A, views: &[Projection]) {
     let half = pixels.len().div_ceil(2).max(1);
     std::thread::scope(|scope| {
         for part in pixels.chunks_mut(half) {
@@ -100,7 +100,7 @@ pub fn mark(pixels: &mut [Pixel], tracer: &Tracer, towards: Vec3, views: &[Proje
 }
 
 /// The size of a texel of the map that a point is looked up in, metres.
-fn texel(views: &[Projection], point: Vec3) -> Option<f32> {
+fn texel(views: &[Projection], point: Vec3A) -> Option<f32> {
     let inside = |view: &&Projection| {
         let h = view.matrix() * point.extend(1.0);
         h.x.min(h.y) >= 2.0 && h.x.max(h.y) <= view.size[0] as f32 - 2.0
@@ -109,7 +109,7 @@ fn texel(views: &[Projection], point: Vec3) -> Option<f32> {
 }
 
 /// Whether the points 1.5 texels around on the pixel's own plane all see the sun as the pixel does.
-fn far(tracer: &Tracer, pixel: &Pixel, towards: Vec3, views: &[Projection]) -> bool {
+fn far(tracer: &Tracer, pixel: &Pixel, towards: Vec3A, views: &[Projection]) -> bool {
     let Some(texel) = texel(views, pixel.point) else { return false };
     let (n, t) = (pixel.normal.as_dvec3(), towards.as_dvec3());
     let right = t.any_orthonormal_vector();

@@ -1,16 +1,16 @@
 //! One shadow map through a perspective: a light-space perspective shadow map `[Wimmer04]`.
 
 use super::set::Set;
-use glam::{Vec3, Vec4};
+use glam::{Vec3A, Vec4};
 use paprsek::raster::Projection;
 
 /// A warped map of `size` texels for what a set's camera sees between the ends of its range. Its w is the distance from a
 /// point behind the eye, along the view axis as the sun sees it; so heights towards the sun divided by w are affine in the
 /// map.
-pub fn warped(set: &Set, towards: Vec3, size: u32) -> Projection {
+pub fn warped(set: &Set, towards: Vec3A, size: u32) -> Projection {
     let (camera, (near, far)) = (&set.camera, set.range);
     let view = camera.forward;
-    let along = (view - towards * view.dot(towards)).try_normalize().unwrap_or(Vec3::X);
+    let along = (view - towards * view.dot(towards)).try_normalize().unwrap_or(Vec3A::X);
     let right = towards.cross(along);
     let sine = view.cross(towards).length().max(0.05);
     let aspect = set.size.0 as f32 / set.size.1 as f32;
@@ -26,7 +26,7 @@ pub fn warped(set: &Set, towards: Vec3, size: u32) -> Projection {
     let end = near + depth * sine;
     let start = (near + (near * end).sqrt()) / sine;
     let middle = camera.eye.dot(right);
-    let distance = |p: Vec3| p.dot(along) - first + start;
+    let distance = |p: Vec3A| p.dot(along) - first + start;
     let (left, rest) = bounds(corners.iter().map(|p| (p.dot(right) - middle) / distance(*p)));
     // Lookups need some texels around them, so a border is left free.
     let (edge, size_f) = (4.0, size as f32);
