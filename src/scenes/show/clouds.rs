@@ -244,8 +244,8 @@ fn picture(spec: &FrameSpec) -> Picture {
     let texel = 80.0;
     let corner = ((Vec2::new(eye.x, eye.z) / texel).floor() - to_f32(CloudShadow::SIDE) * 0.5) * texel;
     let slope = Vec2::new(now.direction.x, now.direction.z) / now.direction.y.max(0.05);
-    let mut passes = Vec::new();
-    for row in 0..CloudShadow::SIDE {
+    let mut passes = vec![0.0; CloudShadow::SIDE * CloudShadow::SIDE];
+    spec.workers.each(passes.chunks_mut(CloudShadow::SIDE).enumerate(), |(row, passes)| {
         let z = corner.y + to_f32(row) * texel;
         // Few shadows reach a row: most clouds are farther than half of their cube's edge from the sun's plane through it.
         // The others lie close together in the list, which goes by rows of the field's squares.
@@ -259,8 +259,8 @@ fn picture(spec: &FrameSpec) -> Picture {
         for column in 0..CloudShadow::SIDE {
             points.push(vec3a(corner.x + to_f32(column) * texel, 0.0, z));
         }
-        passes.append(&mut shadow::shares(&clouds[first..end], now.direction, &points));
-    }
+        passes.copy_from_slice(&shadow::shares(&clouds[first..end], now.direction, &points));
+    });
     if !cfg!(without = "cloud-shadows") {
         world.cloud_shadow = Some(CloudShadow { passes, corner, texel, slope });
     }
