@@ -11,7 +11,7 @@ use crate::noise;
 use crate::simd::block::{BLOCK, Block3, load};
 use crate::simd::lanes::{F, Lane, V3};
 use crate::simd::math::{exp3, to_f32};
-use crate::vector::{cross, unit};
+use crate::vector::cross;
 use crate::view::View;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -97,7 +97,7 @@ const AROUND: f32 = 46.0;
 pub fn draw<S: Simd>(simd: S, disc: &Disc, view: &View, tile: &mut Tile) {
     let (left, top) = (to_f32(tile.x) + 0.5, to_f32(tile.y) + 0.5);
     // A pixel in the middle of the view is the widest.
-    let away = unit(view.ray(left + HALF, top + HALF)).distance(disc.axes[0]);
+    let away = view.direction(left + HALF, top + HALF).distance(disc.axes[0]);
     if away > AROUND * view.pixel() + disc.reach * disc.radius || disc.color.max_element() < 1e-5 {
         return;
     }

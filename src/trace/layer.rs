@@ -20,7 +20,6 @@ use crate::settings::TraceSettings;
 use crate::simd::lanes::Bits;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
-use crate::vector::unit;
 use crate::view::{Cone, View};
 use fearless_simd::{Level, dispatch};
 use glam::Vec3A;
@@ -180,7 +179,7 @@ impl Layer for TraceLayer {
             _ => format!("{count} eye rays here"),
         }];
         lines.push("through its middle, without thresholds, lights as points:".into());
-        let middle = unit(self.view.ray(x as f32 + 0.5, y as f32 + 0.5));
+        let middle = self.view.direction(x as f32 + 0.5, y as f32 + 0.5);
         let ray = Ray::new(self.view.camera().eye, middle);
         inspect::trail(&self.world, ("from the eye", ray, Vec3A::ONE), 1, &mut lines);
         lines

@@ -142,7 +142,7 @@ impl Cycle {
                 for part in 0..grid * grid {
                     let dx = ((part % grid) as u32 as f32 + 0.5) * step;
                     let dy = ((part / grid) as u32 as f32 + 0.5) * step;
-                    let d = unit(self.view.ray(left + column as u32 as f32 + dx, top + row as u32 as f32 + dy));
+                    let d = self.view.direction(left + column as u32 as f32 + dx, top + row as u32 as f32 + dy);
                     sum += light(d) * if d.y >= 0.0 { step * step } else { 0.0 };
                 }
                 let at = row * Tile::SIZE + column;

@@ -6,7 +6,7 @@ use crate::raster::Mesh;
 use crate::raster::form::Rings;
 use crate::scenes::script::{Script, VARIABLES, Word, operations, variable};
 use crate::simd::hash::rnd;
-use glam::{Mat3A, Vec3A, vec3a};
+use glam::{Mat3A, Vec3A, vec3, vec3a};
 
 operations! {
     /// The columns of a matrix that turns and scales the next bodies.
@@ -52,7 +52,7 @@ pub fn build(mesh: &mut Mesh, script: &mut Script, bodies: &[Rings], mut foot: V
             op::random => script.numbers[CHANCE_AT] = rnd(STREAM, seed, n[0] as u32),
             op::body => {
                 let [x, y, z, a, b, c, index, ..] = *n;
-                let size = turn * Mat3A::from_diagonal((vec3a(a, b, c) * (0.1 * unit)).into());
+                let size = turn * Mat3A::from_diagonal(vec3(a, b, c) * (0.1 * unit));
                 let at = foot + (vec3a(x, y, z) + out) * unit;
                 mesh.rings(&bodies[index as usize], &size, at, script.numbers[0] as u16);
             }

@@ -7,7 +7,7 @@ use crate::angle;
 use crate::raster::form::Rings;
 use crate::raster::{Body, Mesh};
 use crate::simd::hash::rnd;
-use glam::{Affine3A, Vec2, Vec3A, Vec3Swizzles as _, uvec2, vec2, vec3a};
+use glam::{Affine3A, Vec2, Vec3, Vec3A, Vec3Swizzles as _, uvec2, vec2, vec3a};
 use std::f32::consts::TAU;
 
 /// A blade of unit height: a triangle with two sides.
@@ -54,6 +54,6 @@ pub fn tufts() -> Vec<Mesh> {
 pub fn sink(patches: &mut [Body], eye: Vec3A) {
     for (patch, body) in patches[..COUNT].iter_mut().enumerate() {
         let near = place(patch as u32, 0.5, 0.5).distance_squared(eye.xz()) * (1.0 / 650.0);
-        body.put(Affine3A::from_translation((Vec3A::Y * -(near * near * (near * near))).into()));
+        body.put(Affine3A::from_translation(Vec3::Y * -(near * near * (near * near))));
     }
 }
