@@ -1,17 +1,19 @@
-//! Binning: which triangles each tile of a raster has to draw.
+//! Binning: which triangles of a mesh each tile of a raster has to draw.
 //!
 //! A counting sort over the bounds of triangles. A triangle is listed in every tile that its bounding box touches, and
-//! each tile lists triangles in the order of meshes, so that what a tile shows does not depend on threads.
+//! each tile lists triangles in their order in the mesh.
 
-use super::id::{Id, MESHES, PLAIN, join};
-use super::triangle::SetupMesh;
+use super::id::{Id, PLAIN, join};
+use super::triangle::Triangle;
 use crate::frame::Tile;
 
-/// The triangles of a raster by tile.
+/// The triangles of a mesh by tile, as those of mesh 0.
 #[derive(Default)]
 pub struct Bins {
-    /// Number of tiles in a row.
-    columns: u32,
+    /// Column and row of the first tile that any of them touches.
+    first: [u32; 2],
+    /// Number of columns and rows of tiles that they touch.
+    size: [u32; 2],
     /// Where each tile's part of the list begins, and where the last one ends.
     starts: Vec<u32>,
     /// The triangles of all tiles, tile by tile.
@@ -19,7 +21,7 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Sorts triangles into the tiles of a raster of `size` pixels. Meshes after the first 16,384 are left out.
+    /// Sorts triangles into tiles.
     ///
     /// ```text
     /// start[tile] = -(number of triangles of the tile)     first pass: every triangle counts its tiles down
@@ -29,21 +31,26 @@ impl Bins {
     ///
     /// Both passes are one piece of code, which finds no place to write to while the list is still empty. They go from
     /// the last triangle to the first, as the places of a tile fill from its end.
-    pub fn new(meshes: &[SetupMesh], size: [u32; 2]) -> Bins {
-        let [columns, rows] = size.map(|n| n.div_ceil(Tile::SIZE as u32));
-        let mut starts = vec![0u32; (columns * rows + 1) as usize];
+    pub fn new(triangles: &[Triangle]) -> Bins {
+        let tiles = |triangle: &Triangle| triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
+        let (mut first, mut end) = ([u32::MAX; 2], [0; 2]);
+        for triangle in triangles {
+            let [x0, x1, y0, y1] = tiles(triangle);
+            first = [first[0].min(x0), first[1].min(y0)];
+            end = [end[0].max(x1 + 1), end[1].max(y1 + 1)];
+        }
+        let size = [end[0].saturating_sub(first[0]), end[1].saturating_sub(first[1])];
+        let mut starts = vec![0u32; (size[0] * size[1] + 1) as usize];
         let mut list = Vec::new();
         for _ in 0..2 {
-            for (m, mesh) in meshes.iter().take(MESHES).enumerate().rev() {
-                for (t, triangle) in mesh.triangles.iter().enumerate().rev() {
-                    let [x0, x1, y0, y1] = triangle.bound.map(|n| n as u32 / Tile::SIZE as u32);
-                    for y in y0..y1 + 1 {
-                        for x in x0..x1 + 1 {
-                            let start = &mut starts[(y * columns + x) as usize];
-                            *start = start.wrapping_sub(1);
-                            if let Some(id) = list.get_mut(*start as usize) {
-                                *id = join(m, t, triangle.paint.texture.map_or(PLAIN, u32::from));
-                            }
+            for (number, triangle) in triangles.iter().enumerate().rev() {
+                let [x0, x1, y0, y1] = tiles(triangle);
+                for y in y0..y1 + 1 {
+                    for x in x0..x1 + 1 {
+                        let start = &mut starts[((y - first[1]) * size[0] + (x - first[0])) as usize];
+                        *start = start.wrapping_sub(1);
+                        if let Some(id) = list.get_mut(*start as usize) {
+                            *id = join(0, number, triangle.paint.texture.map_or(PLAIN, u32::from));
                         }
                     }
                 }
@@ -57,15 +64,16 @@ impl Bins {
                 list = vec![0; sum as usize];
             }
         }
-        Bins { columns, starts, list }
+        Bins { first, size, starts, list }
     }
 
     /// The triangles of the tile in a column and a row of tiles; none where there is no such tile.
-    pub fn of(&self, column: usize, row: usize) -> &[Id] {
-        let tile = row * self.columns as usize + column;
-        match self.starts.get(tile..tile + 2) {
-            Some(&[from, to]) => &self.list[from as usize..to as usize],
-            _ => &[],
+    pub fn of(&self, [column, row]: [usize; 2]) -> &[Id] {
+        let (x, y) = ((column as u32).wrapping_sub(self.first[0]), (row as u32).wrapping_sub(self.first[1]));
+        if x >= self.size[0] || y >= self.size[1] {
+            return &[];
         }
+        let tile = (y * self.size[0] + x) as usize;
+        &self.list[self.starts[tile] as usize..self.starts[tile + 1] as usize]
     }
 }

@@ -148,35 +148,37 @@ impl DepthMap {
         let (inner_left, inner_top) = (left & last, top & last);
         // Mostly all four rows of a window lie in one tile.
         let apart = inner_left.max(inner_top).simd_gt(S::u32s::splat(simd, Tile::SIZE as u32 - 4)).to_bitmask();
-        // The planes' depths in the middles of the windows' first rows.
+        // What texels are compared with: the points, or their planes in the middles of the windows' rows.
         let below = if smooth { points.slope } else { zero };
-        let (mut planes, mut slopes) = ([0f32; 16], [0f32; 16]);
-        (points.inv_depth + below * (row - points.y + 0.5)).store_slice(&mut planes[..lanes]);
-        below.store_slice(&mut slopes[..lanes]);
-        let (mut index, mut places, mut depths, mut windows) = ([0u32; 16], [0u32; 16], [0f32; 16], [0u32; 16]);
-        tile.store_slice(&mut index[..lanes]);
-        ((inner_top << 6) + inner_left).store_slice(&mut places[..lanes]);
-        points.inv_depth.store_slice(&mut depths[..lanes]);
+        let first = points.inv_depth + below * (row - points.y + 0.5);
+        let (second, twice) = (first + below, below + below);
+        let (third, fourth) = (first + twice, second + twice);
+        let depth = points.inv_depth;
+        let depths = [first.max(depth), second.max(depth), third.max(depth), fourth.max(depth)];
+        let places = (inner_top << 6) + inner_left;
+        let (mut upper, mut lower) = ([0; 16], [0; 16]);
         let mut window = [0.0; 16];
+        // Mostly all windows lie in the tile of the first one.
+        let (mut met, mut texels) = (u32::MAX, &[0.0; 0][..]);
         for lane in Bits(points.inside.to_bitmask()) {
-            let lane = lane & 15;
-            let (tile, at) = (index[lane] as usize, places[lane] as usize);
-            let plane = [planes[lane], slopes[lane]];
+            let lane = lane & (lanes - 1);
+            let (tile, at) = (tile.as_slice()[lane], places.as_slice()[lane] as usize);
             let rows = if apart >> lane & 1 == 0 {
-                let texels = &self.tile(simd, tile)[at..][..3 * Tile::SIZE + 4];
-                pairs(simd, texels, Tile::SIZE)
+                if tile != met {
+                    (met, texels) = (tile, self.tile(simd, tile as usize));
+                }
+                pairs(simd, &texels[at..][..3 * Tile::SIZE + 4], Tile::SIZE)
             } else {
-                gather(simd, self, tile, at, &mut window);
+                gather(simd, self, tile as usize, at, &mut window);
                 pairs(simd, &window, 4)
             };
-            windows[lane] = passed(simd, rows, depths[lane], plane);
+            let depth = |row: usize| f32x4::splat(simd, depths[row].as_slice()[lane]);
+            upper[lane] = rows[0].simd_le(depth(0).combine(depth(1))).to_bitmask() as u32;
+            lower[lane] = rows[1].simd_le(depth(2).combine(depth(3))).to_bitmask() as u32;
         }
-        let sums = if smooth {
-            let windows = U::<S>::from_slice(simd, &windows[..lanes]);
-            weighted(simd, windows, x - column, y - row)
-        } else {
-            counted(simd, &windows)
-        };
+        // Not shifted before: as one number compilers pack both halves by five instructions more.
+        let windows = U::<S>::from_slice(simd, &lower[..lanes]) << 8 | U::<S>::from_slice(simd, &upper[..lanes]);
+        let sums = if smooth { weighted(simd, windows, x - column, y - row) } else { counted(simd, windows) };
         sums * (1.0 / 9.0)
     }
 }
@@ -193,7 +195,7 @@ fn draw<S: Simd>(simd: S, map: &DepthMap, index: usize) -> &[f32; Tile::AREA] {
         let spare = map.spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut texels = spare.unwrap_or_else(|| Box::new([0.0; Tile::AREA]));
         texels.fill(EMPTY);
-        map.views[row / tiles as usize].draw(simd, column, row % tiles as usize, &mut texels);
+        map.views[row / tiles as usize].draw(simd, [column, row % tiles as usize], &mut texels);
         texels
     })
 }
@@ -224,16 +226,6 @@ fn pairs<S: Simd>(simd: S, texels: &[f32], stride: usize) -> [f32x8<S>; 2] {
     [row(0).combine(row(1)), row(2).combine(row(3))]
 }
 
-/// Which texels of a window of 4x4 are not nearer than a point, or than a plane: a bit for each, from the lowest on row by
-/// row. The plane is given by its depth at the first row, and by what it grows by from row to row.
-#[inline(always)]
-fn passed<S: Simd>(simd: S, [upper, lower]: [f32x8<S>; 2], inv_depth: f32, [first, below]: [f32; 2]) -> u32 {
-    let plane = f32x4::splat(simd, first).combine(f32x4::splat(simd, first + below));
-    let upper = upper.simd_le(plane.max(inv_depth)).to_bitmask() as u32;
-    let lower = lower.simd_le((plane + (below + below)).max(inv_depth)).to_bitmask() as u32;
-    lower << 8 | upper
-}
-
 /// Areas of lit texels in windows of 3x3 that begin at (`fx`, `fy`) in the first of 4x4 texels, of which a bit tells
 /// whether it is lit.
 #[inline(always)]
@@ -259,7 +251,11 @@ fn weighted<S: Simd>(simd: S, windows: U<S>, fx: F<S>, fy: F<S>) -> F<S> {
 
 /// Numbers of lit texels among the first 3x3 of windows of 4x4.
 #[inline(always)]
-fn counted<S: Simd>(simd: S, windows: &[u32; 16]) -> F<S> {
-    let counts = windows.map(|window| (window & 0x777).count_ones() as f32);
+fn counted<S: Simd>(simd: S, windows: U<S>) -> F<S> {
+    let (mut each, mut counts) = ([0; 16], [0.0; 16]);
+    windows.store_slice(&mut each[..F::<S>::LEN]);
+    for (count, window) in counts.iter_mut().zip(each) {
+        *count = (window & 0x777u32).count_ones() as f32;
+    }
     F::<S>::from_slice(simd, &counts[..F::<S>::LEN])
 }

@@ -16,11 +16,11 @@ use glam::Vec3A;
 /// Whether a point at pixel coordinates (`x`, `y`) of a light's view and at that depth is hidden by a triangle. The point
 /// has to lie within the view.
 pub fn hides(view: &LightView, x: f32, y: f32, inv_depth: f32) -> bool {
-    let [column, row] = [x, y].map(|n| (n / Tile::SIZE as f32) as usize);
+    let tile = [x, y].map(|n| (n / Tile::SIZE as f32) as usize);
     let (sx, sy) = (x as f64 * SUB as f64, y as f64 * SUB as f64);
     let inside = |&(a, b, c): &(i32, i32, i64)| a as f64 * sx + b as f64 * sy + c as f64 >= 0.0;
-    view.at(column, row).any(|(mesh, ids)| {
-        ids.iter().any(|&id| {
+    view.at(tile).any(|mesh| {
+        mesh.bins.of(tile).iter().any(|&id| {
             let t = &mesh.triangles[parts(id).1];
             t.edges.iter().all(inside) && t.inv_depth(x, y) > inv_depth
         })

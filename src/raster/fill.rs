@@ -4,7 +4,7 @@
 //! numbers, and the top-left rule is part of their constants, so each sample on a shared edge belongs to exactly one of
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
-use super::id::{Id, NOTHING, parts};
+use super::id::{Id, NOTHING, of_mesh, parts};
 use super::triangle::{SUB, SetupMesh, Triangle};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, STEPS};
@@ -43,23 +43,25 @@ pub const CENTER: SubPixel = [SUB / 2; 2];
 /// Where the value of an edge function at a tile's corner exceeds this, it has one sign in the whole tile.
 const FAR: i64 = 1 << 30;
 
-/// Draws triangles into the tile whose top left pixel is (`x`, `y`) of the raster, over what is visible there at each sample
-/// of its pixels: one triangle after the other, as most of the time their numbers have to be fetched.
+/// Draws meshes into the tile of a column and a row of tiles, over what is visible there at each sample of its pixels: one
+/// triangle after the other, as most of the time their numbers have to be fetched.
 #[simd]
-pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], ids: &[Id], x: i32, y: i32, planes: &mut [(Visible, SubPixel)]) {
-    for &id in ids {
-        let (mesh, number) = parts(id);
-        for (Visible { inv_depth, id: shown }, sample) in &mut *planes {
-            fill_one(simd, &meshes[mesh].triangles[number], [x, y], *sample, inv_depth, Some((id, shown)));
+pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], tile: [usize; 2], planes: &mut [(Visible, SubPixel)]) {
+    for (number, mesh) in meshes.iter().enumerate() {
+        for &id in mesh.bins.of(tile) {
+            let triangle = &mesh.triangles[parts(id).1];
+            for (Visible { inv_depth, id: shown }, sample) in &mut *planes {
+                fill_one(simd, triangle, tile, *sample, inv_depth, Some((of_mesh(number, id), shown)));
+            }
         }
     }
 }
 
-/// Draws the depths alone of triangles of a mesh, at the middles of pixels, into the tile whose top left pixel is `corner`.
+/// Draws the depths alone of a mesh, at the middles of pixels, into the tile of a column and a row of tiles.
 #[simd]
-pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, ids: &[Id], corner: [i32; 2], depths: &mut [f32; Tile::AREA]) {
-    for &id in ids {
-        fill_one(simd, &mesh.triangles[parts(id).1], corner, CENTER, depths, None);
+pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, tile: [usize; 2], depths: &mut [f32; Tile::AREA]) {
+    for &id in mesh.bins.of(tile) {
+        fill_one(simd, &mesh.triangles[parts(id).1], tile, CENTER, depths, None);
     }
 }
 
@@ -80,13 +82,14 @@ pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, ids: &[Id], corner: [i32;
 fn fill_one<S: Simd>(
     simd: S,
     t: &Triangle,
-    [x, y]: [i32; 2],
+    tile: [usize; 2],
     sample: SubPixel,
     depths: &mut [f32; Tile::AREA],
     mut shown: Option<(Id, &mut Box<[Id; Tile::AREA]>)>,
 ) {
     let lanes = F::<S>::LEN;
     let size = Tile::SIZE as i32;
+    let [x, y] = tile.map(|n| n as i32 * size);
     // The part of the tile that the triangle may touch, its columns from a multiple of the lanes on.
     let (mut column, x1) = ((t.bound[0] - x).max(0) & !(lanes as i32 - 1), (t.bound[1] - x).min(size - 1));
     let rows = [(t.bound[2] - y).max(0), (t.bound[3] - y).min(size - 1)];

@@ -23,6 +23,12 @@ pub fn join(mesh: usize, number: usize, texture: u32) -> Id {
     (texture << BITS | mesh as u32) << BITS | number as u32
 }
 
+/// The same triangle of another mesh, for an [`Id`] of mesh 0.
+#[inline(always)]
+pub fn of_mesh(mesh: usize, id: Id) -> Id {
+    (mesh as u32) << BITS | id
+}
+
 /// The mesh of a triangle, and its number in that.
 #[inline(always)]
 pub fn parts(id: Id) -> (usize, usize) {

@@ -4,7 +4,7 @@
 
 use super::context::ShadowLookup;
 use super::depth_map::{DepthMap, EMPTY};
-use super::id::{Id, parts};
+use super::id::{Id, of_mesh, parts};
 use super::light::{Light, Source};
 use super::lighting::{Facet, light_at, locate};
 use super::rasters::Raster;
@@ -30,31 +30,30 @@ pub struct Shown {
     pub depth: f32,
 }
 
-/// The triangles of a list that cover a point of the raster, pixels.
-fn covering<'a>(raster: &'a Raster, ids: &'a [Id], x: f32, y: f32) -> impl Iterator<Item = (Id, &'a Triangle)> {
-    let (sx, sy) = (x as f64 * SUB as f64, y as f64 * SUB as f64);
-    ids.iter().filter_map(move |&id| {
-        let triangle = &raster.meshes[parts(id).0].triangles[parts(id).1];
-        let inside = triangle.edges.iter().all(|&(a, b, c)| a as f64 * sx + b as f64 * sy + c as f64 >= 0.0);
-        inside.then_some((id, triangle))
+/// The triangles that the tile of a column and a row of tiles may show.
+pub fn listed(raster: &Raster, tile: [usize; 2]) -> impl Iterator<Item = (Id, &Triangle)> {
+    raster.meshes.iter().enumerate().flat_map(move |(number, mesh)| {
+        mesh.bins.of(tile).iter().map(move |&id| (of_mesh(number, id), &mesh.triangles[parts(id).1]))
     })
 }
 
-/// The list of triangles of the tile that holds a point.
-fn listed(raster: &Raster, x: f32, y: f32) -> &[Id] {
-    let [column, row] = [x, y].map(|n| n as usize / Tile::SIZE);
-    raster.bins.of(column, row)
+/// The triangles that cover a point of the raster, pixels.
+fn covering(raster: &Raster, x: f32, y: f32) -> impl Iterator<Item = (Id, &Triangle)> {
+    let (sx, sy) = (x as f64 * SUB as f64, y as f64 * SUB as f64);
+    listed(raster, [x, y].map(|n| n as usize / Tile::SIZE)).filter(move |(_, triangle)| {
+        triangle.edges.iter().all(|&(a, b, c)| a as f64 * sx + b as f64 * sy + c as f64 >= 0.0)
+    })
 }
 
 /// How many triangles cover a point of the raster, hidden ones too.
 pub fn overdraw(raster: &Raster, x: f32, y: f32) -> usize {
-    covering(raster, listed(raster, x, y), x, y).count()
+    covering(raster, x, y).count()
 }
 
 /// What is visible at a point of the raster.
 pub fn visible(raster: &Raster, view: &View, x: f32, y: f32) -> Option<Shown> {
     let mut nearest: Option<(f32, Id, &Triangle)> = None;
-    for (id, triangle) in covering(raster, listed(raster, x, y), x, y) {
+    for (id, triangle) in covering(raster, x, y) {
         let inv_depth = triangle.inv_depth(x, y);
         if nearest.is_none_or(|nearest| inv_depth > nearest.0) {
             nearest = Some((inv_depth, id, triangle));

@@ -1,15 +1,13 @@
 //! The bodies of a world on the rasters of the camera and of the views of lights.
 
-use super::bins::Bins;
 use super::fill::fill_depths;
-use super::id::Id;
+use super::id::MESHES;
 use super::project::Projection;
 use super::triangle::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
 use crate::simd::math::to_f32;
 use fearless_simd::Simd;
-use std::slice;
 use std::sync::OnceLock;
 
 /// Bodies on the raster of the camera.
@@ -17,20 +15,17 @@ use std::sync::OnceLock;
 pub struct Raster {
     /// The triangles of each body.
     pub meshes: Vec<SetupMesh>,
-    /// The triangles by tile.
-    pub bins: Bins,
 }
 
 impl Raster {
-    /// Sets up every body that the camera may see, and sorts its triangles into tiles.
+    /// Sets up every body that the camera may see. Bodies after the first 16,384 are left out.
     #[inline(always)]
     pub fn new(workers: &Workers, projection: &Projection, bodies: &[Body]) -> Raster {
         let setup = TriangleSetup { projection: *projection, back_faces: false, shaded: true };
-        let mut meshes: Vec<_> = bodies.iter().map(|_| SetupMesh::default()).collect();
+        let mut meshes: Vec<_> = bodies.iter().take(MESHES).map(|_| SetupMesh::default()).collect();
         let seen = meshes.iter_mut().zip(bodies).filter(|(_, body)| !projection.misses(body.bound.0, body.bound.1));
         workers.each(seen, |(mesh, body)| *mesh = setup.set_up(&body.mesh, &body.place));
-        let bins = Bins::new(&meshes, projection.size);
-        Raster { meshes, bins }
+        Raster { meshes }
     }
 }
 
@@ -46,11 +41,8 @@ struct Caster {
     body: Body,
     /// First and last column, first and last row of tiles that it may touch.
     bound: [f32; 4],
-    binned: OnceLock<BinnedMesh>,
+    mesh: OnceLock<SetupMesh>,
 }
-
-/// A body that has been set up, and its triangles by tile.
-struct BinnedMesh(SetupMesh, Bins);
 
 impl LightView {
     /// A view of those bodies that may show in it.
@@ -61,40 +53,31 @@ impl LightView {
             let (center, radius) = body.bound;
             if !projection.misses(center, radius) {
                 let bound = projection.tiles(center, radius);
-                casters.push(Caster { body: body.clone(), bound, binned: OnceLock::new() });
+                casters.push(Caster { body: body.clone(), bound, mesh: OnceLock::new() });
             }
         }
         LightView { setup, casters }
     }
 
-    /// The meshes that a tile may show, each with the triangles that do. Sets up those that no tile has needed before.
+    /// The meshes that the tile of a column and a row of tiles may show. Sets up those that no tile has needed before.
     #[inline(always)]
-    pub fn at(&self, column: usize, row: usize) -> impl Iterator<Item = (&SetupMesh, &[Id])> {
-        let [x, y] = [column, row].map(to_f32);
+    pub fn at(&self, tile: [usize; 2]) -> impl Iterator<Item = &SetupMesh> {
+        let [x, y] = tile.map(to_f32);
         self.casters.iter().filter_map(move |caster| {
             let [x0, x1, y0, y1] = caster.bound;
             // Written so that a NaN counts as everywhere.
             if x < x0 || x > x1 || y < y0 || y > y1 {
                 return None;
             }
-            let BinnedMesh(mesh, bins) = caster.binned.get_or_init(|| self.set_up(&caster.body));
-            Some((mesh, bins.of(column, row)))
+            Some(caster.mesh.get_or_init(|| self.setup.set_up(&caster.body.mesh, &caster.body.place)))
         })
-    }
-
-    #[inline(never)] // Not compiled anew for each SIMD level.
-    fn set_up(&self, body: &Body) -> BinnedMesh {
-        let mesh = self.setup.set_up(&body.mesh, &body.place);
-        let bins = Bins::new(slice::from_ref(&mesh), self.setup.projection.size);
-        BinnedMesh(mesh, bins)
     }
 
     /// Draws the nearest depths of a tile over what is there.
     #[inline(always)]
-    pub fn draw<S: Simd>(&self, simd: S, column: usize, row: usize, depths: &mut [f32; Tile::AREA]) {
-        let corner = [column, row].map(|n| (n * Tile::SIZE) as i32);
-        for (mesh, ids) in self.at(column, row) {
-            fill_depths(simd, mesh, ids, corner, depths);
+    pub fn draw<S: Simd>(&self, simd: S, tile: [usize; 2], depths: &mut [f32; Tile::AREA]) {
+        for mesh in self.at(tile) {
+            fill_depths(simd, mesh, tile, depths);
         }
     }
 }

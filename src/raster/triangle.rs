@@ -5,6 +5,7 @@
 //! `inv_depth` and, where it will be shaded, the planes of its normal over w. A fragment then needs no perspective
 //! division of its own: the common factor drops out when the normal gets its length.
 
+use super::bins::Bins;
 use super::id::TRIANGLES;
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
@@ -58,6 +59,8 @@ impl Triangle {
 pub struct SetupMesh {
     /// Its visible triangles.
     pub triangles: Vec<Triangle>,
+    /// These by tile.
+    pub bins: Bins,
 }
 
 /// Number of the first plane, in [`Corner::outside`], that triangles must be clipped at.
@@ -116,12 +119,13 @@ impl TriangleSetup {
         let matrix = self.projection.of_body(place);
         let mut corners = Vec::with_capacity(mesh.points.len());
         for (i, p) in mesh.points.iter().enumerate() {
-            let mut normal = Vec3A::ZERO;
-            if self.shaded && i < mesh.normals.len() {
-                normal = turned(place, mesh.normals[i]);
+            let mut corner = self.corner(matrix * p.extend(1.0), Vec3A::ZERO);
+            if self.shaded {
+                corner.place = place.transform_point3a(*p);
+                if i < mesh.normals.len() {
+                    corner.normal = turned(place, mesh.normals[i]);
+                }
             }
-            let mut corner = self.corner(matrix * p.extend(1.0), normal);
-            corner.place = place.transform_point3a(*p);
             corners.push(corner);
         }
         let mut out = SetupMesh::default();
@@ -155,14 +159,17 @@ impl TriangleSetup {
                     // the corners' normals `[Hanika21]`, its height in the mean is this sum over the edges.
                     let [a, b, c] = index.map(|i| &corners[i]);
                     let mut bulges = 0.0;
-                    for [a, b] in [[a, b], [b, c], [c, a]] {
-                        bulges += (b.place - a.place).dot(b.normal - a.normal).max(0.0);
+                    if self.shaded {
+                        for [a, b] in [[a, b], [b, c], [c, a]] {
+                            bulges += (b.place - a.place).dot(b.normal - a.normal).max(0.0);
+                        }
                     }
                     let paint = &mesh.paints[face.paint as usize];
                     self.push(&mut out, fan, normals, twice, Skin { paint, bulge: bulges / 12.0, face: number as u32 });
                 }
             }
         }
+        out.bins = Bins::new(&out.triangles);
         out
     }
 

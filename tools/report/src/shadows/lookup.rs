@@ -5,7 +5,6 @@ use super::truth::Pixel;
 use fearless_simd::{Level, dispatch};
 use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::Tile;
-use paprsek::raster::bins::Bins;
 use paprsek::raster::depth_map::EMPTY;
 use paprsek::raster::fill::{CENTER, Visible, fill};
 use paprsek::raster::triangle::{SetupMesh, TriangleSetup};
@@ -29,13 +28,11 @@ impl Map {
     pub fn draw(&mut self, set: &Set, projection: Projection) {
         let setup = TriangleSetup { projection, back_faces: false, shaded: false };
         let pieces: Vec<SetupMesh> = set.meshes.iter().map(|mesh| setup.set_up(mesh, &Affine3A::IDENTITY)).collect();
-        let bins = Bins::new(&pieces, projection.size);
         let (size, edge, level) = (self.size, Tile::SIZE, Level::new());
         let mut planes = [(Visible::default(), CENTER)];
         for (y, x) in (0..size / edge).flat_map(|y| (0..size / edge).map(move |x| (y, x))) {
             planes[0].0.clear(&[EMPTY; Tile::AREA]);
-            let (ids, left, top) = (bins.of(x, y), (x * edge) as i32, (y * edge) as i32);
-            dispatch!(level, simd => fill(simd, &pieces, ids, left, top, &mut planes));
+            dispatch!(level, simd => fill(simd, &pieces, [x, y], &mut planes));
             for (row, from) in planes[0].0.inv_depth.chunks(edge).enumerate() {
                 self.texels[(y * edge + row) * size + x * edge..][..edge].copy_from_slice(from);
             }

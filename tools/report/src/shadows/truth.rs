@@ -3,7 +3,6 @@
 use super::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::{Renderer, Tile};
-use paprsek::raster::bins::Bins;
 use paprsek::raster::id::parts;
 use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
 use paprsek::raster::{Bias, Projection, ShadowViews};
@@ -28,7 +27,7 @@ pub struct Pixel {
 
 /// Triangles in the sun's rasters.
 pub struct Tracer {
-    views: Vec<(DMat4, Vec<SetupMesh>, Bins)>,
+    views: Vec<(DMat4, Vec<SetupMesh>)>,
 }
 
 impl Tracer {
@@ -36,8 +35,7 @@ impl Tracer {
         let view = |projection: Projection| {
             let setup = TriangleSetup { projection, back_faces: false, shaded: false };
             let pieces: Vec<_> = set.meshes.iter().map(|mesh| setup.set_up(mesh, &Affine3A::IDENTITY)).collect();
-            let bins = Bins::new(&pieces, projection.size);
-            (projection.matrix().as_dmat4(), pieces, bins)
+            (projection.matrix().as_dmat4(), pieces)
         };
         Tracer { views: views.into_iter().map(view).collect() }
     }
@@ -45,15 +43,15 @@ impl Tracer {
     /// Whether something stands between the sun and the point, which is lifted towards it by `lift` metres.
     fn hidden(&self, point: DVec3, lift: f64) -> bool {
         let end = SIZE as f64 - 1.0;
-        for (matrix, pieces, bins) in &self.views {
+        for (matrix, pieces) in &self.views {
             let h = *matrix * point.extend(1.0);
             if h.x < 1.0 || h.y < 1.0 || h.x > end || h.y > end {
                 continue;
             }
-            let [column, row] = [h.x, h.y].map(|n| n as usize / Tile::SIZE);
-            return bins.of(column, row).iter().any(|&id| {
-                let (piece, number) = parts(id);
-                let t = &pieces[piece].triangles[number];
+            let tile = [h.x, h.y].map(|n| n as usize / Tile::SIZE);
+            let mut listed =
+                pieces.iter().flat_map(|mesh| mesh.bins.of(tile).iter().map(|&id| &mesh.triangles[parts(id).1]));
+            return listed.any(|t| {
                 let (x, y) = (h.x * SUB as f64, h.y * SUB as f64);
                 t.edges.iter().all(|&(a, b, c)| a as f64 * x + b as f64 * y + c as f64 >= 0.0) && {
                     let (dx, dy) = (h.x - t.anchor[0] as f64, h.y - t.anchor[1] as f64);
