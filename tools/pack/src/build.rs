@@ -48,12 +48,11 @@ const OWN: &str = "profile.release.package.paprsek.rustflags=['-Cllvm-args=-inli
 /// Settings of LLVM where the whole program is compiled: fewer bytes once packed, a twentieth slower.
 const LLVM: &[&str] = &[
     "-regalloc=basic",
-    "-unroll-threshold=60",
     "-disable-block-placement",
     // Instructions in an order that needs few registers, and no later one for a processor's sake: 0.9 kB, no slower.
     "-pre-RA-sched=list-hybrid",
     "-enable-misched=false",
-    // Addresses in loops stay what the source has; what is loaded, chosen or rare stays where it was. As fast, 616 bytes.
+    // Addresses in loops stay what the source has; what is chosen or rare stays where it was. As fast.
     "-mul-constant-optimization=0",
     "-x86-use-vzeroupper=0",
     "-max-store-memcpy=1",
@@ -64,7 +63,6 @@ const LLVM: &[&str] = &[
     "-x86-cmov-converter=false",
     "-enable-shrink-wrap=false",
     "-disable-constant-hoisting",
-    "-enable-load-pre=false",
 ];
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
