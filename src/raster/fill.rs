@@ -5,7 +5,8 @@
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
 use super::id::{Id, NOTHING, of_mesh, parts};
-use super::triangle::{SUB, SetupMesh, Triangle};
+use super::setup::SetupMesh;
+use super::triangle::{SUB, Triangle};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, STEPS};
 use fearless_simd::prelude::*;

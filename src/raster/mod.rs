@@ -4,8 +4,8 @@
 //!
 //! ```text
 //! once a frame    fit        views of lights, fitted to what the camera sees         (asked for by scenes)
-//!                 triangle   faces clipped, snapped and turned into planes
-//!                 bins       triangles sorted into tiles of 64x64 pixels
+//!                 setup      faces clipped, snapped and turned into planes
+//!                 bins       the triangles of each body sorted into tiles of 64x64 pixels
 //! per tile        fill       which triangle each sample shows
 //!                 collect    fragments: the part of a pixel that shows one triangle, gathered by texture
 //!                 shade      surfaces, textures, snow, haze; `illuminate` adds what each light in reach gives
@@ -69,6 +69,7 @@ pub mod mesh;
 pub mod project;
 mod queue;
 mod rasters;
+pub mod setup;
 mod shade;
 pub mod shadow_maps;
 pub mod shadow_views;

@@ -3,7 +3,7 @@
 use super::fill::fill_depths;
 use super::id::MESHES;
 use super::project::Projection;
-use super::triangle::{SetupMesh, TriangleSetup};
+use super::setup::{SetupMesh, TriangleSetup};
 use super::world::Body;
 use crate::frame::{Tile, Workers};
 use crate::simd::math::to_f32;

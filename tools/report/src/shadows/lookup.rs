@@ -7,7 +7,7 @@ use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::Tile;
 use paprsek::raster::depth_map::EMPTY;
 use paprsek::raster::fill::{CENTER, Visible, fill};
-use paprsek::raster::triangle::{SetupMesh, TriangleSetup};
+use paprsek::raster::setup::{SetupMesh, TriangleSetup};
 use paprsek::raster::{Bias, Projection};
 
 /// A shadow map.

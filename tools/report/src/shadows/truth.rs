@@ -4,7 +4,8 @@ use super::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::{Renderer, Tile};
 use paprsek::raster::id::parts;
-use paprsek::raster::triangle::{SUB, SetupMesh, TriangleSetup};
+use paprsek::raster::setup::{SetupMesh, TriangleSetup};
+use paprsek::raster::triangle::SUB;
 use paprsek::raster::{Bias, Projection, ShadowViews};
 
 /// Edge of the rasters that sort triangles, texels. Corners are snapped to 1/256 texel.
