@@ -85,7 +85,7 @@ impl RasterLayer {
         let count = if grid > 1 { 1 } else { settings.coverage };
         let Scratch { planes, queues } = scratch;
         let planes = &mut planes[..count];
-        let place = [tile.x, tile.y].map(|n| n / Tile::SIZE);
+        let at = [tile.x, tile.y].map(|n| n / Tile::SIZE);
         // Fragments are added to both planes, whether or not layers follow.
         tile.solids_matter = true;
         tile.clear();
@@ -94,7 +94,7 @@ impl RasterLayer {
         let pixel = view.pixel() / grid as f32;
         let context = ShadeContext { world, lookups, raster, view, share, pixel, threshold };
         let mut fragments = 0;
-        if raster.meshes.iter().any(|mesh| !mesh.bins.of(place).is_empty()) {
+        if raster.meshes.iter().any(|mesh| !mesh.bins.of(at).is_empty()) {
             for pass in 0..grid * grid {
                 for (k, (visible, place)) in planes.iter_mut().enumerate() {
                     *place = match grid {
@@ -103,7 +103,7 @@ impl RasterLayer {
                     };
                     visible.clear(&tile.hidden);
                 }
-                fill(simd, &raster.meshes, place, planes);
+                fill(simd, &raster.meshes, at, planes);
                 fragments += collect(simd, &context, planes, queues, tile);
             }
             for (texture, queue) in queues.iter_mut().enumerate() {
