@@ -50,7 +50,7 @@ impl Bins {
                         let start = &mut starts[((y - first[1]) * size[0] + (x - first[0])) as usize];
                         *start = start.wrapping_sub(1);
                         if let Some(id) = list.get_mut(*start as usize) {
-                            *id = join(0, number, triangle.paint.texture.map_or(PLAIN, u32::from));
+                            *id = join(number, triangle.paint.texture.map_or(PLAIN, u32::from));
                         }
                     }
                 }

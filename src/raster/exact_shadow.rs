@@ -19,12 +19,9 @@ pub fn hides(view: &LightView, x: f32, y: f32, inv_depth: f32) -> bool {
     let tile = [x, y].map(|n| (n / Tile::SIZE as f32) as usize);
     let (sx, sy) = (x as f64 * SUB as f64, y as f64 * SUB as f64);
     let inside = |&(a, b, c): &(i32, i32, i64)| a as f64 * sx + b as f64 * sy + c as f64 >= 0.0;
-    view.at(tile).any(|mesh| {
-        mesh.bins.of(tile).iter().any(|&id| {
-            let t = &mesh.triangles[parts(id).1];
-            t.edges.iter().all(inside) && t.inv_depth(x, y) > inv_depth
-        })
-    })
+    view.at(tile)
+        .flat_map(|mesh| mesh.in_tile(tile))
+        .any(|(_, t)| t.edges.iter().all(inside) && t.inv_depth(x, y) > inv_depth)
 }
 
 /// The points of a queue's fragments, lifted from their flat faces to the smooth surface that the normals at the corners

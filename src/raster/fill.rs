@@ -4,7 +4,7 @@
 //! numbers, and the top-left rule is part of their constants, so each sample on a shared edge belongs to exactly one of
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
-use super::id::{Id, NOTHING, of_mesh, parts};
+use super::id::{Id, NOTHING, of_mesh};
 use super::setup::SetupMesh;
 use super::triangle::{SUB, Triangle};
 use crate::frame::Tile;
@@ -49,8 +49,7 @@ const FAR: i64 = 1 << 30;
 #[simd]
 pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], tile: [usize; 2], planes: &mut [(Visible, SubPixel)]) {
     for (number, mesh) in meshes.iter().enumerate() {
-        for &id in mesh.bins.of(tile) {
-            let triangle = &mesh.triangles[parts(id).1];
+        for (id, triangle) in mesh.in_tile(tile) {
             for (Visible { inv_depth, id: shown }, sample) in &mut *planes {
                 fill_one(simd, triangle, tile, *sample, inv_depth, Some((of_mesh(number, id), shown)));
             }
@@ -61,8 +60,8 @@ pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], tile: [usize; 2], planes: &m
 /// Draws the depths alone of a mesh, at the middles of pixels, into the tile of a column and a row of tiles.
 #[simd]
 pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, tile: [usize; 2], depths: &mut [f32; Tile::AREA]) {
-    for &id in mesh.bins.of(tile) {
-        fill_one(simd, &mesh.triangles[parts(id).1], tile, CENTER, depths, None);
+    for (_, triangle) in mesh.in_tile(tile) {
+        fill_one(simd, triangle, tile, CENTER, depths, None);
     }
 }
 

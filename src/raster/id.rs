@@ -17,10 +17,10 @@ pub const TEXTURE: u32 = 2 * BITS;
 /// Stands for the index of a texture where there is none.
 pub const PLAIN: u32 = 15;
 
-/// The [`Id`] of triangle `number` of a mesh, with the index of its texture or [`PLAIN`].
+/// The [`Id`] of triangle `number` of mesh 0, with the index of its texture or [`PLAIN`].
 #[inline(always)]
-pub fn join(mesh: usize, number: usize, texture: u32) -> Id {
-    (texture << BITS | mesh as u32) << BITS | number as u32
+pub fn join(number: usize, texture: u32) -> Id {
+    texture << TEXTURE | number as u32
 }
 
 /// The same triangle of another mesh, for an [`Id`] of mesh 0.

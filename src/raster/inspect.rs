@@ -32,9 +32,11 @@ pub struct Shown {
 
 /// The triangles that the tile of a column and a row of tiles may show.
 pub fn listed(raster: &Raster, tile: [usize; 2]) -> impl Iterator<Item = (Id, &Triangle)> {
-    raster.meshes.iter().enumerate().flat_map(move |(number, mesh)| {
-        mesh.bins.of(tile).iter().map(move |&id| (of_mesh(number, id), &mesh.triangles[parts(id).1]))
-    })
+    raster
+        .meshes
+        .iter()
+        .enumerate()
+        .flat_map(move |(number, mesh)| mesh.in_tile(tile).map(move |(id, triangle)| (of_mesh(number, id), triangle)))
 }
 
 /// The triangles that cover a point of the raster, pixels.

@@ -6,7 +6,7 @@
 //! division of its own: the common factor drops out when the normal gets its length.
 
 use super::bins::Bins;
-use super::id::TRIANGLES;
+use super::id::{Id, TRIANGLES, parts};
 use super::mesh::{Mesh, Paint};
 use super::project::{NEAR, Projection};
 use super::triangle::{SUB, Triangle};
@@ -27,6 +27,14 @@ pub struct SetupMesh {
     pub triangles: Vec<Triangle>,
     /// These by tile.
     pub bins: Bins,
+}
+
+impl SetupMesh {
+    /// The triangles that the tile of a column and a row of tiles may show, in their order, with their [`Id`] in mesh 0.
+    #[inline(always)]
+    pub fn in_tile(&self, tile: [usize; 2]) -> impl Iterator<Item = (Id, &Triangle)> {
+        self.bins.of(tile).iter().map(|&id| (id, &self.triangles[parts(id).1]))
+    }
 }
 
 /// Number of the first plane, in [`Corner::outside`], that triangles must be clipped at.

@@ -4,7 +4,7 @@
 //! The projection is the identity, so corners are where a caller puts them.
 
 use super::random::Random;
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, dispatch};
 use glam::{Affine3A, Vec3A, Vec4, vec3a};
 use paprsek::frame::Tile;
 use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
@@ -54,17 +54,14 @@ pub struct Shown(
 
 /// Draws pieces as a frame does: by the tiles' lists.
 pub fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: SubPixel) -> Shown {
-    #[inline(always)]
-    fn tile<S: Simd>(simd: S, pieces: &[SetupMesh], at: [usize; 2], out: &mut [(Visible, SubPixel)]) {
-        fill(simd, pieces, at, out);
-    }
     let [width, height] = size.map(|n| n as usize);
     let mut shown = vec![(0.0, None); width * height];
     let mut planes = [(Visible::default(), sample)];
     for y in (0..height).step_by(Tile::SIZE) {
         for x in (0..width).step_by(Tile::SIZE) {
             planes[0].0.clear(&[0.0; Tile::AREA]);
-            dispatch!(level, simd => tile(simd, pieces, [x, y].map(|n| n / Tile::SIZE), &mut planes));
+            let tile = [x, y].map(|n| n / Tile::SIZE);
+            dispatch!(level, simd => fill(simd, pieces, tile, &mut planes));
             let out = &planes[0].0;
             for row in 0..Tile::SIZE.min(height - y) {
                 for column in 0..Tile::SIZE.min(width - x) {

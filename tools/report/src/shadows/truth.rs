@@ -3,7 +3,6 @@
 use super::set::Set;
 use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::{Renderer, Tile};
-use paprsek::raster::id::parts;
 use paprsek::raster::setup::{SetupMesh, TriangleSetup};
 use paprsek::raster::triangle::SUB;
 use paprsek::raster::{Bias, Projection, ShadowViews};
@@ -50,9 +49,7 @@ impl Tracer {
                 continue;
             }
             let tile = [h.x, h.y].map(|n| n as usize / Tile::SIZE);
-            let mut listed =
-                pieces.iter().flat_map(|mesh| mesh.bins.of(tile).iter().map(|&id| &mesh.triangles[parts(id).1]));
-            return listed.any(|t| {
+            return pieces.iter().flat_map(|mesh| mesh.in_tile(tile)).any(|(_, t)| {
                 let (x, y) = (h.x * SUB as f64, h.y * SUB as f64);
                 t.edges.iter().all(|&(a, b, c)| a as f64 * x + b as f64 * y + c as f64 >= 0.0) && {
                     let (dx, dy) = (h.x - t.anchor[0] as f64, h.y - t.anchor[1] as f64);
