@@ -1,6 +1,7 @@
 //! Haze in front of what is far, and the sky at the horizon that glossy surfaces mirror.
 
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{Lane, V3};
+use crate::simd::math;
 use fearless_simd::prelude::*;
 use glam::Vec3A;
 
@@ -27,13 +28,13 @@ impl Haze {
     /// The colour of the haze in a direction (unit).
     #[inline(always)]
     pub fn at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        V3::splat(simd, self.color) + lobe(simd, d, self.glow, 3)
+        V3::splat(simd, self.color) + V3::splat(simd, self.glow.1) * Lane(math::lobe(simd, d, self.glow.0, 3))
     }
 
     /// Light of the image of sun or moon in a direction (unit).
     #[inline(always)]
     pub fn image_at<S: Simd>(&self, simd: S, d: V3<S>) -> V3<S> {
-        lobe(simd, d, self.image, 9)
+        V3::splat(simd, self.image.1) * Lane(math::lobe(simd, d, self.image.0, 9))
     }
 }
 
@@ -42,14 +43,4 @@ impl Default for Haze {
     fn default() -> Haze {
         Haze::even(Vec3A::ZERO, 0.0)
     }
-}
-
-/// A Phong lobe of light around a direction: the cosine is squared `squarings` times.
-#[inline(always)]
-fn lobe<S: Simd>(simd: S, d: V3<S>, (towards, light): (Vec3A, Vec3A), squarings: u32) -> V3<S> {
-    let mut power = d.dot1(towards).max(F::<S>::splat(simd, 0.0));
-    for _ in 0..squarings {
-        power *= power;
-    }
-    V3::splat(simd, light) * Lane(power)
 }

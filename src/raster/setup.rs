@@ -93,14 +93,14 @@ impl TriangleSetup {
         let matrix = self.projection.of_body(place);
         let mut corners = Vec::with_capacity(mesh.points.len());
         for (i, p) in mesh.points.iter().enumerate() {
-            let mut corner = self.corner(matrix * p.extend(1.0), Vec3A::ZERO);
+            let (mut at, mut normal) = (Vec3A::ZERO, Vec3A::ZERO);
             if self.shaded {
-                corner.place = place.transform_point3a(*p);
+                at = place.transform_point3a(*p);
                 if i < mesh.normals.len() {
-                    corner.normal = turned(place, mesh.normals[i]);
+                    normal = turned(place, mesh.normals[i]);
                 }
             }
-            corners.push(corner);
+            self.corner(matrix * p.extend(1.0), at, normal, &mut corners);
         }
         let mut out = SetupMesh::default();
         let mut polygon = Vec::new();
@@ -147,8 +147,9 @@ impl TriangleSetup {
         out
     }
 
-    /// A corner at homogeneous pixels `h`.
-    fn corner(&self, h: Vec4, normal: Vec3A) -> Corner {
+    /// Adds a corner at homogeneous pixels `h` to others: as a result it would be copied.
+    #[inline(never)]
+    fn corner(&self, h: Vec4, place: Vec3A, normal: Vec3A, corners: &mut Vec<Corner>) {
         let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
         let (x, y, near) = (h.x - 0.5 * a, h.y - 0.5 * b, h.w - NEAR);
         let guard = Vec4::splat(GUARD * h.w) + vec4(x, -x, y, -y);
@@ -159,7 +160,7 @@ impl TriangleSetup {
         let (distances, outside) = ([d0, d1, d2, d3, near], !inside & 0x1ff);
         let inverse = 1.0 / h.w;
         let (x, y) = (nearest(h.x * inverse * SUB as f32), nearest(h.y * inverse * SUB as f32));
-        Corner { h, place: Vec3A::ZERO, normal, distances, outside, x, y }
+        corners.push(Corner { h, place, normal, distances, outside, x, y });
     }
 
     /// Clips a polygon, given by the numbers of its corners, to what lies beyond the near plane and within the guard band
@@ -181,7 +182,8 @@ impl TriangleSetup {
                     let [a, b] = if nearer { [this, next] } else { [next, this] }.map(|i| &corners[i]);
                     let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
                     rest.push(corners.len());
-                    corners.push(self.corner(a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k));
+                    let (h, normal) = (a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k);
+                    self.corner(h, Vec3A::ZERO, normal, corners);
                 }
             }
             *polygon = rest;
@@ -205,7 +207,7 @@ impl TriangleSetup {
         // First and last column and row, inside out until the corners have widened it.
         let mut bound = [i32::MAX, i32::MIN, i32::MAX, i32::MIN];
         let mut range = [f32::INFINITY, f32::NEG_INFINITY];
-        for (k, a) in corners.into_iter().enumerate() {
+        for (k, &a) in corners.iter().enumerate() {
             let b = corners[(k + 1) % 3];
             let inverse = 1.0 / a.h.w;
             let inv_depth = a.h.z * inverse;

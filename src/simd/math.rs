@@ -8,6 +8,7 @@
 use crate::simd::lanes::V3;
 use fearless_simd::{Simd, prelude::*};
 use fearless_simd_macros::simd;
+use glam::Vec3A;
 use std::f32::consts::{FRAC_1_PI, FRAC_1_SQRT_2, LOG2_E};
 
 /// `2^x`, with `x` clamped to -126..127: relative error 2e-7, exact for integers.
@@ -60,8 +61,19 @@ pub fn log2<S: Simd>(_simd: S, x: S::f32s) -> S::f32s {
 ///
 /// An `x` below the least normal number counts as that number, and the result is clamped to 2^-126..2^127.
 #[inline(always)]
-pub fn powf<S: Simd>(simd: S, x: S::f32s, power: f32) -> S::f32s {
+pub fn powf<S: Simd>(simd: S, x: S::f32s, power: S::f32s) -> S::f32s {
     exp2(simd, log2(simd, x.max(f32::MIN_POSITIVE)) * power)
+}
+
+/// A Phong lobe `[Phong75]`: of unit directions `d`, the cosine of the angle to the unit direction `towards`, squared
+/// `squarings` times; 0 on the far side.
+#[inline(always)]
+pub fn lobe<S: Simd>(simd: S, d: V3<S>, towards: Vec3A, squarings: u32) -> S::f32s {
+    let mut power = d.dot1(towards).max(S::f32s::splat(simd, 0.0));
+    for _ in 0..squarings {
+        power *= power;
+    }
+    power
 }
 
 /// The sine of `x` radians for |x| <= 1000: absolute error 2e-7.

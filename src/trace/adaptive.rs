@@ -63,8 +63,8 @@ impl Scratch {
     /// pixel, those of its last point.
     #[cfg(feature = "full")]
     pub fn squares(&self, unit: usize) -> impl Iterator<Item = (usize, usize, f32)> {
-        let place = move |square: &Square| (square.x / unit, square.y / unit);
-        let whole = self.whole.iter().map(move |square| (place(square), to_f32(square.size) / to_f32(unit)));
+        let place = move |square: &Square| (square.place().0 / unit, square.place().1 / unit);
+        let whole = self.whole.iter().map(move |square| (place(square), to_f32(square.size()) / to_f32(unit)));
         let edges = self.edges.iter().map(move |square| (place(square), 0.5));
         whole.chain(edges).map(|((x, y), size)| (x, y, size))
     }
@@ -114,7 +114,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     edges.clear();
     for y in (0..cutter.end.1).step_by(coarsest) {
         for x in (0..cutter.end.0).step_by(coarsest) {
-            work[0].push(Square { x, y, size: coarsest });
+            work[0].push(Square::new(x, y, coarsest));
         }
     }
     loop {
@@ -128,7 +128,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
                 match judge(simd, job, tile, grid, square) {
                     Verdict::Whole => whole.push(square),
                     Verdict::Cut => {
-                        if square.size == 2 * unit {
+                        if square.size() == 2 * unit {
                             foretell_sides(simd, job, tile, grid, square);
                         }
                         cutter.cut(work, square);
@@ -154,7 +154,8 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
 /// Asks for the samples that a square is judged by: its corners, and its centre if it is larger than a pixel of `unit`
 /// lattice steps. Where a corner is a pixel, a pixel has one sample.
 #[inline(always)]
-fn want(grid: &mut Grid, Square { x, y, size }: Square, unit: usize) {
+fn want(grid: &mut Grid, square: Square, unit: usize) {
+    let ((x, y), size) = (square.place(), square.size());
     grid.want(x, y);
     if size == 1 && unit == 1 {
         return;
@@ -170,7 +171,8 @@ fn want(grid: &mut Grid, Square { x, y, size }: Square, unit: usize) {
 /// Asks for the samples within a pixel that an edge runs through: its centre, and the middle of every side that the edge
 /// crosses.
 fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
-    grid.want(pixel.x + 1, pixel.y + 1);
+    let (x, y) = pixel.point((1, 1));
+    grid.want(x, y);
     let trusted = trusts_ends(job, tile, pixel);
     for (middle, ends) in SIDES {
         let [a, b] = grid.pair(pixel, ends);
@@ -199,7 +201,7 @@ fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, squ
 /// Whether a side of a square of one or two pixels is taken for one surface where its ends are of one. Nothing smaller than
 /// the square may be there, and at a contrast of 0 every sample is traced.
 fn trusts_ends(job: &Job, tile: &Tile, square: Square) -> bool {
-    finest(job, tile, square) >= job.pixels(square.size) && job.settings.built().contrast > 0.0
+    finest(job, tile, square) >= job.pixels(square.size()) && job.settings.built().contrast > 0.0
 }
 
 /// What becomes of a square.
@@ -217,7 +219,7 @@ enum Verdict {
 /// Judges a square whose samples are there.
 #[inline(always)]
 fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) -> Verdict {
-    let size = square.size;
+    let size = square.size();
     let unit = job.unit();
     if size == 1 {
         return Verdict::Whole;
@@ -242,7 +244,8 @@ fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) 
 
 /// Edge of the largest square that the guard lets pass where a square is, pixels.
 #[inline(always)]
-fn finest(job: &Job, tile: &Tile, Square { x, y, .. }: Square) -> usize {
+fn finest(job: &Job, tile: &Tile, square: Square) -> usize {
+    let (x, y) = square.place();
     job.guard.finest(tile.x + job.pixels(x), tile.y + job.pixels(y))
 }
 
@@ -255,7 +258,7 @@ fn follow(grid: &Grid, cutter: &Cutter, work: &mut [Vec<Square>; LEVELS], whole:
     while at < whole.len() {
         let square = whole[at];
         // Edges are followed down to pixels, not into them: samples on a pixel's border are half a pixel apart at most.
-        if square.size == cutter.unit || !grid.entered(square) {
+        if square.size() == cutter.unit || !grid.entered(square) {
             at += 1;
             continue;
         }
@@ -281,12 +284,13 @@ impl Cutter {
     ///
     /// Where a corner is a pixel, squares of 4 are cut into their pixels at once. That is exact, and takes no more rays than
     /// trying squares of 2, whose middle is a fourth of what they could save.
-    fn cut(&self, work: &mut [Vec<Square>; LEVELS], Square { x, y, size }: Square) {
+    fn cut(&self, work: &mut [Vec<Square>; LEVELS], square: Square) {
+        let ((x, y), size) = (square.place(), square.size());
         let part = size >> if self.unit == 1 && size == 4 { 2 } else { 1 };
         let work = &mut work[(self.coarsest / part).trailing_zeros() as usize];
         for y in (y..self.end.1.min(y + size)).step_by(part) {
             for x in (x..self.end.0.min(x + size)).step_by(part) {
-                work.push(Square { x, y, size: part });
+                work.push(Square::new(x, y, part));
             }
         }
     }
@@ -299,10 +303,10 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
     let unit = job.unit();
     ramps.prepare(job.settings.antialias);
     for &square in whole.iter() {
-        let Square { x, y, size } = square;
-        if size > unit {
+        if square.size() > unit {
             fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
         } else if unit == 1 {
+            let (x, y) = square.place();
             fill::add(simd, job, tile, deferred, square, grid.at(x, y), share, &[0.0; REMEMBERED]);
         } else {
             let corners = grid.corners(square);
@@ -320,25 +324,25 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
     }
 }
 
-/// The numbers that the corners of a square foretell of its centre: their mean.
+/// Writes the numbers that the corners of a square foretell of its centre: their mean.
 #[simd]
-fn foretell<S: Simd>(simd: S, c: [&Sample; 4]) -> [f32; NUMBERS] {
-    let mut mean = [0.0; NUMBERS];
+fn foretell<S: Simd>(simd: S, c: [&Sample; 4], mean: &mut [f32; NUMBERS]) {
     for i in (0..c[0].used()).step_by(F::<S>::LEN) {
         let sum = sample::load(simd, &c[0].numbers, i)
             + sample::load(simd, &c[1].numbers, i)
             + sample::load(simd, &c[2].numbers, i)
             + sample::load(simd, &c[3].numbers, i);
-        sample::store::<S>(sum * 0.25, &mut mean, i);
+        sample::store::<S>(sum * 0.25, mean, i);
     }
-    mean
 }
 
 /// The sample in the middle of samples that have one path signature.
 #[inline(always)]
 fn mean<S: Simd>(simd: S, samples: [&Sample; 4]) -> Sample {
     let Sample { path_signature, count, object, .. } = *samples[0];
-    Sample { path_signature, count, object, numbers: foretell(simd, samples) }
+    let mut mean = Sample { path_signature, count, object, numbers: [0.0; NUMBERS] };
+    foretell(simd, samples, &mut mean.numbers);
+    mean
 }
 
 /// Whether a square of `size` pixels may be interpolated whose corners have one path signature.
@@ -350,7 +354,8 @@ fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sam
     if c[0].path_signature != centre.path_signature {
         return false;
     }
-    let mean = foretell(simd, c);
+    let mut mean = [0.0; NUMBERS];
+    foretell(simd, c, &mut mean);
     let [found, foretold] = [&centre.numbers, &mean];
     let mut error = distance(&found[..3], &foretold[..3]);
     let mut level = found[0] + found[1] + found[2];

@@ -12,7 +12,7 @@ use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3};
 use crate::simd::lanes::Bits;
 use crate::texture;
-use fearless_simd::prelude::*;
+use fearless_simd::{f32x16, prelude::*};
 use fearless_simd_macros::simd;
 
 /// The most hits that are added at once.
@@ -112,10 +112,11 @@ impl Deferred {
         for (to, pixel) in queue.pixel[to.clone()].iter_mut().zip(pixels) {
             *to = first + pixel;
         }
-        queue.footprint[to.clone()].copy_from_slice(&footprint[..RUN]);
+        // Vectors, as the 64 kB build has no fast copies of slices.
+        f32x16::from_slice(simd, &footprint[..RUN]).store_slice(&mut queue.footprint[to.clone()]);
         for axis in 0..3 {
-            queue.gain[axis][to.clone()].copy_from_slice(&gain[axis][..RUN]);
-            queue.point[axis][to.clone()].copy_from_slice(&point[axis][..RUN]);
+            f32x16::from_slice(simd, &gain[axis][..RUN]).store_slice(&mut queue.gain[axis][to.clone()]);
+            f32x16::from_slice(simd, &point[axis][..RUN]).store_slice(&mut queue.point[axis][to.clone()]);
         }
         queue.count += count;
         if queue.count >= BLOCK {

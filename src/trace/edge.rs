@@ -41,7 +41,7 @@ impl Groups {
     /// of its neighbours tell the shares of two surfaces too.
     #[inline(always)]
     pub fn of_pixel<S: Simd>(&mut self, simd: S, grid: &Grid, pixel: Square, straight: bool) -> &[Group] {
-        let Square { x, y, .. } = pixel;
+        let (x, y) = pixel.place();
         self.count = 0;
         // The centre stands for a quarter of the pixel, the middle of a side for an eighth, a corner for a sixteenth. Sides
         // without a sample see what their ends see, and leave their share to them.

@@ -30,7 +30,7 @@ pub fn add<S: Simd>(
 ) {
     let [red, green, blue, inv_depth, ..] = sample.numbers;
     // The mask changes nothing; it tells the compiler that the index is inside the tile.
-    let pixel = (job.pixels(square.y) * Tile::SIZE + job.pixels(square.x)) & (Tile::AREA - 1);
+    let pixel = first_pixel(job, square) & (Tile::AREA - 1);
     tile.red[pixel] += red * share;
     tile.green[pixel] += green * share;
     tile.blue[pixel] += blue * share;
@@ -39,6 +39,13 @@ pub fn add<S: Simd>(
         tile.coverage[pixel] += if inv_depth > 0.0 { share } else { 0.0 };
     }
     deferred.push(simd, job.context.world, tile, pixel as u16, sample, share, footprint);
+}
+
+/// The index in the tile of a square's first pixel.
+#[inline(always)]
+fn first_pixel(job: &Job, square: Square) -> usize {
+    let (x, y) = square.place();
+    job.pixels(y) * Tile::SIZE + job.pixels(x)
 }
 
 /// The footprint of each textured hit of a pixel, metres: the longer of the two lines through the middle of the pixel's
@@ -121,18 +128,18 @@ impl Ramps {
 }
 
 /// The numbers of a sample, bilinear over a square: `start + u along + v (down + u twist)`.
-struct Patch {
-    start: [f32; NUMBERS],
+struct Patch<'a> {
+    start: &'a [f32; NUMBERS],
     along: [f32; NUMBERS],
     down: [f32; NUMBERS],
     twist: [f32; NUMBERS],
 }
 
-impl Patch {
+impl Patch<'_> {
     #[inline(always)]
-    fn new<S: Simd>(simd: S, corners: [&Sample; 4]) -> Patch {
+    fn new<S: Simd>(simd: S, corners: [&Sample; 4]) -> Patch<'_> {
         let zero = [0.0; NUMBERS];
-        let mut patch = Patch { start: corners[0].numbers, along: zero, down: zero, twist: zero };
+        let mut patch = Patch { start: &corners[0].numbers, along: zero, down: zero, twist: zero };
         for i in (0..corners[0].used()).step_by(F::<S>::LEN) {
             let a = sample::load(simd, &corners[0].numbers, i);
             let b = sample::load(simd, &corners[1].numbers, i);
@@ -222,8 +229,8 @@ pub fn interpolate<S: Simd>(
 ) {
     let corners = grid.corners(square);
     let patch = Patch::new(simd, corners);
-    let size = job.pixels(square.size);
-    let first = job.pixels(square.y) * Tile::SIZE + job.pixels(square.x);
+    let size = job.pixels(square.size());
+    let first = first_pixel(job, square);
     let filter = job.settings.antialias;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
     let rows = ramps.rows.get_or_insert_with(|| Box::new([[0.0; BLOCK]; NUMBERS]));

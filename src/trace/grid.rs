@@ -20,22 +20,39 @@ type Place = (usize, usize);
 pub const SIDES: [(Place, [Place; 2]); 4] =
     [((1, 0), [(0, 0), (2, 0)]), ((0, 1), [(0, 0), (0, 2)]), ((2, 1), [(2, 0), (2, 2)]), ((1, 2), [(0, 2), (2, 2)])];
 
-/// A square of the lattice. All numbers are lattice steps from the tile's top left.
+/// A square of the lattice. It is one word, since squares are copied a lot.
 #[derive(Clone, Copy)]
+#[repr(align(8))]
 pub struct Square {
-    /// Left edge.
-    pub x: usize,
-    /// Top edge.
-    pub y: usize,
-    /// Length of an edge.
-    pub size: usize,
+    x: u16,
+    y: u16,
+    size: u16,
 }
 
 impl Square {
+    /// The square whose top left is at the column `x` and the row `y` of the lattice, and whose edges have `size` steps.
+    #[inline(always)]
+    pub fn new(x: usize, y: usize, size: usize) -> Square {
+        Square { x: x as u16, y: y as u16, size: size as u16 }
+    }
+
+    /// Left column and top row.
+    #[inline(always)]
+    pub fn place(self) -> (usize, usize) {
+        (self.x.into(), self.y.into())
+    }
+
+    /// Length of an edge, lattice steps.
+    #[inline(always)]
+    pub fn size(self) -> usize {
+        self.size.into()
+    }
+
     /// The lattice point at a place in it. The edge has to be even.
     #[inline(always)]
-    pub fn point(self, place: Place) -> (usize, usize) {
-        (self.x + place.0 * (self.size / 2), self.y + place.1 * (self.size / 2))
+    pub fn point(self, (column, row): Place) -> (usize, usize) {
+        let ((x, y), half) = (self.place(), self.size() / 2);
+        (x + column * half, y + row * half)
     }
 }
 
@@ -137,13 +154,15 @@ impl Grid {
     }
 
     /// The corners of a square: top left, top right, bottom left, bottom right.
-    pub fn corners(&self, Square { x, y, size }: Square) -> [&Sample; 4] {
+    pub fn corners(&self, square: Square) -> [&Sample; 4] {
+        let ((x, y), size) = (square.place(), square.size());
         [self.at(x, y), self.at(x + size, y), self.at(x, y + size), self.at(x + size, y + size)]
     }
 
     /// The sample in the middle of a square.
-    pub fn centre(&self, Square { x, y, size }: Square) -> &Sample {
-        self.at(x + size / 2, y + size / 2)
+    pub fn centre(&self, square: Square) -> &Sample {
+        let (x, y) = square.point((1, 1));
+        self.at(x, y)
     }
 
     /// How the edge between two surfaces lies in a pixel whose corners see both, as its neighbours tell: up to 1/4 where the
@@ -154,7 +173,8 @@ impl Grid {
     #[inline(never)]
     pub fn lean(&self, pixel: Square, first: u32) -> f32 {
         let mut lean = 0.0;
-        let start = pixel.y * ROW + pixel.x;
+        let (x, y) = pixel.place();
+        let start = y * ROW + x;
         // Side by side, around the pixel.
         let (mut near, mut step, mut next) = (start, 2, 2 * ROW);
         loop {
@@ -210,7 +230,8 @@ impl Grid {
 
     /// Whether an edge enters a square between two corners: whether a neighbour's sample on its border has another path
     /// signature than its corners.
-    pub fn entered(&self, Square { x, y, size }: Square) -> bool {
+    pub fn entered(&self, square: Square) -> bool {
+        let ((x, y), size) = (square.place(), square.size());
         let path_signature = self.at(x, y).path_signature;
         self.crossed((x, y), (1, 0), size, path_signature)
             || self.crossed((x, y), (0, 1), size, path_signature)

@@ -100,27 +100,18 @@ fn disc_point(k: u32, n: u32) -> (f32, f32) {
     (radius * cos, radius * sin)
 }
 
-/// The background's light in a unit direction; in lanes that are not `wanted` it may lack the glow.
+/// The background's light in a unit direction.
 #[inline(always)]
-pub fn background<S: Simd>(simd: S, background: &Background, direction: V3<S>, wanted: M<S>) -> V3<S> {
-    let zero = F::<S>::splat(simd, 0.0);
+pub fn background<S: Simd>(simd: S, background: &Background, direction: V3<S>) -> V3<S> {
     let Background { horizon, zenith, glow } = *background;
-    let base = V3::splat(simd, horizon) + V3::splat(simd, zenith - horizon) * Lane(direction.y.max(zero));
-    if glow.exponent == 0.0 {
-        return base;
-    }
-    let cosine = direction.dot1(glow.direction);
-    let near = noticeable(simd, cosine, F::<S>::splat(simd, glow.exponent));
-    if !(wanted & near).any_true() {
-        return base;
-    }
-    // The floor keeps the logarithm finite; below it nothing of the glow is left.
-    let cosine = cosine.max(F::<S>::splat(simd, 1e-6));
-    base + V3::splat(simd, glow.color) * Lane(near.select(math::powf(simd, cosine, glow.exponent), zero))
+    let height = direction.y.max(F::<S>::splat(simd, 0.0));
+    V3::splat(simd, horizon)
+        + V3::splat(simd, zenith - horizon) * Lane(height)
+        + V3::splat(simd, glow.color) * Lane(math::lobe(simd, direction, glow.direction, glow.squarings))
 }
 
 /// Where the power of a cosine can be seen: it is less than e^-24 elsewhere, since `g^n <= e^(n (g - 1))`. That is below
-/// half an ulp of whatever light it is added to, and most highlights and glows are that far from most directions.
+/// half an ulp of whatever light it is added to, and most highlights are that far from most directions.
 #[inline(always)]
 pub fn noticeable<S: Simd>(simd: S, cosine: F<S>, exponent: F<S>) -> M<S> {
     ((F::<S>::splat(simd, 1.0) - cosine) * exponent).simd_lt(F::<S>::splat(simd, 24.0))

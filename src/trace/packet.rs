@@ -189,7 +189,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
         let lanes = active & object.simd_ne(U::<S>::splat(simd, NOWHERE));
         let missed = (active & !lanes) | node.faint;
         if missed.any_true() {
-            let behind = background(simd, &world.background, node.ray.direction, missed);
+            let behind = background(simd, &world.background, node.ray.direction);
             light = light + behind.mulv(weight).masked(simd, missed);
         }
         let mut states = U::<S>::splat(simd, UNLIT);
@@ -332,7 +332,7 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         let shiny = lit & glint.simd_gt(zero) & shininess.simd_gt(zero) & near;
         let mut shine = zero;
         if shiny.any_true() {
-            let power = math::exp2(simd, math::log2(simd, glint) * hit.surface.numbers[EXPONENT]);
+            let power = math::powf(simd, glint, hit.surface.numbers[EXPONENT]);
             shine = shiny.select(power * shininess, zero);
         }
         // Lanes that are not lit may have anything, also what is not a number.

@@ -283,9 +283,6 @@ fn gathered(z: f32, half: f32) -> f32 {
 /// The background's light in a unit direction.
 pub fn background(world: &World, d: Vec3A) -> Vec3A {
     let Background { horizon, zenith, glow } = world.background;
-    let base = horizon + (zenith - horizon) * d.y.max(0.0);
-    if glow.exponent == 0.0 {
-        return base;
-    }
-    base + glow.color * f64::from(d.dot(glow.direction).max(0.0)).powf(glow.exponent.into()) as f32
+    let lobe = f64::from(d.dot(glow.direction).max(0.0)).powi(1 << glow.squarings);
+    horizon + (zenith - horizon) * d.y.max(0.0) + glow.color * lobe as f32
 }

@@ -156,13 +156,13 @@ pub struct Glow {
     pub direction: Vec3A,
     /// Light that it adds in its middle.
     pub color: Vec3A,
-    /// Exponent of the cosine by which it falls off; 0 for no glow.
-    pub exponent: f32,
+    /// How often the cosine of the angle to it is squared: 3 means the eighth power.
+    pub squarings: u32,
 }
 
 impl Glow {
     /// No glow.
-    pub const NONE: Glow = Glow { direction: Vec3A::Y, color: Vec3A::ZERO, exponent: 0.0 };
+    pub const NONE: Glow = Glow { direction: Vec3A::Y, color: Vec3A::ZERO, squarings: 0 };
 }
 
 /// What a ray sees that meets no body: a vertical gradient, and a glow on top.

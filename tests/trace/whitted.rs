@@ -483,7 +483,7 @@ fn everything() -> (World, Camera) {
         Light::directional(vec3a(-0.5, FRAC_1_SQRT_2 as f32, 0.5), vec3a(0.2, 0.3, 0.4)),
     ];
     world.ambient = Vec3A::splat(0.1);
-    let glow = Glow { direction: vec3a(0.0, 0.6, -0.8), color: vec3a(0.5, 0.3, 0.1), exponent: 20.0 };
+    let glow = Glow { direction: vec3a(0.0, 0.6, -0.8), color: vec3a(0.5, 0.3, 0.1), squarings: 4 };
     world.background = Background { horizon: vec3a(0.6, 0.6, 0.7), zenith: vec3a(0.1, 0.3, 0.6), glow };
     (world, Camera::look_at(vec3a(0.5, 1.8, 6.5), vec3a(0.0, 0.8, 0.0), 0.8, 0.05))
 }

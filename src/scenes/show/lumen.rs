@@ -85,7 +85,7 @@ operations! {
     /// `lamp(r, g, b, radius)`: light from a ball at the place, metres.
     lamp = 52;
     /// `world(...)`, the last operation: the ambient light; the sky's colours at the horizon, at the zenith, and of a
-    /// glow towards the place; a tenth of the glow's exponent; the greatest number of rays in a path.
+    /// glow towards the place; how often its cosine is squared; the greatest number of rays in a path.
     world = 53;
 }
 
@@ -201,7 +201,7 @@ impl Set {
                 }
                 _ => {
                     self.world.ambient = vector(0);
-                    let glow = Glow { direction: unit(at), color: vector(9), exponent: 10.0 * n[12] };
+                    let glow = Glow { direction: unit(at), color: vector(9), squarings: n[12] as u32 };
                     self.world.background = Background { horizon: vector(3), zenith: vector(6), glow };
                     self.world.max_level = n[13] as u32;
                     return;
@@ -315,7 +315,7 @@ const DOOR: &[u8] = script! {
     // What is left of the night, from above.
     at(-2.0, 4.6, 10.0); lamp(0.1, 0.15, 0.26, 0.0);
     ..SUNRISE;
-    world(0.06, 0.085, 0.15, 0.5, 0.27, 0.2, 0.1, 0.2, 0.45, 0.45, 0.32, 0.12, 2.4, 6.0);
+    world(0.06, 0.085, 0.15, 0.5, 0.27, 0.2, 0.1, 0.2, 0.45, 0.45, 0.32, 0.12, 4.0, 6.0);
 };
 const SUNRISE: [Word; 4] = words!(-0.1, 0.14, -1.0; op::at);
 
@@ -341,7 +341,7 @@ const TABLE: &[u8] = script! {
     ..rolling(0.3, 1.1, 3.0, -0.25, 3.335); ..ANGLE; ..ROLL; ..WHITE; texture(); ..BALL_POLISH; ball(0.3);
     at(-0.75, 0.5, 0.1); sun(1.15, 0.95, 0.7, 0.0);
     at(-0.5, 0.3, -0.8);
-    world(0.13, 0.16, 0.19, 0.2, 0.36, 0.4, 0.02, 0.06, 0.12, 0.5, 0.4, 0.2, 0.8, 5.0);
+    world(0.13, 0.16, 0.19, 0.2, 0.36, 0.4, 0.02, 0.06, 0.12, 0.5, 0.4, 0.2, 3.0, 5.0);
 };
 
 /// A ball on the table that rolls along x, from `start` at `speed`, metres per second; leaves on the stack the angle by
@@ -372,7 +372,7 @@ const COLUMNS: &[u8] = script! {
     ..plain([0.3, 0.18, 0.06]); texture(); surface(0.75, 0.52, 0.25, 0.6, 6.0, 0.0, 1.0);
     at(cos(0.42 * TIME) * -1.2, 0.6, TIME * -1.0); ball(0.6);
     at(0.8, 0.55, -0.3); sun(1.7, 1.25, 0.8, 0.0);
-    world(0.14, 0.19, 0.28, 0.58, 0.52, 0.46, 0.0, 0.08, 0.4, 0.5, 0.35, 0.15, 0.6, 4.0);
+    world(0.14, 0.19, 0.28, 0.58, 0.52, 0.46, 0.0, 0.08, 0.4, 0.5, 0.35, 0.15, 3.0, 4.0);
 };
 /// A column of a row, by the count.
 const TURNING_COLUMN: [Word; 70] = fragment! {
@@ -420,7 +420,7 @@ const DANCE: &[u8] = script! {
     }
     at(1.5, 5.5, -2.0); lamp(1.2, 0.95, 0.65, 0.4);
     ..MOON; sun(0.1, 0.2, 0.42, 0.0);
-    world(0.07, 0.08, 0.12, 0.03, 0.05, 0.11, 0.02, 0.02, 0.05, 0.16, 0.18, 0.3, 0.6, 4.0);
+    world(0.07, 0.08, 0.12, 0.03, 0.05, 0.11, 0.02, 0.02, 0.05, 0.16, 0.18, 0.3, 3.0, 4.0);
 };
 const MOON: [Word; 4] = words!(0.99, 0.15, 0.07; op::at);
 
@@ -461,6 +461,6 @@ const SUNSET: &[u8] = script! {
     at(-8.0, -1.5, -17.0); column(6.0, 0.5);
     ..LOW_SUN;
     push(0.1, 0.11, 0.2, 0.6 * DAY + 0.12, 0.2 * DAY + 0.1, 0.2, 0.02, 0.05, 0.2);
-    world(LIGHT, LIGHT * 0.45, LIGHT * 0.12, 1.8, 6.0);
+    world(LIGHT, LIGHT * 0.45, LIGHT * 0.12, 4.0, 6.0);
 };
 const LOW_SUN: [Word; 8] = words!(0.17, 0.2 * DAY + -0.05, -1.0; op::at);

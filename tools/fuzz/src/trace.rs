@@ -32,7 +32,7 @@ fn world(input: &mut Input) -> World {
         background: Background {
             horizon: input.color(),
             zenith: input.color(),
-            glow: Glow { direction: input.direction(), color: input.color(), exponent: input.number(0.0, 500.0) },
+            glow: Glow { direction: input.direction(), color: input.color(), squarings: input.below(10) as u32 },
         },
         max_level: input.below(6) as u32,
         ..World::EMPTY

@@ -39,7 +39,7 @@ pub fn apply<S: Simd>(simd: S, function: Function, arguments: &[f32]) -> Vec<f32
             Function::Exp2 => math::exp2(simd, x),
             Function::Opacity => math::opacity(simd, x)[0],
             Function::Log2 => math::log2(simd, x),
-            Function::Powf(power) => math::powf(simd, x, power),
+            Function::Powf(power) => math::powf(simd, x, S::f32s::splat(simd, power)),
             Function::Sin => math::sin(simd, x),
         };
         y.store_slice(chunk);
