@@ -118,9 +118,9 @@ const SRGB: Curve = Curve {
 #[allow(clippy::too_many_arguments)] // Three channels and where they lie.
 pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], g: &[f32], b: &[f32], out: &mut [u32]) {
     let curve = match transfer {
-        Transfer::Gamma22 => GAMMA22,
-        Transfer::Linear => LINEAR,
-        Transfer::Srgb => SRGB,
+        Transfer::Gamma22 => &GAMMA22,
+        Transfer::Linear => &LINEAR,
+        Transfer::Srgb => &SRGB,
     };
     let mut turns = x0.wrapping_mul(STEP_X).wrapping_add(y.wrapping_mul(STEP_Y));
     let mut done = 0;
@@ -130,13 +130,13 @@ pub fn encode<S: Simd>(simd: S, transfer: Transfer, x0: u32, y: u32, r: &[f32], 
         if let (Some(r), Some(g), Some(b), Some(out)) =
             (r.first_chunk(), g.first_chunk(), b.first_chunk(), out.first_chunk_mut())
         {
-            encode_block(simd, &curve, turns, [r, g, b], out);
+            encode_block(simd, curve, turns, [r, g, b], out);
         } else {
             let (mut rest, mut pixels) = ([[0.0; BLOCK]; 3], [0; BLOCK]);
             for (block, plane) in rest.iter_mut().zip([r, g, b]) {
                 block[..plane.len()].copy_from_slice(plane);
             }
-            encode_block(simd, &curve, turns, [&rest[0], &rest[1], &rest[2]], &mut pixels);
+            encode_block(simd, curve, turns, [&rest[0], &rest[1], &rest[2]], &mut pixels);
             out.copy_from_slice(&pixels[..out.len()]);
         }
         turns = turns.wrapping_add(STEP_X.wrapping_mul(BLOCK as u32));

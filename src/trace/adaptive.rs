@@ -174,7 +174,7 @@ fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
     let (x, y) = pixel.point((1, 1));
     grid.want(x, y);
     let trusted = trusts_ends(job, tile, pixel);
-    for (middle, ends) in SIDES {
+    for &(middle, ends) in &SIDES {
         let [a, b] = grid.pair(pixel, ends);
         if !(trusted && a.path_signature == b.path_signature) {
             let (x, y) = pixel.point(middle);
@@ -189,11 +189,13 @@ fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, squ
     if !job.settings.antialias || same_path(grid.corners(square)) || !trusts_ends(job, tile, square) {
         return;
     }
-    for (middle, ends) in SIDES {
+    let mut sample = Sample::default();
+    for &(middle, ends) in &SIDES {
         let (x, y) = square.point(middle);
         let [a, b] = grid.pair(square, ends);
         if !grid.has(x, y) && a.path_signature == b.path_signature {
-            grid.foretell(x, y, mean(simd, [a, b, a, b]));
+            mean(simd, [a, b, a, b], &mut sample);
+            grid.foretell(x, y, &sample);
         }
     }
 }
@@ -302,6 +304,7 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
     let Scratch { grid, whole, edges, deferred, ramps, .. } = scratch;
     let unit = job.unit();
     ramps.prepare(job.settings.antialias);
+    let mut middle = Sample::default();
     for &square in whole.iter() {
         if square.size() > unit {
             fill::interpolate(simd, job, tile, deferred, ramps, grid, square);
@@ -311,7 +314,8 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
         } else {
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
-            fill::add(simd, job, tile, deferred, square, &mean(simd, corners), share, &footprint);
+            mean(simd, corners, &mut middle);
+            fill::add(simd, job, tile, deferred, square, &middle, share, &footprint);
         }
     }
     let mut groups = Groups::default();
@@ -336,13 +340,11 @@ fn foretell<S: Simd>(simd: S, c: [&Sample; 4], mean: &mut [f32; NUMBERS]) {
     }
 }
 
-/// The sample in the middle of samples that have one path signature.
+/// Writes the sample in the middle of samples that have one path signature.
 #[inline(always)]
-fn mean<S: Simd>(simd: S, samples: [&Sample; 4]) -> Sample {
-    let Sample { path_signature, count, object, .. } = *samples[0];
-    let mut mean = Sample { path_signature, count, object, numbers: [0.0; NUMBERS] };
+fn mean<S: Simd>(simd: S, samples: [&Sample; 4], mean: &mut Sample) {
+    (mean.path_signature, mean.count, mean.object) = (samples[0].path_signature, samples[0].count, samples[0].object);
     foretell(simd, samples, &mut mean.numbers);
-    mean
 }
 
 /// Whether a square of `size` pixels may be interpolated whose corners have one path signature.

@@ -10,7 +10,7 @@ use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3};
-use crate::simd::lanes::Bits;
+use crate::simd::lanes::{Bits, F};
 use crate::texture;
 use fearless_simd::{f32x16, prelude::*};
 use fearless_simd_macros::simd;
@@ -151,6 +151,15 @@ impl Deferred {
     }
 }
 
+/// Moves what stands behind a block to its start.
+#[inline(always)]
+fn keep_rest<S: Simd>(simd: S, numbers: &mut [f32; ROOM]) {
+    for at in (0..RUN).step_by(F::<S>::LEN) {
+        let rest = F::<S>::from_slice(simd, &numbers[BLOCK + at..][..F::<S>::LEN]);
+        rest.store_slice(&mut numbers[at..][..F::<S>::LEN]);
+    }
+}
+
 /// Evaluates the texture of the first block of a queue, adds the light to its pixels and takes it out of the queue.
 #[simd]
 fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32, filter: bool, tile: &mut Tile) {
@@ -169,15 +178,17 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32,
         color.copy_from_slice(&point[..BLOCK]);
     }
     texture::shade(simd, albedo, &mut color, count, footprint);
-    for (channel, plane) in [&mut tile.red, &mut tile.green, &mut tile.blue].into_iter().enumerate() {
-        let (color, gain) = (&mut color[channel], &mut queue.gain[channel]);
-        for (&pixel, (color, gain)) in queue.pixel[..count].iter().zip(color.iter().zip(&*gain)) {
-            plane[pixel as usize & (Tile::AREA - 1)] += color * gain;
-        }
-        gain.copy_within(BLOCK.., 0);
-        queue.point[channel].copy_within(BLOCK.., 0);
+    let Tile { red, green, blue, .. } = tile;
+    for (i, &pixel) in queue.pixel[..count].iter().enumerate() {
+        let pixel = pixel as usize & (Tile::AREA - 1);
+        red[pixel] += color[0][i] * queue.gain[0][i];
+        green[pixel] += color[1][i] * queue.gain[1][i];
+        blue[pixel] += color[2][i] * queue.gain[2][i];
+    }
+    for numbers in queue.gain.iter_mut().chain(&mut queue.point) {
+        keep_rest(simd, numbers);
     }
     queue.pixel.copy_within(BLOCK.., 0);
-    queue.footprint.copy_within(BLOCK.., 0);
+    keep_rest(simd, &mut queue.footprint);
     queue.count -= count;
 }

@@ -49,7 +49,7 @@ impl Groups {
         let corner = if centre { SIXTEENTH } else { 2.0 * SIXTEENTH };
         let mut weights = [[corner, 0.0, corner], [0.0; 3], [corner, 0.0, corner]];
         weights[1][1] = if centre { 4.0 * SIXTEENTH } else { 0.0 };
-        for ((column, row), ends) in SIDES {
+        for &((column, row), ends) in &SIDES {
             if grid.has(x + column, y + row) {
                 weights[row][column] = 2.0 * SIXTEENTH;
             } else {

@@ -97,6 +97,7 @@ pub struct Ramps {
     by_size: [Vec<Ramp>; 5],
     /// Memory for what lies between the corners of a square; no value in it survives the square.
     rows: Option<Box<Rows>>,
+    patch: Patch,
 }
 
 impl Ramps {
@@ -128,28 +129,28 @@ impl Ramps {
 }
 
 /// The numbers of a sample, bilinear over a square: `start + u along + v (down + u twist)`.
-struct Patch<'a> {
-    start: &'a [f32; NUMBERS],
+#[derive(Default)]
+struct Patch {
+    start: [f32; NUMBERS],
     along: [f32; NUMBERS],
     down: [f32; NUMBERS],
     twist: [f32; NUMBERS],
 }
 
-impl Patch<'_> {
+impl Patch {
+    /// Spans the square between four corners.
     #[inline(always)]
-    fn new<S: Simd>(simd: S, corners: [&Sample; 4]) -> Patch<'_> {
-        let zero = [0.0; NUMBERS];
-        let mut patch = Patch { start: &corners[0].numbers, along: zero, down: zero, twist: zero };
+    fn span<S: Simd>(&mut self, simd: S, corners: [&Sample; 4]) {
         for i in (0..corners[0].used()).step_by(F::<S>::LEN) {
             let a = sample::load(simd, &corners[0].numbers, i);
             let b = sample::load(simd, &corners[1].numbers, i);
             let c = sample::load(simd, &corners[2].numbers, i);
             let d = sample::load(simd, &corners[3].numbers, i);
-            sample::store::<S>(b - a, &mut patch.along, i);
-            sample::store::<S>(c - a, &mut patch.down, i);
-            sample::store::<S>(d - c - b + a, &mut patch.twist, i);
+            sample::store::<S>(a, &mut self.start, i);
+            sample::store::<S>(b - a, &mut self.along, i);
+            sample::store::<S>(c - a, &mut self.down, i);
+            sample::store::<S>(d - c - b + a, &mut self.twist, i);
         }
-        patch
     }
 
     /// The numbers at the points of a ramp, one row of `out` per number.
@@ -228,13 +229,14 @@ pub fn interpolate<S: Simd>(
     square: Square,
 ) {
     let corners = grid.corners(square);
-    let patch = Patch::new(simd, corners);
     let size = job.pixels(square.size());
     let first = first_pixel(job, square);
     let filter = job.settings.antialias;
     let solid = if corners[0].inv_depth() > 0.0 { 1.0 } else { 0.0 };
-    let rows = ramps.rows.get_or_insert_with(|| Box::new([[0.0; BLOCK]; NUMBERS]));
-    for ramp in &ramps.by_size[size.trailing_zeros() as usize] {
+    let Ramps { by_size, rows, patch, .. } = ramps;
+    patch.span(simd, corners);
+    let rows = rows.get_or_insert_with(|| Box::new([[0.0; BLOCK]; NUMBERS]));
+    for ramp in &by_size[size.trailing_zeros() as usize] {
         patch.values(simd, ramp, &mut rows[..corners[0].used()]);
         let (plain, numbers) = rows.split_first_chunk_mut::<PLAIN>().expect("numbers of hits are more");
         for (n, numbers) in numbers.as_chunks_mut::<HIT>().0[..corners[0].count as usize].iter_mut().enumerate() {
@@ -301,17 +303,20 @@ fn add_texture<S: Simd>(
 /// Light is added, not set: a queue of textures may have been emptied into these pixels already.
 #[inline(always)]
 fn deposit<S: Simd>(simd: S, tile: &mut Tile, ramp: &Ramp, first: usize, wide: bool, light: &[[f32; BLOCK]; PLAIN]) {
-    let planes = [&mut tile.red, &mut tile.green, &mut tile.blue];
-    for (plane, values) in planes.into_iter().zip(light) {
-        if wide {
+    let Tile { red, green, blue, .. } = tile;
+    if wide {
+        for (plane, values) in [red, green, blue].into_iter().zip(light) {
             for (offsets, values) in ramp.pixel.as_chunks::<ROW>().0.iter().zip(values.as_chunks::<ROW>().0) {
                 let row = &mut plane[first + offsets[0] as usize..][..ROW];
                 (f32x8::from_slice(simd, row) + f32x8::from_slice(simd, values)).store_slice(row);
             }
-        } else {
-            for (offset, value) in ramp.pixel[..ramp.count].iter().zip(values) {
-                plane[(first + *offset as usize) & (Tile::AREA - 1)] += value;
-            }
+        }
+    } else {
+        for (i, &offset) in ramp.pixel[..ramp.count].iter().enumerate() {
+            let pixel = (first + offset as usize) & (Tile::AREA - 1);
+            red[pixel] += light[0][i];
+            green[pixel] += light[1][i];
+            blue[pixel] += light[2][i];
         }
     }
 }

@@ -108,10 +108,10 @@ impl Grid {
     }
 
     /// Puts a sample at a lattice point that has none, instead of tracing it. No point may be wanted.
-    pub fn foretell(&mut self, x: usize, y: usize, sample: Sample) {
+    pub fn foretell(&mut self, x: usize, y: usize, sample: &Sample) {
         self.add(x, y);
         self.make_room();
-        self.samples[self.count] = sample;
+        self.samples[self.count] = *sample;
         self.xs[self.count] = f32::NAN;
         self.count += 1;
         self.foretold += 1;

@@ -79,11 +79,12 @@ fn ppm(frame: &Frame) -> impl Iterator<Item = Vec<u8>> {
     let mut bytes = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
     frame.pixels.chunks(PIECE).map(move |pixels| {
         let head = bytes.len();
-        bytes.resize(head + 3 * pixels.len(), 0);
-        for (triple, pixel) in bytes[head..].as_chunks_mut().0.iter_mut().zip(pixels) {
-            let [_, red, green, blue] = pixel.to_be_bytes();
-            *triple = [red, green, blue];
+        bytes.resize(head + 3 * pixels.len() + 1, 0);
+        for (i, pixel) in pixels.iter().enumerate() {
+            // Four bytes are one instruction; the next pixel overwrites the last of them.
+            bytes[head + 3 * i..][..4].copy_from_slice(&(pixel << 8).to_be_bytes());
         }
+        bytes.pop();
         take(&mut bytes)
     })
 }
