@@ -23,7 +23,7 @@ fn picture(spec: &FrameSpec) -> Picture {
     let floor = Object::new(Shape::Plane { normal: Vec3A::Y, offset: 0.0 }, polished(checks)).without_shadow();
     let objects = vec![glass, ball(-2.1, -1.9, 0.8, polished(marble)), ball(1.9, -1.6, 0.65, polished(red)), floor];
     let lights = vec![Light::directional(sun, vec3a(1.3, 1.0, 0.7)).with_radius(0.03)];
-    let glow = Glow { direction: sun, color: vec3a(1.0, 0.55, 0.25), exponent: 12.0 };
+    let glow = Glow { direction: sun, color: vec3a(1.0, 0.55, 0.25), squarings: 3 };
     let background = Background { glow, ..Background::gradient(vec3a(0.75, 0.62, 0.55), vec3a(0.08, 0.16, 0.38)) };
     let world = World { objects, lights, ambient: vec3a(0.10, 0.13, 0.19), background, max_level: 8 };
     let camera = Camera::look_at(vec3a(0.6, 1.35, 5.2), vec3a(0.0, 0.85, 0.0), 38f32.to_radians(), 0.0);
