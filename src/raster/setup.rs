@@ -100,7 +100,7 @@ impl TriangleSetup {
                     normal = turned(place, mesh.normals[i]);
                 }
             }
-            self.corner(matrix * p.extend(1.0), at, normal, &mut corners);
+            self.add_corner(matrix * p.extend(1.0), at, normal, &mut corners);
         }
         let mut out = SetupMesh::default();
         let mut polygon = Vec::new();
@@ -147,9 +147,9 @@ impl TriangleSetup {
         out
     }
 
-    /// Adds a corner at homogeneous pixels `h` to others: as a result it would be copied.
+    /// Adds a corner at homogeneous pixels `h` to others. In place, as it would be copied if it were returned.
     #[inline(never)]
-    fn corner(&self, h: Vec4, place: Vec3A, normal: Vec3A, corners: &mut Vec<Corner>) {
+    fn add_corner(&self, h: Vec4, place: Vec3A, normal: Vec3A, corners: &mut Vec<Corner>) {
         let [a, b] = self.projection.size.map(|n| n as f32 * h.w);
         let (x, y, near) = (h.x - 0.5 * a, h.y - 0.5 * b, h.w - NEAR);
         let guard = Vec4::splat(GUARD * h.w) + vec4(x, -x, y, -y);
@@ -183,7 +183,7 @@ impl TriangleSetup {
                     let k = a.distances[plane] / (a.distances[plane] - b.distances[plane]);
                     rest.push(corners.len());
                     let (h, normal) = (a.h + (b.h - a.h) * k, a.normal + (b.normal - a.normal) * k);
-                    self.corner(h, Vec3A::ZERO, normal, corners);
+                    self.add_corner(h, Vec3A::ZERO, normal, corners);
                 }
             }
             *polygon = rest;

@@ -10,7 +10,7 @@ use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::inspect::count_octaves;
 use crate::simd::block::{BLOCK, Block3};
-use crate::simd::lanes::{Bits, F};
+use crate::simd::lanes::Bits;
 use crate::texture;
 use fearless_simd::{f32x16, prelude::*};
 use fearless_simd_macros::simd;
@@ -151,15 +151,6 @@ impl Deferred {
     }
 }
 
-/// Moves what stands behind a block to its start.
-#[inline(always)]
-fn keep_rest<S: Simd>(simd: S, numbers: &mut [f32; ROOM]) {
-    for at in (0..RUN).step_by(F::<S>::LEN) {
-        let rest = F::<S>::from_slice(simd, &numbers[BLOCK + at..][..F::<S>::LEN]);
-        rest.store_slice(&mut numbers[at..][..F::<S>::LEN]);
-    }
-}
-
 /// Evaluates the texture of the first block of a queue, adds the light to its pixels and takes it out of the queue.
 #[simd]
 fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32, filter: bool, tile: &mut Tile) {
@@ -186,9 +177,9 @@ fn flush<S: Simd>(simd: S, world: &World, queue: &mut TextureQueue, object: u32,
         blue[pixel] += color[2][i] * queue.gain[2][i];
     }
     for numbers in queue.gain.iter_mut().chain(&mut queue.point) {
-        keep_rest(simd, numbers);
+        numbers.copy_within(BLOCK.., 0);
     }
     queue.pixel.copy_within(BLOCK.., 0);
-    keep_rest(simd, &mut queue.footprint);
+    queue.footprint.copy_within(BLOCK.., 0);
     queue.count -= count;
 }
