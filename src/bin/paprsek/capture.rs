@@ -76,15 +76,16 @@ pub fn save_still(scene: &Scene, time: f64, frame: &Frame) -> Result<(), Vec<u8>
 
 /// The frame as a binary PPM (P6), in pieces: there may be no memory for the whole file beside the frame.
 fn ppm(frame: &Frame) -> impl Iterator<Item = Vec<u8>> {
-    let mut bytes = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
+    let mut head = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
     frame.pixels.chunks(PIECE).map(move |pixels| {
-        let head = bytes.len();
-        bytes.resize(head + 3 * pixels.len() + 1, 0);
+        let head = take(&mut head);
+        let mut bytes = vec![0; head.len() + 3 * pixels.len() + 1];
+        bytes[..head.len()].copy_from_slice(&head);
         for (i, pixel) in pixels.iter().enumerate() {
             // Four bytes are one instruction; the next pixel overwrites the last of them.
-            bytes[head + 3 * i..][..4].copy_from_slice(&(pixel << 8).to_be_bytes());
+            bytes[head.len() + 3 * i..][..4].copy_from_slice(&(pixel << 8).to_be_bytes());
         }
         bytes.pop();
-        take(&mut bytes)
+        bytes
     })
 }
