@@ -110,13 +110,6 @@ pub fn background<S: Simd>(simd: S, background: &Background, direction: V3<S>) -
         + V3::splat(simd, glow.color) * Lane(math::lobe(simd, direction, glow.direction, glow.squarings))
 }
 
-/// Where the power of a cosine can be seen: it is less than e^-24 elsewhere, since `g^n <= e^(n (g - 1))`. That is below
-/// half an ulp of whatever light it is added to, and most highlights are that far from most directions.
-#[inline(always)]
-pub fn noticeable<S: Simd>(simd: S, cosine: F<S>, exponent: F<S>) -> M<S> {
-    ((F::<S>::splat(simd, 1.0) - cosine) * exponent).simd_lt(F::<S>::splat(simd, 24.0))
-}
-
 /// Cross product.
 #[inline(always)]
 fn cross<S: Simd>(a: V3<S>, b: V3<S>) -> V3<S> {

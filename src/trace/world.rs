@@ -156,7 +156,7 @@ pub struct Glow {
     pub direction: Vec3A,
     /// Light that it adds in its middle.
     pub color: Vec3A,
-    /// How often the cosine of the angle to it is squared: 3 means the eighth power.
+    /// How often the cosine of the angle to it is squared, at most 30 times: 3 means the eighth power.
     pub squarings: u32,
 }
 
