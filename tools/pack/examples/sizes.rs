@@ -4,9 +4,7 @@
 
 use std::io::Write;
 
-use pack::stub;
 use pack::table::{Profile, View, lines, markdown};
-use pack::toolchain::Toolchain;
 
 const USAGE: &str = "usage: sizes FILE [--self] [--functions N] [--within N] [--lines N]";
 
@@ -34,8 +32,7 @@ fn main() -> Result<(), String> {
     }
     let path = path.ok_or(USAGE)?;
     let elf = std::fs::read(&path).map_err(|e| format!("{path}: {e}"))?;
-    let unpacker = stub::unpacker(&Toolchain::find()?, &std::env::temp_dir())?;
-    let costs = pack::packer::measure(&elf, &unpacker)?;
+    let costs = pack::packer::measure(&elf)?;
     let bits = |at: u64| Some(costs.bits(at));
     let profile = Profile::read(&elf)?;
     let mut text = markdown(&profile.rows(whole, &bits));

@@ -4,9 +4,8 @@
 //! `target/intro/build` has them: without, all of it counts as instructions.
 
 use pack::compress::costs;
-use pack::toolchain::Toolchain;
-use pack::{elf, packer, stub};
-use pack_model::address::{Way, convert};
+use pack::elf;
+use pack_model::form::{Form, convert};
 use pack_model::model::{CONTEXTS, Sets};
 use pack_model::tuned::SETS;
 use std::time::Instant;
@@ -25,8 +24,8 @@ impl Random {
 
 type Text = (Vec<u8>, [u32; 3]);
 
-fn bytes(sets: &Sets, primer: &[u8], texts: &[Text]) -> f64 {
-    let cost = |text: &Text| costs(sets, primer, &text.0, text.1).iter().map(|c| c.0 as f64).sum::<f64>();
+fn bytes(sets: &Sets, texts: &[Text]) -> f64 {
+    let cost = |text: &Text| costs(sets, &text.0, text.1).iter().map(|c| c.0 as f64).sum::<f64>();
     texts.iter().map(cost).sum::<f64>() / 8.0
 }
 
@@ -64,7 +63,7 @@ fn main() {
     for name in &arguments {
         let file = std::fs::read(name).unwrap_or_else(|error| panic!("{name}: {error}"));
         let mut t = elf::trim(&file).unwrap_or_else(|error| panic!("{name}: {error}"));
-        convert(&mut t.bytes[t.code.clone()], t.code_address as u32, Way::Absolute);
+        convert(&mut t.bytes[t.code.clone()], t.code_address as u32, Form::Coded);
         if let [_, from, to] = numbers[..] {
             t.bytes.drain(from..to);
             t.code.end -= to - from;
@@ -72,16 +71,13 @@ fn main() {
         let code = t.code();
         texts.push((t.bytes, code));
     }
-    // The unpacker of today's contexts; of others it is nearly the same.
-    let unpacker = stub::unpacker(&Toolchain::find().unwrap(), &std::env::temp_dir()).unwrap();
-    let [_, primer] = packer::stages(&unpacker).unwrap();
     let (start, mut best) = (Instant::now(), SETS);
-    let mut least = bytes(&best, primer, &texts);
+    let mut least = bytes(&best, &texts);
     println!("{least:.0} bytes");
     let mut random = Random(0x9e37_79b9_7f4a_7c15 ^ std::process::id() as u64);
     while start.elapsed().as_secs() < numbers.first().map_or(0, |&n| n as u64) {
         let new = changed(&best, &mut random);
-        let size = bytes(&new, primer, &texts);
+        let size = bytes(&new, &texts);
         if size < least {
             (best, least) = (new, size);
             println!("{least:.0} bytes after {} s: {best:#010x?}", start.elapsed().as_secs());

@@ -67,14 +67,8 @@ const LLVM: &[&str] = &[
 
 /// Builds the intro of the workspace at `root` below `target`; gives the path of the executable, with symbols.
 /// Its code is the same wherever `root` is, as long as `target` is below it at the same place. What [`crate::marginal`]
-/// lists can be left out. The order of its parts is what packs best with `unpacker`, which is [`crate::stub::unpacker`]'s.
-pub fn build(
-    root: &Path,
-    toolchain: &Toolchain,
-    unpacker: &[u8],
-    target: &Path,
-    without: Option<&str>,
-) -> Result<PathBuf, String> {
+/// lists can be left out. The order of its parts is what packs best.
+pub fn build(root: &Path, toolchain: &Toolchain, target: &Path, without: Option<&str>) -> Result<PathBuf, String> {
     let whole = |path: &Path| {
         let made = fs::create_dir_all(path).and_then(|()| path.canonicalize());
         made.map_err(|error| format!("cannot make {}: {error}", path.display()))
@@ -102,7 +96,7 @@ pub fn build(
     cargo.args(["--", "-Copt-level=z", "-Clinker=./tools/pack/cc"]);
     cargo.args(LLVM.iter().map(|setting| format!("-Cllvm-args={setting}")));
     run(&mut cargo)?;
-    link::link(&target.join(TARGET).join("release/paprsek"), unpacker)
+    link::link(&target.join(TARGET).join("release/paprsek"))
 }
 
 /// Runs cargo, whose own messages go where ours go.

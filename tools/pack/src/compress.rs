@@ -7,7 +7,7 @@ use std::alloc::{Layout, alloc_zeroed, handle_alloc_error};
 
 /// A model at the start of the text, on the heap: 80 MB that must not pass through the stack.
 #[allow(unsafe_code)]
-pub fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
+pub fn model(sets: &Sets, code: [u32; 3]) -> Box<Model> {
     let layout = Layout::new::<Model>();
     // SAFETY: the memory has the layout of a model, and zeros are one: it consists of numbers, of falses, and of an
     // Option<Box>, whose zeros are None.
@@ -20,19 +20,13 @@ pub fn model(sets: &Sets, primer: &[u8], code: [u32; 3]) -> Box<Model> {
     };
     // As the program that is packed does.
     assert!(is_x86_feature_detected!("avx2"), "packing needs a processor with AVX2");
-    let at = primer.len() as u32;
-    // Instructions may be said to be beyond the end of what 32 bits count.
-    model.start(sets, primer.len(), [at.saturating_add(code[0]), at.saturating_add(code[1]), code[2]]);
-    while let Some(bit) = model.known(primer) {
-        model.predict();
-        model.update(bit);
-    }
+    model.start(sets, code);
     model
 }
 
 /// Codes `text`, whose instructions are from byte `code[0]` to `code[1]`, and at `code[2]` in memory.
-pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<u8> {
-    let mut model = model(sets, primer, code);
+pub fn compress(sets: &Sets, text: &[u8], code: [u32; 3]) -> Vec<u8> {
+    let mut model = model(sets, code);
     let mut encoder = Encoder::default();
     for byte in text {
         for i in (0..8).rev() {
@@ -45,22 +39,22 @@ pub fn compress(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<
     encoder.finish()
 }
 
-/// What [`compress`], with the same primer, coded as `packed`, a text of `length` bytes.
-pub fn decompress(sets: &Sets, primer: &[u8], packed: &[u8], length: usize, code: [u32; 3]) -> Vec<u8> {
-    let mut model = model(sets, primer, code);
+/// What [`compress`] coded as `packed`, a text of `length` bytes.
+pub fn decompress(sets: &Sets, packed: &[u8], length: usize, code: [u32; 3]) -> Vec<u8> {
+    let mut model = model(sets, code);
     let mut decoder = Decoder::START;
     // Zeros follow the last bit, the lowest of each byte first.
     let mut coded = packed.iter().flat_map(|&byte| (0..8).map(move |i| (byte >> i & 1) as u32));
-    while model.position() < primer.len() + length {
+    while model.position() < length {
         let bit = decoder.decode(model.predict(), |n| n << 1 | coded.next().unwrap_or(0));
         model.update(bit);
     }
-    model.text()[primer.len()..][..length].to_vec()
+    model.text()[..length].to_vec()
 }
 
 /// Bits that each byte of `text` costs, and what kind of byte the model took it for.
-pub fn costs(sets: &Sets, primer: &[u8], text: &[u8], code: [u32; 3]) -> Vec<(f32, u32)> {
-    let mut model = model(sets, primer, code);
+pub fn costs(sets: &Sets, text: &[u8], code: [u32; 3]) -> Vec<(f32, u32)> {
+    let mut model = model(sets, code);
     let mut costs = Vec::new();
     for byte in text {
         let (mut sum, kind) = (0.0, model.kind());

@@ -19,8 +19,8 @@ use std::process::Command;
 use std::{fs, io};
 
 /// Links what `cc` has joined for `executable`, which cargo made, in several orders; gives the path of the one that
-/// packs best with this unpacker, beside it.
-pub fn link(executable: &Path, unpacker: &[u8]) -> Result<PathBuf, String> {
+/// packs best, beside it.
+pub fn link(executable: &Path) -> Result<PathBuf, String> {
     let made = linked(executable)?;
     let (joined, how) = (made.with_extension("all.o"), made.with_extension("link"));
     let bytes = fs::read(&joined).map_err(failed(&joined))?;
@@ -31,14 +31,13 @@ pub fn link(executable: &Path, unpacker: &[u8]) -> Result<PathBuf, String> {
         fs::write(&object, ordered(&bytes, taste)?).map_err(failed(&object))?;
         run(&object, &arguments, &out)?;
         let program = fs::read(&out).map_err(failed(&out))?;
-        let bits = packer::measure(&program, unpacker)?.bits.iter().map(|&bits| bits as f64).sum();
+        let bits = packer::measure(&program)?.bits.iter().map(|&bits| bits as f64).sum();
         if best.as_ref().is_none_or(|(least, _)| bits < *least) {
             best = Some((bits, program));
         }
     }
     let (_, program) = best.expect("some were tried");
-    let [_, primer] = packer::stages(unpacker)?;
-    fs::write(&out, rewrite(&program, primer)?).map_err(failed(&out))?;
+    fs::write(&out, rewrite(&program)?).map_err(failed(&out))?;
     Ok(out)
 }
 

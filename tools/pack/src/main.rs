@@ -42,12 +42,12 @@ fn main() -> ExitCode {
 /// Builds and packs the intro; gives the table of its modules.
 fn intro(place: &Place) -> Result<String, String> {
     let Place { root, target, toolchain, unpacker } = place;
-    let program = read(&build::build(root, toolchain, unpacker, &target.join("build"), None)?)?;
+    let program = read(&build::build(root, toolchain, &target.join("build"), None)?)?;
     let packed = packer::pack(&program, unpacker)?;
     write(&target.join("paprsek.elf"), &elf::trim(&program)?.bytes)?;
     write(&target.join("paprsek"), &packed.bytes)?;
 
-    let costs = packer::measure(&program, unpacker)?;
+    let costs = packer::measure(&program)?;
     let mut rows = Profile::read(&program)?.rows(View::Owner, &|address| Some(costs.bits(address)));
     let coded: f64 = rows.iter().map(|row| row.packed).sum();
     let rest = packed.bytes.len() as f64 - coded;

@@ -36,7 +36,7 @@ const FEATURES: &[(&str, &str)] = &[
 /// longer ask for it.
 pub fn table(root: &Path, toolchain: &Toolchain, unpacker: &[u8], target: &Path) -> Result<String, String> {
     let pack = |without| -> Result<packer::Packed, String> {
-        let program = build::build(root, toolchain, unpacker, target, without)?;
+        let program = build::build(root, toolchain, target, without)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
         packer::pack(&program, unpacker)
     };

@@ -3,8 +3,8 @@
 use crate::compress::{compress, costs, decompress};
 use crate::elf::{self, HEADER, SEGMENT, Trimmed};
 use crate::first;
-use pack_model::address::{Way, convert};
 use pack_model::features::hash;
+use pack_model::form::{Form, convert};
 use pack_model::model::MOST;
 use pack_model::tuned::SETS;
 
@@ -28,31 +28,29 @@ pub struct Packed {
 }
 
 /// The program as it is coded: trimmed, with absolute addresses.
-fn prepare(file: &[u8], primer: &[u8]) -> Result<Trimmed, String> {
+fn prepare(file: &[u8]) -> Result<Trimmed, String> {
     let mut trimmed = elf::trim(file)?;
-    let most = MOST - primer.len();
-    if trimmed.bytes.len() > most {
-        return Err(format!("{} bytes, but the unpacker has room for {most}", trimmed.bytes.len()));
+    if trimmed.bytes.len() > MOST {
+        return Err(format!("{} bytes, but the unpacker has room for {MOST}", trimmed.bytes.len()));
     }
-    convert(&mut trimmed.bytes[trimmed.code.clone()], trimmed.code_address as u32, Way::Absolute);
+    convert(&mut trimmed.bytes[trimmed.code.clone()], trimmed.code_address as u32, Form::Coded);
     Ok(trimmed)
 }
 
 /// Packs an executable. `stub` is the linked unpacker ([`crate::stub::build`]).
 pub fn pack(file: &[u8], stub: &[u8]) -> Result<Packed, String> {
     let [one, two] = stages(stub)?;
-    let program = prepare(file, two)?;
+    let program = prepare(file)?;
     let code = program.code();
     let mut unpacker = one.to_vec();
     unpacker.extend(first::compress(two));
 
     let mut payload = Vec::new();
-    let at = two.len() as u32;
-    for word in [at + program.bytes.len() as u32, at + code[0], at + code[1], code[2]] {
+    for word in [program.bytes.len() as u32, code[0], code[1], code[2]] {
         payload.extend(word.to_le_bytes());
     }
-    let coded = compress(&SETS, two, &program.bytes, code);
-    if decompress(&SETS, two, &coded, program.bytes.len(), code) != program.bytes {
+    let coded = compress(&SETS, &program.bytes, code);
+    if decompress(&SETS, &coded, program.bytes.len(), code) != program.bytes {
         return Err("the coded program does not decode".into());
     }
     payload.extend(coded);
@@ -113,11 +111,10 @@ impl Costs {
     }
 }
 
-/// Measures what each byte of `file` costs in `pack` with this unpacker.
-pub fn measure(file: &[u8], stub: &[u8]) -> Result<Costs, String> {
-    let [_, primer] = stages(stub)?;
-    let program = prepare(file, primer)?;
+/// Measures what each byte of `file` costs in `pack`.
+pub fn measure(file: &[u8]) -> Result<Costs, String> {
+    let program = prepare(file)?;
     let code = program.code();
-    let bits = costs(&SETS, primer, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
+    let bits = costs(&SETS, &program.bytes, code).into_iter().map(|cost| cost.0).collect();
     Ok(Costs { bits, loads: program.loads })
 }

@@ -23,7 +23,7 @@ use crate::elf::{self, Trimmed};
 use crate::first;
 use iced_x86::{Decoder, DecoderOptions, InstructionInfoFactory, OpKind};
 use instruction::Op;
-use pack_model::address::{Way, convert};
+use pack_model::form::{Form, convert};
 use pack_model::tuned::SETS;
 use search::Price;
 use std::collections::HashSet;
@@ -32,27 +32,27 @@ use std::ops::Range;
 /// How often the whole program is gone through.
 const PASSES: usize = 2;
 
-/// Rewrites an executable that is coded after `primer`.
-pub fn rewrite(file: &[u8], primer: &[u8]) -> Result<Vec<u8>, String> {
+/// Rewrites an executable.
+pub fn rewrite(file: &[u8]) -> Result<Vec<u8>, String> {
     let mut file = file.to_vec();
     for _ in 0..PASSES {
-        file = pass(&file, primer)?;
+        file = pass(&file)?;
     }
     Ok(file)
 }
 
-fn pass(file: &[u8], primer: &[u8]) -> Result<Vec<u8>, String> {
+fn pass(file: &[u8]) -> Result<Vec<u8>, String> {
     let mut program = elf::trim(file)?;
     let (range, address) = (program.code.clone(), program.code_address);
     let original = program.bytes[range.clone()].to_vec();
     // What is relative to an instruction's place is absolute from here on, so that it can move.
-    convert(&mut program.bytes[range.clone()], address as u32, Way::Absolute);
-    let instructions = read(&program, &original)?;
-    let mut model = model(&SETS, primer, program.code());
+    convert(&mut program.bytes[range.clone()], address as u32, Form::Coded);
+    let instructions = read(&program, &original, Form::Coded)?;
+    let mut model = model(&SETS, program.code());
     model.price(program.bytes[..range.start].iter().copied());
     let mut code = Vec::with_capacity(original.len());
     search::search(&mut *model, instructions, &mut code);
-    convert(&mut code, address as u32, Way::Relative);
+    convert(&mut code, address as u32, Form::Plain);
     let mut rewritten = file.to_vec();
     rewritten[range].copy_from_slice(&code);
     Ok(rewritten)
@@ -69,7 +69,7 @@ pub fn rewrite_alone(bytes: &mut [u8], addresses: Range<u64>) -> Result<(), Stri
             code_address: addresses.start,
             loads: Vec::new(),
         };
-        let mut instructions = read(&program, &bytes[code.clone()])?;
+        let mut instructions = read(&program, &bytes[code.clone()], Form::Plain)?;
         instructions.iter_mut().for_each(Op::stay_if_relative);
         let mut rewritten = Vec::with_capacity(code.len());
         search::search(&mut first::Counts::default(), instructions, &mut rewritten);
@@ -78,8 +78,8 @@ pub fn rewrite_alone(bytes: &mut [u8], addresses: Range<u64>) -> Result<(), Stri
     Ok(())
 }
 
-/// The instructions, which are known as they were in `original` and have the bytes of `program`.
-fn read(program: &Trimmed, original: &[u8]) -> Result<Vec<Op>, String> {
+/// The instructions, which are known as they were in `original` and have the bytes of `program`, in this form.
+fn read(program: &Trimmed, original: &[u8], form: Form) -> Result<Vec<Op>, String> {
     let (start, first) = (program.code.start, program.code_address);
     let code = first..first + original.len() as u64;
     let mut starts = addresses(&program.bytes, &program.code, &code);
@@ -108,7 +108,7 @@ fn read(program: &Trimmed, original: &[u8]) -> Result<Vec<Op>, String> {
                 });
             }
             let at = start + (instruction.ip() - first) as usize;
-            all.push(Op::new(&mut factory, instruction, &program.bytes[at..at + instruction.len()], &constants));
+            all.push(Op::new(&mut factory, instruction, &program.bytes[at..at + instruction.len()], form, &constants));
         }
     }
     for op in &mut all {

@@ -38,7 +38,7 @@ pub fn show(root: &Path, toolchain: &Toolchain, unpacker: &[u8], place: &Path) -
     let mut table = String::from("| sources | packed |\n|---|---:|\n");
     let mut sizes = Vec::new();
     let mut pack = |what: &str, root: &Path| {
-        let program = build::build(root, toolchain, unpacker, &root.join("target/intro/build"), None)?;
+        let program = build::build(root, toolchain, &root.join("target/intro/build"), None)?;
         let program = fs::read(&program).map_err(|error| format!("{}: {error}", program.display()))?;
         let size = packer::pack(&program, unpacker)?.bytes.len();
         eprintln!("{what}: {size} bytes");

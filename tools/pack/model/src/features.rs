@@ -1,7 +1,7 @@
 //! What may tell the next byte: features of the bytes before it. A context is a set of them.
 
 use crate::model::MOST;
-use crate::parse::{DISP8, DISP32_LAST, IMM8, IMM32_LAST, MODRM, Parser};
+use crate::parse::{DISP8, DISP32_LAST, IMM8, IMM32_LAST, MODE, MODRM, Parser};
 
 /// Number of features: a set of them is a `u32`.
 pub const FEATURES: usize = 32;
@@ -93,7 +93,7 @@ impl Features {
             targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
         }
         if jump || matches!(before, DISP8 | DISP32_LAST) {
-            self.numbers[p.modrm as usize & 0xc7] = self.number;
+            self.numbers[(p.modrm & MODE) as usize] = self.number;
         }
         let opcode = p.map << 8 | p.op;
         if before == MODRM {
@@ -104,7 +104,7 @@ impl Features {
         f[9] = p.modrm;
         f[11] = p.rex;
         if p.done {
-            f[20] = p.modrm >> 3 & 7 | p.high << 1 & 8;
+            f[20] = p.modrm & 7 | p.high << 1 & 8;
             f[27] = f[27] << 8 | p.op;
             f[19] = f[27] & 0xffff;
             self.writers[f[20] as usize & 15] = opcode;
@@ -113,7 +113,7 @@ impl Features {
         }
         let p = if p.done { Parser::START } else { *p };
         let field = p.field();
-        f[31] = p.modrm & 0xc7;
+        f[31] = p.modrm & MODE;
         if matches!(field, 5..=7 | 10..=12) {
             f[7] = hash(f[7], value + 1);
             f[23] >>= 8;

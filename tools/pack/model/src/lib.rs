@@ -63,10 +63,10 @@
 #[cfg(feature = "undo")]
 extern crate alloc;
 
-pub mod address;
 pub mod coder;
 pub mod features;
 pub mod first;
+pub mod form;
 mod mix;
 pub mod model;
 pub mod parse;

@@ -49,8 +49,6 @@ pub struct Model {
     bit: u32,
     /// Bytes coded so far.
     position: u32,
-    /// Bytes of the primer.
-    primer: u32,
     code: [u32; 3],
     /// 0 while the current byte is an instruction's, 1 while it is not.
     class: u32,
@@ -90,7 +88,6 @@ impl Model {
         partial: 0,
         bit: 0,
         position: 0,
-        primer: 0,
         code: [0; 3],
         class: 0,
         node: 0,
@@ -117,11 +114,9 @@ impl Model {
 
     /// Makes ready for a text whose bytes from `code[0]` to `code[1]` are instructions, the first of them at the
     /// address `code[2]`. Once, after zeros, where the processor has AVX2 and FMA.
-    /// The text begins with so many bytes of a `primer`, instructions that both sides have: they teach, and need not be coded.
-    pub fn start(&mut self, sets: &Sets, primer: usize, code: [u32; 3]) {
+    pub fn start(&mut self, sets: &Sets, code: [u32; 3]) {
         self.sets = *sets;
         self.code = code;
-        self.primer = primer as u32;
         self.features.origin = code[2].wrapping_sub(code[0]);
         self.partial = 1;
         for (i, base) in self.bases.as_flattened_mut().iter_mut().enumerate() {
@@ -136,11 +131,6 @@ impl Model {
         self.contexts();
     }
 
-    /// The next bit, if it is one of the `primer`.
-    pub fn known(&self, primer: &[u8]) -> Option<u32> {
-        primer.get(self.position as usize).map(|&byte| (byte as u32) << self.bit >> 7 & 1)
-    }
-
     fn byte(&self, at: u32) -> u32 {
         self.text[at as usize & (MOST - 1)] as u32
     }
@@ -153,7 +143,7 @@ impl Model {
     /// Follows or looks up the match and hashes the contexts of the next byte.
     fn contexts(&mut self) {
         let (at, [start, end, _]) = (self.position, self.code);
-        self.class = !(at < self.primer || at >= start && at < end) as u32;
+        self.class = !(at >= start && at < end) as u32;
         let mut h = 0;
         // Here and below in the forms that take the fewest bytes: an inclusive range asks twice whether it is at its end.
         for i in 1..MATCH_MIN + 1 {
@@ -338,12 +328,12 @@ impl Model {
         }
     }
 
-    /// Bytes known so far, with the primer.
+    /// Bytes coded so far.
     pub fn position(&self) -> usize {
         self.position as usize
     }
 
-    /// The primer and what was coded so far, zeros behind.
+    /// What was coded so far, zeros behind.
     pub fn text(&mut self) -> &mut [u8; MOST] {
         &mut self.text
     }

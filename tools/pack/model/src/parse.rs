@@ -1,5 +1,7 @@
-//! Where in an x86-64 instruction the next byte stands. Lengths after the opcode maps of Intel's manual,
-//! volume 2, appendix A; 64-bit mode only, VEX included, EVEX not.
+//! Where in an x86-64 instruction the next byte stands, as it is coded ([`crate::form`]). Lengths after the opcode maps of
+//! Intel's manual, volume 2, appendix A; 64-bit mode only, VEX included, EVEX not.
+
+use crate::form::plain;
 
 /// A prefix, or the opcode of an instruction without VEX.
 pub const OP: u32 = 0;
@@ -19,13 +21,22 @@ pub const IMM8: u32 = 8;
 pub const IMM32: u32 = 9;
 /// The last of them.
 pub const IMM32_LAST: u32 = 12;
-/// The opcode after an escape byte or VEX.
+/// The first of the two bytes that the last of VEX and the opcode are coded as.
+pub const VEX: u32 = 14;
+/// The second of them, or the opcode after an escape byte.
 pub const OP_MORE: u32 = 15;
+
+/// What stands for VEX, of two or three bytes, as a prefix.
+const VEX_PREFIX: u8 = 0xc5;
+/// The bits of a coded operands byte that are the addressing mode.
+pub const MODE: u32 = 0xf8;
+/// The mode of what is relative to the end of the instruction.
+const RELATIVE: u32 = 5 << 3;
 
 /// Bytes of these fields to come: a queue in groups of four bits, the next one lowest.
 const FOUR_OF_DISP: u64 = 0x7654;
 const FOUR_OF_IMM: u64 = 0xcba9;
-/// The second of the three bytes of a VEX prefix (13), its last (14), the opcode.
+/// The second of the three bytes of a VEX prefix (13), its last and the opcode.
 const AFTER_C4: u64 = 0xfed;
 
 /// State of the parser between two bytes. It starts as zeros.
@@ -37,13 +48,14 @@ pub struct Parser {
     pub map: u32,
     /// The opcode, once known.
     pub op: u32,
-    /// Operands byte, 0 until known.
+    /// Operands byte as it is coded, 0 until known.
     pub modrm: u32,
-    /// REX, or the last byte of VEX.
+    /// REX, or the last byte of VEX; before that is known, what is coded first of it.
     pub rex: u32,
-    /// Highest bits of registers: R 4, X 2, B 1.
+    /// Highest bits of registers: R 4, X 2, B 1. 8: VEX has three bytes.
     pub high: u32,
-    /// The last legacy prefix: `66`, `F2`, `F3`, a segment; `C5` for VEX.
+    /// The last legacy prefix: `66`, `F2`, `F3`, a segment; `C5` for VEX. Above its eight bits, width and kind of numbers: W of
+    /// REX, or L and the prefix that VEX stands for.
     pub prefix: u32,
     /// The field whose bytes, four or one, are relative to the end of the instruction, or 0.
     pub relative: u32,
@@ -107,9 +119,9 @@ impl Parser {
         (self.queue & 15) as u32
     }
 
-    /// Bytes to come after the four of the current field.
+    /// Bytes to come after the four of the current field. Two are counted as four.
     pub fn after_four(&self) -> u32 {
-        (67 - (self.queue >> 16).leading_zeros()) / 4
+        (self.queue as u32 >> 19).min(4)
     }
 
     /// Takes one byte.
@@ -124,7 +136,10 @@ impl Parser {
             OP | OP_MORE => {
                 if self.map == 0 {
                     match byte {
-                        0x40..=0x4f => (self.rex, self.high) = (byte, byte & 7),
+                        0x40..=0x4f => {
+                            (self.rex, self.high) = (byte, byte & 7);
+                            self.prefix |= (byte & 8) << 8;
+                        }
                         // The segments that mean something, and 2E, which long NOPs have. F1 is rare.
                         0x2e | 0x64..=0x67 | 0xf0..=0xf3 => self.prefix = byte,
                         0xc4 => self.queue = AFTER_C4,
@@ -136,47 +151,56 @@ impl Parser {
                     if self.op != byte {
                         return;
                     }
-                } else if self.map == 1 && self.prefix != 0xc5 && byte & 0xfd == 0x38 {
+                } else if self.map == 1 && !self.has_vex() && byte & 0xfd == 0x38 {
                     (self.map, self.queue) = (2 + (byte >> 1 & 1), OP_MORE as u64);
                 } else {
-                    self.opcode(byte);
+                    let mut opcode = byte as u8;
+                    if self.has_vex() {
+                        let vex;
+                        [vex, opcode] = plain([self.rex as u8, opcode]);
+                        self.rex = vex as u32;
+                        self.prefix = (self.rex & 7) << 8 | VEX_PREFIX as u32;
+                        if self.high == 0 {
+                            self.high = !self.rex >> 5 & 4;
+                        }
+                    }
+                    self.opcode(opcode as u32);
                 }
             }
             MODRM => {
                 self.modrm = byte;
                 // TEST, alone of its group, has an immediate.
-                if self.map == 0 && self.op & 0xfe == 0xf6 && byte & 0x30 == 0 {
+                if self.map == 0 && self.op & 0xfe == 0xf6 && byte & 6 == 0 {
                     self.queue = if self.op == 0xf6 { IMM8 as u64 } else { self.wide() };
                 }
-                if byte & 0xc7 == 5 {
+                if byte & MODE == RELATIVE {
                     self.relative = DISP32;
                 }
-                if byte & 0xc7 == 5 || byte >> 6 == 2 {
+                if byte & MODE == RELATIVE || byte >> 6 == 2 {
                     self.queue = self.queue << 16 | FOUR_OF_DISP;
                 }
                 if byte >> 6 == 1 {
                     self.queue = self.queue << 4 | DISP8 as u64;
                 }
-                if byte < 0xc0 && byte & 7 == 4 {
+                if byte < 0xc0 && byte >> 3 & 7 == 4 {
                     self.queue = self.queue << 4 | SIB as u64;
                 }
             }
             SIB if byte & 7 == 5 && self.modrm < 0x40 => self.queue = self.queue << 16 | FOUR_OF_DISP,
-            13 => (self.map, self.high, self.prefix) = (byte & 3, !byte >> 5 & 7, 0xc5),
-            14 => {
-                if self.prefix != 0xc5 {
-                    self.high = !byte >> 5 & 4;
-                }
-                (self.rex, self.prefix) = (byte, 0xc5);
-            }
+            13 => (self.map, self.high) = (byte & 3, !byte >> 5 & 7 | 8),
+            VEX => (self.rex, self.prefix) = (byte, byte << 8 | VEX_PREFIX as u32),
             _ => {}
         }
         self.done = self.queue == 0;
     }
 
+    fn has_vex(&self) -> bool {
+        self.prefix as u8 == VEX_PREFIX
+    }
+
     /// An operand as wide as the operands, which the prefix `66` makes two bytes.
     fn wide(&self) -> u64 {
-        if self.prefix == 0x66 { FOUR_OF_IMM >> 8 } else { FOUR_OF_IMM }
+        if self.prefix as u8 == 0x66 { FOUR_OF_IMM >> 8 } else { FOUR_OF_IMM }
     }
 
     /// Takes the opcode proper.

@@ -1,6 +1,7 @@
 //! What an instruction reads and writes, and other instructions that do the same.
 
 use iced_x86::{Code, Encoder, FlowControl, Instruction, InstructionInfoFactory, Mnemonic, OpAccess, OpKind, Register};
+use pack_model::form::{Form, convert};
 use std::ops::Range;
 
 /// Units of state: 16 general registers, 16 vectors, six flags.
@@ -68,8 +69,9 @@ impl Access {
 #[derive(Clone)]
 pub struct Op {
     instruction: Instruction,
-    /// As it is coded, with absolute addresses.
+    /// In the form that is coded.
     pub bytes: Vec<u8>,
+    form: Form,
     /// What it reads, by slots.
     pub reads: Vec<Use>,
     /// What it writes.
@@ -85,11 +87,12 @@ pub struct Op {
 }
 
 impl Op {
-    /// An instruction with its bytes. What is at the addresses `constants` is never written.
+    /// An instruction with its bytes, which have this form. What is at the addresses `constants` is never written.
     pub fn new(
         factory: &mut InstructionInfoFactory,
         instruction: Instruction,
         bytes: &[u8],
+        form: Form,
         constants: &Range<u64>,
     ) -> Self {
         let known = factory.info(&instruction).used_registers().iter().all(|used| {
@@ -112,6 +115,7 @@ impl Op {
         let mut op = Self {
             instruction,
             bytes: bytes.to_vec(),
+            form,
             reads: Vec::new(),
             writes: Vec::new(),
             memory,
@@ -129,7 +133,17 @@ impl Op {
     pub fn filler(bytes: &[u8]) -> Self {
         let (reads, writes, memory) = Default::default();
         let (bytes, instruction) = (bytes.to_vec(), Instruction::default());
-        Self { instruction, bytes, reads, writes, memory, fixed: true, starts_block: false, ends_flags: false }
+        Self {
+            instruction,
+            bytes,
+            form: Form::Plain,
+            reads,
+            writes,
+            memory,
+            fixed: true,
+            starts_block: false,
+            ends_flags: false,
+        }
     }
 
     /// Where it was.
@@ -230,6 +244,11 @@ impl Op {
         let mut bytes = encoder.take_buffer();
         if length != self.bytes.len() {
             return None;
+        }
+        if self.form == Form::Coded {
+            bytes.extend([0; 4]);
+            convert(&mut bytes, 0, Form::Coded);
+            bytes.truncate(length);
         }
         if instruction.is_ip_rel_memory_operand() {
             let at = place.displacement_offset();

@@ -77,6 +77,7 @@ fn flow(ops: &[Op], order: &[usize], mut each: impl FnMut(usize, &[(u8, Source)]
 mod tests {
     use super::*;
     use iced_x86::{Decoder, DecoderOptions, InstructionInfoFactory};
+    use pack_model::form::Form;
 
     /// Constants are from here on.
     const CONSTANTS: u64 = 0x40_0000;
@@ -86,7 +87,7 @@ mod tests {
         let decoder = Decoder::with_ip(64, code, 0x1000, DecoderOptions::NONE);
         let op = |i: iced_x86::Instruction| {
             let at = (i.ip() - 0x1000) as usize;
-            Op::new(&mut factory, i, &code[at..at + i.len()], &(CONSTANTS..2 * CONSTANTS))
+            Op::new(&mut factory, i, &code[at..at + i.len()], Form::Plain, &(CONSTANTS..2 * CONSTANTS))
         };
         decoder.into_iter().map(op).collect()
     }

@@ -8,9 +8,9 @@
 mod run;
 mod sys;
 
-use pack_model::address::{Way, convert};
 use pack_model::coder::Decoder;
 use pack_model::features::hash;
+use pack_model::form::{Form, convert};
 use pack_model::tuned::SETS;
 
 /// Comes straight from `_start`, with the stack as the kernel left it: argc, argv, 0, envp, 0.
@@ -22,17 +22,16 @@ fn main(stack: &sys::Stack) -> ! {
         sys::fail(b"paprsek: this file is damaged\n");
     }
     let (head, mut packed) = sys::payload();
-    let (model, primer) = (sys::model(), sys::code());
-    model.start(&SETS, primer.len(), head.code);
+    let model = sys::model();
+    model.start(&SETS, head.code);
     let mut decoder = Decoder::START;
     while model.position() < head.end as usize {
-        let probability = model.predict();
-        let bit = model.known(primer).unwrap_or_else(|| decoder.decode(probability, |n| packed.append_to(n)));
+        let bit = decoder.decode(model.predict(), |n| packed.append_to(n));
         model.update(bit);
     }
     let [start, end, address] = head.code;
-    convert(sys::part(model.text(), start, end), address, Way::Relative);
-    run::run(sys::part(model.text(), primer.len() as u32, head.end), stack)
+    convert(sys::part(model.text(), start, end), address, Form::Plain);
+    run::run(sys::part(model.text(), 0, head.end), stack)
 }
 
 /// Does the file have its checksum?
@@ -43,7 +42,7 @@ fn is_right((image, sum): (&[u8], u32)) -> bool {
 /// What the payload begins with. The coded bytes follow, and the checksum of all before.
 #[repr(C, packed)]
 struct Head {
-    /// Length of the primer, which is this code, and of the program behind it.
+    /// Length of the program.
     end: u32,
     /// Where in both the program's instructions start and end, and where the first one will be in memory.
     code: [u32; 3],

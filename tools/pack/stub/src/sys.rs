@@ -59,7 +59,6 @@ pub fn model() -> &'static mut Model {
 }
 
 const BASE: usize = 0x400000;
-const SECOND: usize = 0x10000008;
 
 /// The file's length and the address of the payload, words of the first program header that the packer writes.
 fn words() -> (usize, usize) {
@@ -103,17 +102,6 @@ impl Bits {
 pub fn part(text: &mut [u8], start: u32, end: u32) -> &mut [u8] {
     // SAFETY: the packer has written places within the text, the earlier one first.
     unsafe { text.get_unchecked_mut(start as usize..end as usize) }
-}
-
-/// The second stage, this code.
-pub fn code() -> &'static [u8] {
-    let end: usize;
-    // SAFETY: loads a constant that the linker script defines, as it does the address of the first byte; nothing
-    // there changes any more.
-    unsafe {
-        asm!("mov {:e}, offset second_end", out(reg) end, options(pure, nomem, nostack, preserves_flags));
-        core::slice::from_raw_parts(SECOND as *const u8, end - SECOND)
-    }
 }
 
 /// Does the processor have all of x86-64-v3, and does the system keep its registers?
