@@ -1,7 +1,7 @@
 //! What may tell the next byte: features of the bytes before it. A context is a set of them.
 
 use crate::model::MOST;
-use crate::parse::{DISP8, DISP32_LAST, IMM8, IMM32_LAST, MODE, MODRM, Parser};
+use crate::parse::{DISP8, DISP32_LAST, IMM8, IMM32_LAST, MODE, Parser};
 
 /// Number of features: a set of them is a `u32`.
 pub const FEATURES: usize = 32;
@@ -13,8 +13,7 @@ pub const FEATURES: usize = 32;
 /// 12 to 15 the same of the one before; 19 the last two opcodes, 27 the last four; 20 the register that the last
 /// operands byte names first; 21 the highest bits of registers; 22 bytes until the next place that is jumped to, at
 /// most 16; 23 what the bytes to come of a displacement or distance were when the same addressing mode had one last;
-/// 28 the opcode that last wrote what VEX names; 29 the operands byte that followed the same opcode last, 31 the
-/// addressing mode. In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
+/// 31 the addressing mode. In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
 #[derive(Clone)]
 pub struct Features {
@@ -28,9 +27,6 @@ pub struct Features {
     /// The last bytes as a little-endian number.
     number: u32,
     numbers: [u32; 256],
-    operands: [u32; 1024],
-    /// The opcode that last had each register first.
-    writers: [u32; 16],
 }
 
 /// Which positions are jumped to, from before.
@@ -44,16 +40,8 @@ pub fn hash(h: u32, value: u32) -> u32 {
 
 impl Features {
     /// Before the first byte.
-    pub const ZERO: Self = Self {
-        f: [0; FEATURES],
-        origin: 0,
-        parser: Parser::START,
-        word: 0,
-        number: 0,
-        numbers: [0; 256],
-        operands: [0; 1024],
-        writers: [0; 16],
-    };
+    pub const ZERO: Self =
+        Self { f: [0; FEATURES], origin: 0, parser: Parser::START, word: 0, number: 0, numbers: [0; 256] };
 
     /// A small number that says what is to come: in code the field, in data the position modulo 4. Below 32.
     pub fn place(&self, code: bool) -> u32 {
@@ -93,12 +81,9 @@ impl Features {
             targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
         }
         if jump || matches!(before, DISP8 | DISP32_LAST) {
-            self.numbers[(p.modrm & MODE) as usize] = self.number;
+            self.numbers[(p.modrm & MODE | p.high & 1) as usize] = self.number;
         }
         let opcode = p.map << 8 | p.op;
-        if before == MODRM {
-            self.operands[opcode as usize & 1023] = value;
-        }
         f[10] = hash(f[10], value + 1);
         f[8] = opcode | p.prefix << 16;
         f[9] = p.modrm;
@@ -107,7 +92,6 @@ impl Features {
             f[20] = p.modrm & 7 | p.high << 1 & 8;
             f[27] = f[27] << 8 | p.op;
             f[19] = f[27] & 0xffff;
-            self.writers[f[20] as usize & 15] = opcode;
             f.copy_within(8..12, 12);
             f[8..12].fill(0);
         }
@@ -119,15 +103,13 @@ impl Features {
             f[23] >>= 8;
         } else {
             f[7] = 0;
-            f[23] = self.numbers[f[31] as usize & 255];
+            f[23] = self.numbers[(f[31] & MODE | p.high & 1) as usize];
             if p.relative == IMM8 {
                 f[23] = f[23].wrapping_sub(address.wrapping_add(1)) & 255;
             }
         }
         f[6] = field | ((p.relative != 0) as u32) << 4 | p.map << 5;
         f[21] = p.high;
-        f[28] = self.writers[((!p.rex >> 3) & 15) as usize];
         f[22] = (0..16).find(|i| targets[(position + i) as usize & (MOST - 1)]).unwrap_or(16);
-        f[29] = self.operands[(p.map << 8 | p.op) as usize & 1023];
     }
 }

@@ -16,8 +16,10 @@ pub const CONTEXTS: usize = 8 * GROUPS;
 const GROUPS: usize = 2;
 /// Groups of slots: those of the contexts, those of their histories, and a last one that needs no hash.
 const SLOTS: usize = 2 * GROUPS + 1;
-/// Weights at first: of the slots, and of the contexts' probabilities by how often they were seen.
-const WEIGHTS: [f32; VECTORS] = [0.061, 0.061, 0.079, 0.079, 0.05, 0.018, 0.018];
+/// The first mixers' weights at first. Others for histories, and for what counts how often it was seen, are no better.
+const WEIGHT: f32 = 0.028;
+/// The last mixers'.
+const LAST_WEIGHT: f32 = 0.2;
 /// Mixers of all of that, and mixers of their results, which are averaged.
 const MIXERS: [usize; 2] = [6, 3];
 /// How fast both learn.
@@ -123,11 +125,8 @@ impl Model {
             *base = HISTORIES + 256 * i as u32;
         }
         let (first, last) = (&mut self.first, &mut self.last);
-        let weights = first.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut();
-        for (i, weight) in weights.iter_mut().enumerate() {
-            *weight = WEIGHTS[(i as u32 / 8 % VECTORS as u32) as usize];
-        }
-        last.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(1.0 / MIXERS[0] as f32);
+        first.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(WEIGHT);
+        last.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(LAST_WEIGHT);
         self.contexts();
     }
 
@@ -270,8 +269,8 @@ impl Model {
         let (f, class) = (&self.features.f, self.class << 8);
         let (first, last) = (&mut self.first, &mut self.last);
         first.rows = [
-            self.partial | self.predicted & 256,
-            self.place | self.bit << 6,
+            self.partial | (self.place & 7) << 8,
+            self.place | self.bit << 6 | (self.predicted & 256) << 1,
             f[0] | class,
             known | self.place << 5,
             f[6] & 127 | self.bit << 7 | class << 2,
