@@ -88,11 +88,12 @@ fn calls_to_one_place_become_alike() {
 /// What is done comes before the registers that it is done to.
 #[test]
 fn instructions_that_differ_in_registers_begin_alike() {
-    // vaddps ymm0, ymm0, [rsp + 32] and ymm9, ymm3, [rsp + 32]: L, pp and 58, then R and vvvv; 01 100, then the register.
+    // vaddps ymm0, ymm0, [rsp + 32] and vaddps ymm9, ymm3, [rsp + 32], in bits: 1 00 01011 000, then R and vvvv; 01 100, then
+    // the register.
     let one = coded(b"\xc5\xfc\x58\x44\x24\x20");
     let other = coded(b"\xc5\x64\x58\x4c\x24\x20");
-    assert_eq!(one, [0xc5, 0b1_00_01011, 0b000_1_1111, 0b01_100_000, 0x24, 0x20]);
-    assert_eq!(other, [0xc5, 0b1_00_01011, 0b000_0_1100, 0b01_100_001, 0x24, 0x20]);
+    assert_eq!(one, [0xc5, 0x8b, 0x1f, 0x60, 0x24, 0x20]);
+    assert_eq!(other, [0xc5, 0x8b, 0x0c, 0x61, 0x24, 0x20]);
 }
 
 /// As the GNU assembler has them.

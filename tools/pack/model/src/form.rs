@@ -6,7 +6,7 @@
 //!   is done comes before what it is done to;
 //! - of an operands byte the last three bits, which name an address or the second source, come before the middle three.
 
-use crate::parse::{IMM8, MODRM, Parser, VEX};
+use crate::parse::{IMM8, MODRM, Parser, TURN, VEX};
 
 /// How instructions are written.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -15,14 +15,6 @@ pub enum Form {
     Coded,
     /// As the processor has them.
     Plain,
-}
-
-/// Bits that the last byte of VEX and the opcode are rotated to the left by.
-const TURN: u32 = 5;
-
-/// The last byte of VEX, and the opcode, of what is coded for them.
-pub fn plain(coded: [u8; 2]) -> [u8; 2] {
-    u16::from_be_bytes(coded).rotate_right(TURN).to_be_bytes()
 }
 
 /// Converts `code`, whose first byte is at `address`, but for what begins within its last four bytes. The parser sees the
@@ -45,7 +37,7 @@ pub fn convert(mut code: &mut [u8], mut address: u32, to: Form) {
         if to == Form::Plain {
             reorder(bytes, field, 16 - TURN);
         }
-        // What VEX has no distance.
+        // Not after VEX, where bytes that are no program may seem to be a jump.
         if taken == 1 && parser.relative & !IMM8 != 0 && parser.relative == parser.field() {
             let mut end = address.wrapping_add(4 + parser.after_four());
             if to == Form::Plain {

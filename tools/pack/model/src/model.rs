@@ -260,7 +260,8 @@ impl Model {
                 known += 8 - _mm256_movemask_ps(unseen).count_ones();
                 let linear = _mm256_mullo_epi32(p, _mm256_min_epi32(n, _mm256_set1_epi32(20)));
                 put_floats(_mm256_cvtepi32_ps(_mm256_slli_epi32::<5>(linear)), &mut self.first.inputs[SLOTS + i]);
-                let place = _mm256_set1_epi32((self.place * (256 * CONTEXTS) as u32) as i32);
+                let place =
+                    _mm256_set1_epi32(((self.place & 31 | (self.bit & 4) << 3) * (256 * CONTEXTS) as u32) as i32);
                 let at = _mm256_add_epi32(_mm256_add_epi32(slot::histories(slots), words(&self.bases[i])), place);
                 put_words(at, &mut self.at[GROUPS + i]);
             }

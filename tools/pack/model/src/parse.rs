@@ -1,8 +1,6 @@
 //! Where in an x86-64 instruction the next byte stands, as it is coded ([`crate::form`]). Lengths after the opcode maps of
 //! Intel's manual, volume 2, appendix A; 64-bit mode only, VEX included, EVEX not.
 
-use crate::form::plain;
-
 /// A prefix, or the opcode of an instruction without VEX.
 pub const OP: u32 = 0;
 /// Operands.
@@ -26,6 +24,8 @@ pub const VEX: u32 = 14;
 /// The second of them, or the opcode after an escape byte.
 pub const OP_MORE: u32 = 15;
 
+/// The last byte of VEX and the opcode are coded as one word, rotated to the left by so many bits.
+pub const TURN: u32 = 5;
 /// What stands for VEX, of two or three bytes, as a prefix.
 const VEX_PREFIX: u8 = 0xc5;
 /// The bits of a coded operands byte that are the addressing mode.
@@ -157,7 +157,7 @@ impl Parser {
                     let mut opcode = byte as u8;
                     if self.has_vex() {
                         let vex;
-                        [vex, opcode] = plain([self.rex as u8, opcode]);
+                        [vex, opcode] = u16::from_be_bytes([self.rex as u8, opcode]).rotate_right(TURN).to_be_bytes();
                         self.rex = vex as u32;
                         self.prefix = (self.rex & 7) << 8 | VEX_PREFIX as u32;
                         if self.high == 0 {
