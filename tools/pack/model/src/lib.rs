@@ -73,6 +73,9 @@
 //! - first weights by the kind of input: 35 more than one for all;
 //! - a slot that was wrong forgets a quarter or half of its count: 150 and 500 more.
 //!
+//! With vectors and lines where they lie in one line of the processor's cache it is unpacked in 0.84 to 0.87 of the time, for
+//! 11 bytes; rows of weights of eight vectors instead of seven: no faster.
+//!
 //! Tried on the unpacker, of which 3,438 bytes are coded: slots read and written in loops instead of one by one, 128 bytes
 //! less before coding, none after it, and slower; a slot's count by a minimum: 4 bytes more.
 #![cfg_attr(not(test), no_std)]

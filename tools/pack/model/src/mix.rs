@@ -35,8 +35,8 @@ pub fn squash(x: __m256) -> __m256 {
     _mm256_div_ps(one, _mm256_add_ps(one, zeros_to_ones))
 }
 
-/// Up to eight mixers of the same inputs.
-#[repr(C)]
+/// Up to eight mixers of the same inputs. No vector lies in two lines of the processor's cache.
+#[repr(C, align(64))]
 pub struct Layer {
     /// What they mix.
     pub inputs: [Floats; VECTORS],

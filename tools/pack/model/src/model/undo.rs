@@ -96,13 +96,13 @@ mod log {
             for (at, head) in log.heads.drain(..).rev() {
                 self.heads[at as usize] = head;
             }
-            let lines = self.cells.as_chunks_mut::<16>().0;
+            let lines = self.cells.0.as_chunks_mut::<16>().0;
             for (at, line) in log.lines.drain(..).rev() {
                 lines[at as usize] = line;
             }
             for (at, cells) in log.cells.drain(..).rev() {
                 for (at, cell) in at.into_iter().zip(cells) {
-                    self.cells[at as usize] = cell;
+                    self.cells.0[at as usize] = cell;
                 }
             }
             for (mixer, row, weights) in log.first.drain(..).rev() {
