@@ -19,9 +19,9 @@ const SLOTS: usize = 2 * GROUPS + 1;
 /// The first mixers' weights at first. Others for histories, and for what counts how often it was seen, are no better.
 const WEIGHT: f32 = 0.028;
 /// The last mixers'.
-const LAST_WEIGHT: f32 = 0.2;
+const LAST_WEIGHT: f32 = 0.15;
 /// Mixers of all of that, and mixers of their results, which are averaged.
-const MIXERS: [usize; 2] = [6, 3];
+const MIXERS: [usize; 2] = [8, 3];
 /// How fast both learn.
 const RATES: [f32; 2] = [6.4e-10, 2.4e-10];
 /// They learn nothing from errors up to this, in 65536ths, which are half of all: a tenth of the time.
@@ -33,7 +33,7 @@ const MATCH_MIN: u32 = 5;
 /// Lines of sixteen cells, slots for four bits of a byte in one context: the first cell holds a check, the others are a tree
 /// of bits.
 const LINE_BITS: u32 = 20;
-/// The cells behind them: what followed histories, by the place of the byte ([`Model::kind`]), then the last group.
+/// The cells behind them: what followed histories, by the place of the byte ([`Model::kind`]) and its half, then the last group.
 const HISTORIES: u32 = 16 << LINE_BITS;
 const OTHERS: u32 = HISTORIES + 64 * 256 * CONTEXTS as u32;
 const CELLS: usize = OTHERS as usize + (1 << 16);
@@ -254,7 +254,8 @@ impl Model {
                 put_words(at, &mut self.at[i]);
             }
             // SAFETY: all are within: `look_up` has taken the lines' numbers from LINE_BITS bits, `node` is below 16, the
-            // place below 64, a history is of eight bits, and the last group is just above, or 0 where it is not used.
+            // place and its half are below 64, a history is of eight bits, and the last group is just above, or 0 where it is
+            // not used.
             let slots = unsafe { gather(&self.cells.0, &self.at[i]) };
             let p = slot::centred(slots);
             put_words(slots, &mut self.slots[i]);
@@ -288,8 +289,8 @@ impl Model {
             } else {
                 f[12] & 1023 | 1024
             },
-            0,
-            0,
+            f[12] & 1023 | (self.bit & 4) << 8,
+            f[1] | (self.place & 7) << 8,
         ];
         last.rows = first.rows;
         last.rows[0] = first.rows[5];
