@@ -111,6 +111,8 @@ fn read(program: &Trimmed, original: &[u8], form: Form) -> Result<Vec<Op>, Strin
             all.push(Op::new(&mut factory, instruction, &program.bytes[at..at + instruction.len()], form, &constants));
         }
     }
+    // The last four bytes are not converted: so nothing comes to lie there.
+    all.iter_mut().rev().take(5).for_each(|op| op.fixed = true);
     for op in &mut all {
         op.starts_block = starts.contains(&op.address()) | jumps.remove(&op.address());
     }

@@ -10,10 +10,11 @@ pub const FEATURES: usize = 32;
 ///
 /// Everywhere: 0 to 5 the last bytes, 30 what the longest match predicts. In code: 6 the field, 7 the bytes of
 /// it so far; 8 to 11 of the current instruction opcode, operands byte, hash of all so far, REX or VEX;
-/// 12 to 15 the same of the one before; 16 and 17 opcode and operands byte of the one before that; 19 the last two opcodes, 27 the last four; 20 the register that the last
-/// operands byte names first; 21 the highest bits of registers; 22 bytes until the next place that is jumped to, at
-/// most 16; 23 what the bytes to come of a displacement or distance were when the same addressing mode had one last;
-/// 31 the addressing mode. In data: 6 to 27 further bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
+/// 12 to 15 the same of the one before; 16 and 17 opcode and operands byte of the one before that; 19 the last two
+/// opcodes, 27 the last four; 20 the register that the last operands byte names in its middle; 21 the highest bits of
+/// registers; 22 bytes until the next place that is jumped to, at most 16; 23 what the bytes to come of a displacement
+/// or distance were when the same addressing mode had one last; 31 the addressing mode. In data: 6 to 27 further
+/// bytes, 28 the word so far, 29 and 31 the position modulo 4 and 16.
 #[repr(C)]
 #[derive(Clone)]
 pub struct Features {

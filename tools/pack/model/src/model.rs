@@ -46,8 +46,8 @@ struct Cells([u32; CELLS]);
 pub type Sets = [[u32; CONTEXTS]; 2];
 
 /// The model at work on one text, and all its memory. It starts as zeros; then comes [`Self::start`].
-/// What is used most is first, where the unpacker reaches it with short instructions; after eight words vectors are where
-/// no line of the processor's cache ends within one. That, and lines that are such lines, is a seventh of the time.
+/// What is used most is first, where the unpacker reaches it with short instructions. Eight words come before the vectors, so
+/// that none of them lies in two lines of the processor's cache; that, and cells in such lines, saves a seventh of the time.
 #[repr(C)]
 pub struct Model {
     /// Bits of the current byte below a leading one.

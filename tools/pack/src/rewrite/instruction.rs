@@ -123,9 +123,11 @@ impl Op {
             starts_block: false,
             ends_flags: matches!(flow, FlowControl::Return | FlowControl::Call | FlowControl::IndirectCall),
         };
+        // The coded form of what the parser takes for other instructions, or does not come to, holds there alone.
+        let moves = form == Form::Plain || op.encode(instruction).is_some_and(|bytes| bytes == op.bytes);
         op.use_floats();
         op.find_uses(factory);
-        op.fixed = !known || is_special(&instruction) || op.writes.iter().any(|&(_, unit)| unit == STACK);
+        op.fixed = !known || !moves || is_special(&instruction) || op.writes.iter().any(|&(_, unit)| unit == STACK);
         op
     }
 

@@ -147,6 +147,16 @@ mod tests {
         assert!(!ops(b"\x01\x03")[0].fixed);
     }
 
+    /// mov eax, ebx, which may move in the form that is coded, and not where it is left as the processor has it.
+    #[test]
+    fn what_is_not_in_the_coded_form_stays() {
+        let mut factory = InstructionInfoFactory::new();
+        let instruction = Decoder::with_ip(64, b"\x89\xd8", 0x1000, DecoderOptions::NONE).decode();
+        let mut is_fixed = |bytes| Op::new(&mut factory, instruction, bytes, Form::Coded, &(0..0)).fixed;
+        assert!(!is_fixed(b"\x89\xc3"));
+        assert!(is_fixed(b"\x89\xd8"));
+    }
+
     /// vaddps ymm0, ymm1, ymm2 is as good with the last two swapped; vsubps is not, nor is what would be longer.
     #[test]
     fn operands_commute() {
