@@ -28,8 +28,9 @@ fn a_rewritten_program_does_the_same_and_packs_better() {
         convert(&mut program.bytes[program.code.clone()], program.code_address as u32, Form::Coded);
         costs(&SETS, &program.bytes, program.code()).iter().map(|cost| cost.0).sum::<f32>()
     };
-    let mut saved = 0.0;
-    for options in [&["-O1"][..], &["-O2", "-mavx2"], &["-O3", "-mavx2", "-ffast-math"]] {
+    // With the bits that are saved at least: there is little to choose where few instructions have three operands.
+    let programs = [(&["-O1"][..], 0.0), (&["-O2", "-mavx2"], 90.0), (&["-O3", "-mavx2", "-ffast-math"], 400.0)];
+    for (options, least) in programs {
         let name = options.concat();
         let (before, after) = (work(&format!("as-is{name}")), work(&format!("rewritten{name}")));
         let source = here.join("tests/rewrite.c");
@@ -44,12 +45,9 @@ fn a_rewritten_program_does_the_same_and_packs_better() {
         with_new_code[code.clone()].copy_from_slice(&new[code]);
         assert!(new == with_new_code && new != program, "{name}");
         let less = bits(&program) - bits(&new);
-        println!("{name}: {less} bits less");
-        assert!(less > 0.0, "{name}: {less}");
-        saved += less;
+        assert!(less > least, "{name}: {less}");
         fs::copy(&before, &after).expect("the work directory is writable");
         fs::write(&after, new).expect("own file");
         assert_eq!(says(&before), says(&after), "{name}");
     }
-    assert!(saved > 300.0, "{saved}");
 }

@@ -82,7 +82,7 @@ impl Features {
             targets[self.number.wrapping_sub(self.origin) as usize & (MOST - 1)] = true;
         }
         if jump || matches!(before, DISP8 | DISP32_LAST) {
-            self.numbers[(p.modrm & MODE | p.high & 1) as usize] = self.number;
+            self.numbers[p.addressing()] = self.number;
         }
         let opcode = p.map << 8 | p.op;
         f[10] = hash(f[10], value + 1);
@@ -105,7 +105,7 @@ impl Features {
             f[23] >>= 8;
         } else {
             f[7] = 0;
-            f[23] = self.numbers[(f[31] & MODE | p.high & 1) as usize];
+            f[23] = self.numbers[p.addressing()];
             if p.relative == IMM8 {
                 f[23] = f[23].wrapping_sub(address.wrapping_add(1)) & 255;
             }

@@ -124,6 +124,11 @@ impl Parser {
         (self.queue as u32 >> 19).min(4)
     }
 
+    /// How the operand in memory is addressed: the mode, and whether its base is one of the upper registers. Below 256.
+    pub fn addressing(&self) -> usize {
+        (self.modrm & MODE | self.high & 1) as usize
+    }
+
     /// Takes one byte.
     pub fn step(&mut self, byte: u8) {
         if self.done {

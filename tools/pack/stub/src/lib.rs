@@ -44,6 +44,6 @@ fn is_right((image, sum): (&[u8], u32)) -> bool {
 struct Head {
     /// Length of the program.
     end: u32,
-    /// Where in both the program's instructions start and end, and where the first one will be in memory.
+    /// Where in it the instructions start and end, and where the first one will be in memory.
     code: [u32; 3],
 }
