@@ -9,13 +9,16 @@
 use crate::encoder::Encoder;
 use crate::rewrite::search::Price;
 use pack_model::first::{CONTEXTS, MULTIPLIER, PRIOR, TABLE_BITS};
+use std::array;
 
-/// The hash of the bits so far below a leading one and of those bytes before that `context` names, and their number.
-fn hash(context: u8, partial: usize, before: &[u8]) -> (u32, u32) {
+/// The hash of the bits so far below a leading one and of those bytes before that the first of `contexts` names, and the
+/// weight of their counts. All of `contexts`, those that come after it too, tell it from others.
+fn hash(contexts: u64, partial: usize, before: &[u8]) -> (u32, u32) {
     let step = |h: u32, byte: u32| (h ^ byte).wrapping_mul(MULTIPLIER);
-    let named = (0..8usize).filter(|i| context << i & 128 != 0);
+    let named = (0..8usize).filter(|i| contexts << i & 128 != 0);
     let byte = |i| before.len().checked_sub(i + 1).map_or(0, |at| before[at] as u32);
-    (named.fold(step(context as u32, partial as u32), |h, i| step(h, byte(i))), context.count_ones() + 1)
+    let start = (step(contexts as u32, partial as u32), 3);
+    named.fold(start, |(h, weight), i| (step(h, byte(i)), 3 * weight))
 }
 
 /// The model: counts of zeros and ones in each context, and what has been coded.
@@ -39,11 +42,11 @@ impl Counts {
         let mut partial = 1;
         for i in (0..8).rev() {
             let bit = (byte >> i & 1) as usize;
-            let found = CONTEXTS.to_le_bytes().map(|context| hash(context, partial, &self.text));
+            let found: [_; 8] = array::from_fn(|i| hash(CONTEXTS >> (8 * i), partial, &self.text));
             let mut sums = [PRIOR; 2];
             for (hash, weight) in found {
                 let pair = self.pairs[(hash >> (32 - TABLE_BITS)) as usize];
-                sums = [0, 1].map(|i| sums[i] + ((pair[i] as u32) << weight));
+                sums = [0, 1].map(|i| sums[i] + pair[i] as u32 * weight);
             }
             each(bit == 1, sums);
             // As the decoder does, from the last context to the first, some of which may share a pair.

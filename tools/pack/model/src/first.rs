@@ -9,6 +9,6 @@ pub const MULTIPLIER: u32 = 0x9e37_79b1;
 /// Logarithm of the number of pairs of counts.
 pub const TABLE_BITS: u32 = 22;
 /// What zeros and ones are taken to have been seen before there is any count.
-pub const PRIOR: u32 = 4;
+pub const PRIOR: u32 = 8;
 /// What the second stage ends with. No model would guess it.
 pub const END: u32 = 0x5d8a_e3b4;

@@ -3,7 +3,7 @@
 // the packer (src/first.rs).
 //
 //   rdi  byte being decoded: its bits so far below a leading one
-//   rbx  features of the contexts to come, eight bits each: one for each of the bytes before
+//   rbx  the contexts to come, eight bits each: one for each of the bytes before
 //   ebp  range; r10d  value within it; r12d  address of the next coded bit
 //   r8d  weighted count of zeros, then of all; r9d  of ones
 .pushsection .first, "ax"
@@ -51,10 +51,12 @@ next_bit:
 next_context:
     push    rdi
     pop     rsi
-    xor     ecx, ecx
-    movzx   eax, bl
-    mov     edx, eax
-2:  inc     ecx
+    // The hash begins with all contexts to come: with one alone, it would be another one's for other bits.
+    mov     eax, ebx
+    mov     edx, ebx
+    push    1
+    pop     rcx
+2:  lea     ecx, [rcx + rcx * 2]
     xor     al, [rsi]
     imul    eax, eax, {multiplier}
 3:  dec     esi
@@ -65,10 +67,10 @@ next_context:
     lea     eax, [rax * 4 + counts]
     push    rax
     movzx   edx, word ptr [rax]
-    shl     edx, cl
+    imul    edx, ecx
     add     r9d, edx
     movzx   edx, word ptr [rax + 2]
-    shl     edx, cl
+    imul    edx, ecx
     add     r8d, edx
     shr     rbx, 8
     jnz     next_context
