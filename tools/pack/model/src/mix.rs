@@ -6,7 +6,7 @@
 
 #![cfg_attr(test, allow(unsafe_code))]
 
-use crate::vector::{Floats, floats, put_floats};
+use crate::vector::{Floats, Words, floats, put_floats};
 use core::arch::x86_64::*;
 
 /// Vectors of inputs.
@@ -45,8 +45,6 @@ pub struct Layer {
     /// Their results: the sums of those, clamped to what can be squashed.
     pub sums: Floats,
     errors: Floats,
-    /// The set of weights that each uses.
-    pub rows: [u32; 8],
     /// All sets of each.
     pub weights: [[[Floats; VECTORS]; ROWS]; 8],
 }
@@ -58,15 +56,14 @@ impl Layer {
         products: [[0.0; 8]; 8],
         sums: [0.0; 8],
         errors: [0.0; 8],
-        rows: [0; 8],
         weights: [[[[0.0; 8]; VECTORS]; ROWS]; 8],
     };
 
-    /// Sums up the first `vectors` of the inputs, each with its weight, for the first `mixers`.
+    /// Sums up the first `vectors` of the inputs, for the first `mixers`, each with the set of weights that `rows` says.
     #[target_feature(enable = "avx2,fma")]
     #[inline(never)]
-    pub fn mix(&mut self, mixers: usize, vectors: usize) {
-        for ((product, &row), weights) in self.products.iter_mut().zip(&self.rows).zip(&self.weights).take(mixers) {
+    pub fn mix(&mut self, rows: &Words, mixers: usize, vectors: usize) {
+        for ((product, &row), weights) in self.products.iter_mut().zip(rows).zip(&self.weights).take(mixers) {
             let mut sum = _mm256_setzero_ps();
             for (x, w) in self.inputs.iter().zip(&weights[row as usize & (ROWS - 1)]).take(vectors) {
                 sum = _mm256_fmadd_ps(floats(x), floats(w), sum);
@@ -86,10 +83,10 @@ impl Layer {
     /// Moves the same weights by the error of each mixer's probability of the `bit`.
     #[target_feature(enable = "avx2,fma")]
     #[inline(never)]
-    pub fn learn(&mut self, mixers: usize, vectors: usize, bit: u32, rate: f32) {
+    pub fn learn(&mut self, rows: &Words, mixers: usize, vectors: usize, bit: u32, rate: f32) {
         let errors = _mm256_sub_ps(_mm256_set1_ps(bit as i32 as f32), squash(floats(&self.sums)));
         put_floats(_mm256_mul_ps(errors, _mm256_set1_ps(rate)), &mut self.errors);
-        for ((&error, &row), weights) in self.errors.iter().zip(&self.rows).zip(&mut self.weights).take(mixers) {
+        for ((&error, &row), weights) in self.errors.iter().zip(rows).zip(&mut self.weights).take(mixers) {
             for (x, w) in self.inputs.iter().zip(&mut weights[row as usize & (ROWS - 1)]).take(vectors) {
                 put_floats(_mm256_fmadd_ps(floats(x), _mm256_set1_ps(error), floats(w)), w);
             }
@@ -134,7 +131,7 @@ mod tests {
     fn mixers_add_up_and_learn() {
         let mut layer = layer();
         let number = |i: usize| ((i * 2_654_435_761) as u32 >> 8) as f32 / (1 << 24) as f32 - 0.5;
-        layer.rows = [0, 5, 2047, 3, 9, 1024, 7, 8];
+        let rows = [0, 5, 2047, 3, 9, 1024, 7, 8];
         for (i, x) in layer.inputs.as_flattened_mut().iter_mut().enumerate() {
             *x = number(i) * (1 << 23) as f32;
         }
@@ -142,19 +139,19 @@ mod tests {
             *w = number(i + 9) * 0.2;
         }
         let exact = |layer: &Layer, mixer: usize| -> f64 {
-            let weights = &layer.weights[mixer][layer.rows[mixer] as usize];
+            let weights = &layer.weights[mixer][rows[mixer] as usize];
             let pairs = layer.inputs.as_flattened().iter().zip(weights.as_flattened());
             pairs.map(|(&x, &w)| f64::from(x) * f64::from(w)).sum()
         };
         // SAFETY: as above.
-        unsafe { layer.mix(6, VECTORS) };
+        unsafe { layer.mix(&rows, 6, VECTORS) };
         let before: [f64; 8] = core::array::from_fn(|i| exact(&layer, i));
         for (mixer, (&sum, exact)) in layer.sums.iter().zip(before).enumerate() {
             let exact = if mixer < 6 { exact.clamp((-MOST).into(), MOST.into()) } else { 0.0 };
             assert!((f64::from(sum) - exact).abs() < 16.0, "{mixer}: {sum} {exact}");
         }
         // SAFETY: as above.
-        unsafe { layer.learn(6, VECTORS, 1, 1e-9) };
+        unsafe { layer.learn(&rows, 6, VECTORS, 1, 1e-9) };
         for (mixer, before) in before.into_iter().enumerate() {
             let after = exact(&layer, mixer);
             assert!(if mixer < 6 { after > before } else { after == before }, "{mixer}: {before} {after}");

@@ -75,7 +75,10 @@ pub struct Model {
     lines: [Words; GROUPS],
     /// Where the histories of each context are.
     bases: [Words; GROUPS],
-    code: [u32; 3],
+    /// The weights that each mixer uses.
+    rows: Words,
+    /// Where the instructions start and end, and the first one's address.
+    pub code: [u32; 3],
     match_at: u32,
     match_length: u32,
     sets: Sets,
@@ -108,6 +111,7 @@ impl Model {
         hashes: [0; CONTEXTS],
         lines: [[0; 8]; GROUPS],
         bases: [[0; 8]; GROUPS],
+        rows: [0; 8],
         sets: [[0; CONTEXTS]; 2],
         features: Features::ZERO,
         first: Layer::ZERO,
@@ -230,7 +234,7 @@ impl Model {
         self.step(bit);
     }
 
-    #[target_feature(enable = "avx2,fma")]
+    #[target_feature(enable = "avx2,fma,popcnt")]
     #[inline(never)]
     fn predict_avx2(&mut self) -> u32 {
         if self.bit & 3 == 0 {
@@ -274,13 +278,8 @@ impl Model {
         }
 
         let (f, class) = (&self.features.f, self.class << 8);
-        let (first, last) = (&mut self.first, &mut self.last);
-        first.rows = [
-            self.partial | (self.place & 7) << 8,
-            self.place | self.bit << 6 | (self.predicted & 256) << 1,
-            f[0] | class,
-            known | self.place << 5,
-            f[6] & 127 | self.bit << 7 | class << 2,
+        // The last mixers take the first of these.
+        self.rows = [
             // The opcode, before it is known the last instruction's.
             if class != 0 {
                 f[29]
@@ -289,14 +288,18 @@ impl Model {
             } else {
                 f[12] & 1023 | 1024
             },
+            self.place | self.bit << 6 | (self.predicted & 256) << 1,
+            f[0] | class,
+            self.partial | (self.place & 7) << 8,
+            known | self.place << 5,
+            f[6] & 127 | self.bit << 7 | class << 2,
             f[12] & 1023 | (self.bit & 4) << 8,
             f[1] | (self.place & 7) << 8,
         ];
-        last.rows = first.rows;
-        last.rows[0] = first.rows[5];
-        first.mix(MIXERS[0], VECTORS);
+        let (first, last) = (&mut self.first, &mut self.last);
+        first.mix(&self.rows, MIXERS[0], VECTORS);
         last.inputs[0] = first.sums;
-        last.mix(MIXERS[1], 1);
+        last.mix(&self.rows, MIXERS[1], 1);
         let [a, b, c, ..] = last.sums;
         let p = squash(_mm256_set1_ps((a + b + c) * (1.0 / MIXERS[1] as f32)));
         // Truncated, 1 to 65535, as what is squashed is clamped.
@@ -307,9 +310,9 @@ impl Model {
     #[target_feature(enable = "avx2,fma")]
     fn update_avx2(&mut self, bit: u32) {
         if (bit << 16).abs_diff(self.p) > LEAST_ERROR {
-            self.undo.weights(&self.first, &self.last);
-            self.first.learn(MIXERS[0], VECTORS, bit, RATES[0]);
-            self.last.learn(MIXERS[1], 1, bit, RATES[1]);
+            self.undo.weights(&self.rows, &self.first, &self.last);
+            self.first.learn(&self.rows, MIXERS[0], VECTORS, bit, RATES[0]);
+            self.last.learn(&self.rows, MIXERS[1], 1, bit, RATES[1]);
         }
         self.undo.cells(&self.at[GROUPS..], &self.slots[GROUPS..]);
         for (slots, at) in self.slots.iter().zip(&self.at) {

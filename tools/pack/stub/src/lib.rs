@@ -29,7 +29,7 @@ fn main(stack: &sys::Stack) -> ! {
         let bit = decoder.decode(model.predict(), |n| packed.append_to(n));
         model.update(bit);
     }
-    let [start, end, address] = head.code;
+    let [start, end, address] = model.code;
     convert(sys::part(model.text(), start, end), address, Form::Plain);
     run::run(sys::part(model.text(), 0, head.end), stack)
 }

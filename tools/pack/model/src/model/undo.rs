@@ -56,11 +56,11 @@ mod log {
         }
 
         /// The weights in use, before they learn.
-        pub fn weights(&mut self, first: &Layer, last: &Layer) {
+        pub fn weights(&mut self, rows: &Words, first: &Layer, last: &Layer) {
             if let Some(log) = &mut self.0 {
-                let row = |layer: &Layer, mixer: usize| layer.weights[mixer][layer.rows[mixer] as usize];
-                log.first.extend((0..MIXERS[0]).map(|mixer| (mixer, first.rows[mixer], row(first, mixer))));
-                log.last.extend((0..MIXERS[1]).map(|mixer| (mixer, last.rows[mixer], row(last, mixer)[0])));
+                let row = |layer: &Layer, mixer: usize| layer.weights[mixer][rows[mixer] as usize];
+                log.first.extend((0..MIXERS[0]).map(|mixer| (mixer, rows[mixer], row(first, mixer))));
+                log.last.extend((0..MIXERS[1]).map(|mixer| (mixer, rows[mixer], row(last, mixer)[0])));
             }
         }
     }
@@ -141,6 +141,6 @@ mod nothing {
 
         /// See the packer's.
         #[inline(always)]
-        pub fn weights(&mut self, _first: &Layer, _last: &Layer) {}
+        pub fn weights(&mut self, _rows: &Words, _first: &Layer, _last: &Layer) {}
     }
 }
