@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Texts of a file, and what becomes of each.
 type Cuts = (&'static str, &'static [(&'static str, &'static str)]);
 
-const CUTS: [Cuts; 18] = [
+const CUTS: [Cuts; 20] = [
     (
         "std/src/thread/lifecycle.rs",
         &[
@@ -45,13 +45,61 @@ const CUTS: [Cuts; 18] = [
             ("    pub handle: Thread,\n", ""),
             ("ThreadInit { handle: thread.clone(), rust_start }", "ThreadInit { rust_start }"),
             ("    let id = ThreadId::new();\n    let thread = Thread::new(id, name);\n", ""),
-            ("    thread: Thread,\n    packet:", "    packet:"),
-            ("        thread,\n        packet:", "        packet:"),
+            // Nobody waits for a thread but its scope. So its packet, which tells the scope that it has ended, is its own.
+            ("    thread: Thread,\n    packet: Arc<Packet<'scope, T>>", "    packet: PhantomData<Packet<'scope, T>>"),
+            ("        thread,\n        packet: my_packet", "        packet: PhantomData"),
+            (
+                "    let my_packet: Arc<Packet<'scope, T>> =
+        Arc::new(Packet { scope: scope_data, result: UnsafeCell::new(None), _marker: PhantomData });
+    let their_packet = my_packet.clone();
+",
+                "    let their_packet: Packet<'scope, T> =
+        Packet { scope: scope_data, result: UnsafeCell::new(ManuallyDrop::new(None)), _marker: PhantomData };
+    let scope = their_packet.scope.as_ref().map(|scope| {
+        scope.increment_num_running_threads();
+        &raw const **scope
+    });
+",
+            ),
+            (
+                "    if let Some(scope_data) = &my_packet.scope {
+        scope_data.increment_num_running_threads();
+    }
+",
+                "",
+            ),
+            // A thread that does not start leaves its memory behind, the packet in it.
+            (
+                "        native: unsafe { imp::Thread::new(stack_size, init)? },\n",
+                "        native: match unsafe { imp::Thread::new(stack_size, init) } {
+            Ok(native) => native,
+            Err(error) => {
+                scope.map(|scope| unsafe { (*scope).decrement_num_running_threads(false) });
+                return Err(error);
+            }
+        },
+",
+            ),
+            ("        Arc::strong_count(&self.packet) == 1\n", "        unreachable!()\n"),
+            (
+                "        self.native.join();
+        Arc::get_mut(&mut self.packet)
+            // FIXME(fuzzypixelz): returning an error instead of panicking here
+            // would require updating the documentation of
+            // `std::thread::Result`; currently we can return `Err` if and only
+            // if the thread had panicked.
+            .expect(\"threads should not terminate unexpectedly\")
+            .result
+            .get_mut()
+            .take()
+            .unwrap()
+",
+                "        unreachable!()\n",
+            ),
             ("        &self.thread\n", "        unreachable!()\n"),
             // No thread gives a result, and a panic ends the process.
             ("        unsafe { *their_packet.result.get() = Some(try_result) };\n", ""),
             ("    result: UnsafeCell<Option<Result<T>>>,", "    result: UnsafeCell<ManuallyDrop<Option<Result<T>>>>,"),
-            ("result: UnsafeCell::new(None)", "result: UnsafeCell::new(ManuallyDrop::new(None))"),
             ("matches!(self.result.get_mut(), Some(Err(_)))", "false"),
             ("            *self.result.get_mut() = None;\n", ""),
         ],
@@ -73,16 +121,10 @@ const CUTS: [Cuts; 18] = [
             ("match libc::pthread_attr_setstacksize(attr.as_mut_ptr(), stack_size) {", "match 0 {"),
             ("if libc::pthread_attr_setstacksize(attr.as_mut_ptr(), stack_size) != 0 {", "if false {"),
             ("attr.as_ptr(), thread_start", "ptr::null(), thread_start"),
+            // See above.
+            ("            drop(Box::from_raw(data));\n", ""),
             // No handler tells a stack overflow from other faults.
             ("let _handler = sys::stack_overflow::Handler::new();", ""),
-        ],
-    ),
-    (
-        "std/src/sys/thread_local/guard/key.rs",
-        // No local of a thread has a destructor but the thread's handle, and threads that have one never end.
-        &[
-            ("            destructors::run();\n", ""),
-            ("        set(DTORS.force(), ptr::without_provenance_mut(1));\n", ""),
         ],
     ),
     (
@@ -113,8 +155,9 @@ const CUTS: [Cuts; 18] = [
     ),
     (
         "alloc/src/raw_vec/mod.rs",
-        // Vectors of all types grow in one place, where no memory is the end; that crates have functions of their own for
-        // it comes from the allocator, a parameter.
+        // Vectors of all types are made, grow and go in one place each, where no memory is the end; that crates have
+        // functions of their own for it comes from the allocator, a parameter. Memory is aligned for every type there is, so
+        // that a size is all that has to be said of one. A vector without memory is at an address that is an alignment.
         &[
             (
                 "    fn try_allocate_in(\n        capacity",
@@ -125,7 +168,7 @@ const CUTS: [Cuts; 18] = [
         alloc: A,
         elem_layout: Layout,
     ) -> Result<Self, TryReserveError> {
-        let arguments = (capacity, matches!(init, AllocInit::Zeroed), elem_layout);
+        let arguments = (capacity, matches!(init, AllocInit::Zeroed), size_of_one(elem_layout));
         let new = core::intrinsics::const_eval_select(arguments, never_new, fresh);
         Ok(Self { ptr: new.ptr, cap: new.cap, alloc })
     }
@@ -141,7 +184,7 @@ const CUTS: [Cuts; 18] = [
         additional: usize,
         elem_layout: Layout,
     ) -> Result<(), TryReserveError> {
-        let arguments = (&raw mut *self as *mut RawVecInner, len + additional, elem_layout);
+        let arguments = (&raw mut *self as *mut RawVecInner, len + additional, size_of_one(elem_layout));
         core::intrinsics::const_eval_select(arguments, never_grows, grow);
         Ok(())
     }
@@ -158,7 +201,8 @@ const CUTS: [Cuts; 18] = [
         unsafe { self.set_ptr_and_cap(ptr, cap) };
         Ok(())
 ",
-                "        let roomy = room(unsafe { &mut *(&raw mut *self as *mut RawVecInner) }, len + additional, elem_layout);
+                "        let vec = unsafe { &mut *(&raw mut *self as *mut RawVecInner) };
+        let roomy = room(vec, len + additional, size_of_one(elem_layout));
         if roomy { Ok(()) } else { Err(CapacityOverflow.into()) }
 ",
             ),
@@ -174,71 +218,155 @@ const CUTS: [Cuts; 18] = [
 ",
                 "    #[inline(always)]
     unsafe fn deallocate(&mut self, _: Layout) {
-        release(self.cap, self.ptr.as_ptr());
+        release(self.ptr.as_ptr());
     }
 ",
             ),
             (
                 "enum AllocInit {",
-                "const fn never_new(_: usize, _: bool, _: Layout) -> RawVecInner {
+                "/// The alignment of all memory, and the highest that a type may have.
+const ALIGNMENT: usize = 64;
+
+/// Known where it is called: what it sees to takes no code.
+pub(crate) const fn size_of_one(layout: Layout) -> usize {
+    assert!(layout.align() <= ALIGNMENT);
+    layout.size()
+}
+
+const fn never_new(_: usize, _: bool, _: usize) -> RawVecInner {
     panic!()
 }
 
-const fn never_grows(_: *mut RawVecInner, _: usize, _: Layout) {
+const fn never_grows(_: *mut RawVecInner, _: usize, _: usize) {
     panic!()
 }
 
 #[inline(never)]
-fn fresh(capacity: usize, zeroed: bool, elem_layout: Layout) -> RawVecInner {
-    let mut vec = RawVecInner::new_in(Global, elem_layout.alignment());
-    if capacity * elem_layout.size() != 0 {
-        enlarge(&mut vec, capacity, elem_layout);
+fn fresh(capacity: usize, zeroed: bool, elem_size: usize) -> RawVecInner {
+    let mut vec = RawVecInner::new_in(Global, unsafe { Alignment::new_unchecked(ALIGNMENT) });
+    if capacity * elem_size != 0 {
+        enlarge(&mut vec, capacity, elem_size);
         if zeroed {
-            unsafe { ptr::write_bytes(vec.ptr.as_ptr(), 0, capacity * elem_layout.size()) };
+            unsafe { ptr::write_bytes(vec.ptr.as_ptr(), 0, capacity * elem_size) };
         }
     }
     vec
 }
 
 #[inline(never)]
-fn grow(vec: *mut RawVecInner, needed: usize, elem_layout: Layout) {
+fn grow(vec: *mut RawVecInner, needed: usize, elem_size: usize) {
     let vec = unsafe { &mut *vec };
-    enlarge(vec, cmp::max(cmp::max(vec.cap.as_inner() * 2, needed), 4), elem_layout);
+    enlarge(vec, cmp::max(cmp::max(vec.cap.as_inner() * 2, needed), 4), elem_size);
 }
 
-fn enlarge(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) {
-    if !room(vec, capacity, elem_layout) {
+fn enlarge(vec: &mut RawVecInner, capacity: usize, elem_size: usize) {
+    if !room(vec, capacity, elem_size) {
         core::intrinsics::abort();
     }
 }
 
 #[inline(never)]
-fn release(capacity: Cap, place: *mut u8) {
-    if capacity.as_inner() != 0 {
+fn release(place: *mut u8) {
+    if place as usize > ALIGNMENT {
         unsafe { crate::alloc::dealloc(place, Layout::new::<u8>()) };
     }
 }
 
 #[inline(never)]
-fn room(vec: &mut RawVecInner, capacity: usize, elem_layout: Layout) -> bool {
-    let Some(size) = capacity.checked_mul(elem_layout.size()) else { return false };
+fn room(vec: &mut RawVecInner, capacity: usize, elem_size: usize) -> bool {
+    let Some(size) = capacity.checked_mul(elem_size) else { return false };
     unsafe {
-        let new = crate::alloc::alloc(Layout::from_size_align_unchecked(size, elem_layout.align()));
+        let new = block(size);
         if new.is_null() {
             return false;
         }
         let old = vec.ptr.as_ptr();
-        ptr::copy_nonoverlapping(old, new, vec.cap.as_inner() * elem_layout.size());
-        vec.deallocate(elem_layout);
+        ptr::copy_nonoverlapping(old, new, vec.cap.as_inner() * elem_size);
+        release(old);
         vec.ptr = Unique::new_unchecked(new);
         vec.cap = Cap::new_unchecked(capacity);
     }
     true
 }
 
+fn block(size: usize) -> *mut u8 {
+    unsafe { crate::alloc::alloc(Layout::from_size_align_unchecked(size, ALIGNMENT)) }
+}
+
+#[inline(never)]
+pub(crate) fn boxed(size: usize) -> *mut u8 {
+    let new = block(size);
+    if new.is_null() {
+        core::intrinsics::abort();
+    }
+    new
+}
+
+#[inline(never)]
+pub(crate) fn boxed_zeroed(size: usize) -> *mut u8 {
+    let new = boxed(size);
+    unsafe { ptr::write_bytes(new, 0, size) };
+    new
+}
+
 enum AllocInit {",
             ),
         ],
+    ),
+    (
+        "alloc/src/boxed.rs",
+        // The same for boxes.
+        &[
+            (
+                "    match Global.allocate(layout) {
+        Ok(ptr) => ptr.as_mut_ptr(),
+        Err(_) => handle_alloc_error(layout),
+    }
+}
+
+/// Helper",
+                "    match crate::raw_vec::size_of_one(layout) {
+        0 => layout.dangling_ptr().as_ptr(),
+        size => crate::raw_vec::boxed(size),
+    }
+}
+
+/// Helper",
+            ),
+            (
+                "#[inline]
+// The is",
+                "#[inline(always)]
+// The is",
+            ),
+            (
+                "        match Box::try_new_zeroed_in(alloc) {
+            Ok(m) => m,
+            Err(_) => handle_alloc_error(layout),
+        }
+    }
+
+",
+                "        let new = crate::raw_vec::boxed_zeroed(crate::raw_vec::size_of_one(layout));
+        unsafe { Box::from_raw_in(new.cast(), alloc) }
+    }
+
+",
+            ),
+        ],
+    ),
+    (
+        "alloc/src/sync.rs",
+        // No program makes 2^63 clones.
+        &[(
+            "        if old_size > MAX_REFCOUNT {
+            abort();
+        }
+
+        unsafe { Self::from_inner_in(self.ptr, self.alloc.clone()) }",
+            "        let _ = old_size;
+        unsafe { Self::from_inner_in(self.ptr, self.alloc.clone()) }",
+        )],
     ),
     (
         "core/src/slice/memchr.rs",
@@ -260,7 +388,22 @@ enum AllocInit {",
 ",
                 "        .map(|d| libc::timespec { tv_sec: d.as_secs() as _, tv_nsec: d.subsec_nanos() as _ });\n",
             ),
+            // The kernel looks first, too.
+            (
+                "        // No need to wait if the value already changed.
+        if futex.load(Relaxed) != expected {
+            return true;
+        }
+",
+                "",
+            ),
             ("libc::FUTEX_WAIT_BITSET | libc", "libc::FUTEX_WAIT | libc"),
+            (
+                "                        null::<u32>(), // This argument is unused for FUTEX_WAIT_BITSET.
+                        !0u32,         // A full bitmask, to make it behave like a regular FUTEX_WAIT.
+",
+                "",
+            ),
             (
                 "        match (r < 0).then(crate::sys::io::errno) {
             Some(libc::ETIMEDOUT) => return false,
@@ -300,11 +443,27 @@ enum AllocInit {",
     ),
     (
         "std/src/thread/thread.rs",
-        // No thread has a name.
-        &[(
-            "        let name = name.map(ThreadNameString::from);\n",
-            "        crate::mem::forget(name);\n        let name: Option<ThreadNameString> = None;\n",
-        )],
+        &[
+            // No thread has a name.
+            (
+                "        let name = name.map(ThreadNameString::from);\n",
+                "        crate::mem::forget(name);\n        let name: Option<ThreadNameString> = None;\n",
+            ),
+            // No thread that has a handle ever ends.
+            ("    inner: Pin<Arc<Inner, System>>,\n", "    inner: Pin<&'static Inner>,\n"),
+            (
+                "            let mut arc = Arc::<Inner, _>::new_uninit_in(System);
+            let ptr = Arc::get_mut_unchecked(&mut arc).as_mut_ptr();
+",
+                "            let ptr = crate::boxed::Box::into_raw(crate::boxed::Box::<Inner>::new_uninit()).cast::<Inner>();\n",
+            ),
+            ("Pin::new_unchecked(arc.assume_init())", "Pin::new_unchecked(&*ptr)"),
+            ("Arc::into_raw_with_allocator(inner).0 as *const ()", "inner as *const Inner as *const ()"),
+            (
+                "Pin::new_unchecked(Arc::from_raw_in(ptr as *const Inner, System))",
+                "Pin::new_unchecked(&*(ptr as *const Inner))",
+            ),
+        ],
     ),
     (
         "std/src/thread/scoped.rs",
@@ -312,12 +471,18 @@ enum AllocInit {",
         &[
             ("main_thread: current_or_unnamed(),", "main_thread: super::current::current(),"),
             ("Ok(_) if scope.data.a_thread_panicked.load(Ordering::Relaxed) =>", "Ok(_) if false =>"),
+            ("Ordering::Relaxed) > usize::MAX / 2 {", "Ordering::Relaxed) > usize::MAX / 2 && false {"),
         ],
     ),
     (
         "std/src/thread/current.rs",
-        // No thread asks for a number.
-        &[("        let id = id::get_or_init();\n", "        let id = unsafe { crate::mem::transmute(1u64) };\n")],
+        &[
+            // No thread asks for a number.
+            ("        let id = id::get_or_init();\n", "        let id = unsafe { crate::mem::transmute(1u64) };\n"),
+            // None ends that has a handle, and allocating asks for none.
+            ("    if current == NONE {\n        CURRENT.set(BUSY);\n", "    if true {\n"),
+            ("        crate::sys::thread_local::guard::enable();\n", ""),
+        ],
     ),
     (
         "std/src/sys/pal/unix/mod.rs",
@@ -358,9 +523,24 @@ enum AllocInit {",
     (
         "std/src/sys/sync/once/futex.rs",
         // What is made once is made: it does not fail. All who wait are woken, whether there are any or not.
-        &[(
-            "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {\n",
-            "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {
+        &[
+            (
+                "            _ => unreachable!(\"invalid Once state\"),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_state",
+                "            _ => OnceExclusiveState::Incomplete,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_state",
+            ),
+            (
+                "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {\n",
+                "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {
         loop {
             match self.state_and_queued.compare_exchange(INCOMPLETE, RUNNING, Acquire, Acquire) {
                 Ok(_) => {
@@ -375,6 +555,15 @@ enum AllocInit {",
         }
         #[allow(unreachable_code)]
 ",
+            ),
+        ],
+    ),
+    (
+        "std/src/sync/once.rs",
+        // See above: what makes it is called once.
+        &[(
+            "        self.inner.call(true, &mut |p| f.take().unwrap()(p));\n",
+            "        self.inner.call(true, &mut |p| unsafe { f.take().unwrap_unchecked() }(p));\n",
         )],
     ),
     (
