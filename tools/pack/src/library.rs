@@ -266,7 +266,7 @@ fn enlarge(vec: &mut RawVecInner, capacity: usize, elem_size: usize) {
 }
 
 #[inline(never)]
-fn release(place: *mut u8) {
+pub(crate) fn release(place: *mut u8) {
     if place as usize > ALIGNMENT {
         unsafe { crate::alloc::dealloc(place, Layout::new::<u8>()) };
     }
@@ -318,6 +318,27 @@ enum AllocInit {",
         // The same for boxes.
         &[
             (
+                "            let layout = Layout::for_value_raw(ptr.as_ptr());
+            if layout.size() != 0 {
+                self.1.deallocate(From::from(ptr.cast()), layout);
+            }
+        }
+    }
+}
+
+#[cfg(not(no_global_oom_handling))]
+#[stable(feature = \"rust1\", since = \"1.0.0\")]
+impl<T: Default> Default",
+                "            crate::raw_vec::release(ptr.as_ptr().cast());
+        }
+    }
+}
+
+#[cfg(not(no_global_oom_handling))]
+#[stable(feature = \"rust1\", since = \"1.0.0\")]
+impl<T: Default> Default",
+            ),
+            (
                 "    match Global.allocate(layout) {
         Ok(ptr) => ptr.as_mut_ptr(),
         Err(_) => handle_alloc_error(layout),
@@ -357,16 +378,34 @@ enum AllocInit {",
     ),
     (
         "alloc/src/sync.rs",
-        // No program makes 2^63 clones.
-        &[(
-            "        if old_size > MAX_REFCOUNT {
+        &[
+            (
+                "        let _weak = Weak { ptr: self.ptr, alloc: &self.alloc };
+
+        // Destroy the data at this time, even though we must not free the box
+        // allocation itself (there might still be weak pointers lying around).
+        // We cannot use `get_mut_unchecked` here, because `self.alloc` is borrowed.
+        unsafe { ptr::drop_in_place(&mut (*self.ptr.as_ptr()).data) };
+    }
+
+    /// Returns `true` if the two",
+                "        unsafe { ptr::drop_in_place(&mut (*self.ptr.as_ptr()).data) };
+        unsafe { crate::alloc::dealloc(self.ptr.as_ptr().cast(), Layout::new::<u8>()) };
+    }
+
+    /// Returns `true` if the two",
+            ),
+            // No program makes 2^63 clones.
+            (
+                "        if old_size > MAX_REFCOUNT {
             abort();
         }
 
         unsafe { Self::from_inner_in(self.ptr, self.alloc.clone()) }",
-            "        let _ = old_size;
+                "        let _ = old_size;
         unsafe { Self::from_inner_in(self.ptr, self.alloc.clone()) }",
-        )],
+            ),
+        ],
     ),
     (
         "core/src/slice/memchr.rs",
