@@ -548,16 +548,28 @@ impl<T: Default> Default",
     ),
     (
         "std/src/sys/sync/mutex/futex.rs",
-        // No lock is held for so short a time that one would spin.
-        &[(
-            "        let mut state = self.spin();\n",
-            "        while self.futex.swap(CONTENDED, Acquire) != UNLOCKED {
+        &[
+            (
+                "    #[inline]\n    // Make this a diagnostic item for Miri's concurrency model checker.
+    #[cfg_attr(not(test), rustc_diagnostic_item = \"sys_mutex_lock\")]",
+                "    #[inline(never)]",
+            ),
+            (
+                "    #[inline]\n    // Make this a diagnostic item for Miri's concurrency model checker.
+    #[cfg_attr(not(test), rustc_diagnostic_item = \"sys_mutex_unlock\")]",
+                "    #[inline(never)]",
+            ),
+            // No lock is held for so short a time that one would spin.
+            (
+                "        let mut state = self.spin();\n",
+                "        while self.futex.swap(CONTENDED, Acquire) != UNLOCKED {
             futex_wait(&self.futex, CONTENDED, None);
         }
         return;
         let mut state = self.spin();
 ",
-        )],
+            ),
+        ],
     ),
     (
         "std/src/sys/sync/once/futex.rs",
@@ -579,19 +591,33 @@ impl<T: Default> Default",
             ),
             (
                 "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {\n",
-                "    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {
+                "    pub fn fresh_state() -> public::OnceState {
+        public::OnceState { inner: OnceState { poisoned: false, set_state_to: Cell::new(COMPLETE) } }
+    }
+
+    #[inline(never)]
+    pub fn begin(&self) -> bool {
         loop {
             match self.state_and_queued.compare_exchange(INCOMPLETE, RUNNING, Acquire, Acquire) {
-                Ok(_) => {
-                    f(&public::OnceState { inner: OnceState { poisoned: false, set_state_to: Cell::new(COMPLETE) } });
-                    self.state_and_queued.store(COMPLETE, Release);
-                    futex_wake_all(&self.state_and_queued);
-                    return;
-                }
-                Err(COMPLETE) => return,
+                Ok(_) => return true,
+                Err(COMPLETE) => return false,
                 Err(_) => futex_wait(&self.state_and_queued, RUNNING, None),
             };
         }
+    }
+
+    #[inline(never)]
+    pub fn finish(&self) {
+        self.state_and_queued.store(COMPLETE, Release);
+        futex_wake_all(&self.state_and_queued);
+    }
+
+    pub fn call(&self, ignore_poisoning: bool, f: &mut dyn FnMut(&public::OnceState)) {
+        if self.begin() {
+            f(&Self::fresh_state());
+            self.finish();
+        }
+        return;
         #[allow(unreachable_code)]
 ",
             ),
@@ -601,8 +627,14 @@ impl<T: Default> Default",
         "std/src/sync/once.rs",
         // See above: what makes it is called once.
         &[(
-            "        self.inner.call(true, &mut |p| f.take().unwrap()(p));\n",
-            "        self.inner.call(true, &mut |p| unsafe { f.take().unwrap_unchecked() }(p));\n",
+            "        let mut f = Some(f);
+        self.inner.call(true, &mut |p| f.take().unwrap()(p));
+",
+            "        if self.inner.begin() {
+            f(&sys::Once::fresh_state());
+            self.inner.finish();
+        }
+",
         )],
     ),
     (
