@@ -156,10 +156,14 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
     let mut allowed = threshold * share * share.sqrt();
     let known = vec![false; planes[0].len()];
     let mut lattice = Lattice { planes, known, cells: Vec::new(), wanted: Vec::new() };
-    for y in (0..tile.height).step_by(size) {
-        for x in (0..tile.width).step_by(size) {
+    let mut y = 0;
+    while y < tile.height {
+        let mut x = 0;
+        while x < tile.width {
             lattice.cells.push(x + y * ROW);
+            x += size;
         }
+        y += size;
     }
     loop {
         let cells = std::mem::take(&mut lattice.cells);

@@ -47,8 +47,8 @@ impl CloudField {
         let drift = self.drift(time);
         let reach = (self.range / self.spacing).ceil() as i32;
         let middle = ((Vec2::new(eye.x, eye.z) - drift) / self.spacing).floor();
-        for j in -reach..=reach {
-            for i in -reach..=reach {
+        for j in -reach..reach + 1 {
+            for i in -reach..reach + 1 {
                 let place = [middle.x as i32 + i, middle.y as i32 + j];
                 let number = (place[0] & 0x3ff) as u32 | ((place[1] & 0x3ff) as u32) << 10;
                 let r = |k: u32| rnd(self.seed, number, k);

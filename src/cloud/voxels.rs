@@ -105,7 +105,7 @@ impl Voxels {
     pub(super) fn extent(&self, axis: usize) -> Range<usize> {
         let edge = to_f32(self.edge);
         // The bounds are halfway between points.
-        let point = |bound: f32| ((bound + 1.0) * edge * 0.5).clamp(0.0, edge - 1.0) as i32 as usize;
+        let point = |bound: f32| ((bound + 1.0) * edge * 0.5).max(0.0).min(edge - 1.0) as i32 as usize;
         let [low, high] = self.bounds;
         point(low[axis])..point(high[axis]) + 1
     }

@@ -86,7 +86,7 @@ impl Mesh {
         // A rectangle has its corners on the diagonals, not the middles of its sides.
         let offset = if rings.swell == SQUARE { 0.5 } else { 0.0 };
         for row in rings.rows {
-            for k in 0..=sides {
+            for k in 0..sides + 1 {
                 let part = if rings.half { k } else { k % sides };
                 let angle = (part as f32 + offset) / sides as f32 * if rings.half { PI } else { TAU };
                 let (sin, cos) = angle::sin_cos(angle);

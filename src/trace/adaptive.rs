@@ -112,10 +112,14 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     let cutter = Cutter { coarsest, unit, end: (tile.width * unit, tile.height * unit) };
     whole.clear();
     edges.clear();
-    for y in (0..cutter.end.1).step_by(coarsest) {
-        for x in (0..cutter.end.0).step_by(coarsest) {
+    let mut y = 0;
+    while y < cutter.end.1 {
+        let mut x = 0;
+        while x < cutter.end.0 {
             work[0].push(Square::new(x, y, coarsest));
+            x += coarsest;
         }
+        y += coarsest;
     }
     loop {
         for level in 0..LEVELS {
@@ -290,10 +294,16 @@ impl Cutter {
         let ((x, y), size) = (square.place(), square.size());
         let part = size >> if self.unit == 1 && size == 4 { 2 } else { 1 };
         let work = &mut work[(self.coarsest / part).trailing_zeros() as usize];
-        for y in (y..self.end.1.min(y + size)).step_by(part) {
-            for x in (x..self.end.0.min(x + size)).step_by(part) {
-                work.push(Square::new(x, y, part));
+        // Not `step_by`, which divides to count its steps.
+        let (right, below) = (self.end.0.min(x + size), self.end.1.min(y + size));
+        let mut row = y;
+        while row < below {
+            let mut column = x;
+            while column < right {
+                work.push(Square::new(column, row, part));
+                column += part;
             }
+            row += part;
         }
     }
 }

@@ -46,7 +46,7 @@ pub fn run(args: &Args, target: &[u8]) -> Result<(), Vec<u8>> {
     let piped = target == b"-";
     // Makes the directory and those above it. Most exist already; a failure shows when the first file cannot be
     // written.
-    for end in 1..=target.len() {
+    for end in 1..target.len() + 1 {
         if !piped && target.get(end).is_none_or(|&byte| byte == b'/') {
             make_directory(&target[..end]);
         }

@@ -78,7 +78,7 @@ pub fn ground() -> Vec<Mesh> {
 fn patch(from: usize, to: usize, start: usize) -> Mesh {
     const COLUMNS: usize = ROUND / SECTORS + 1;
     let mut mesh = Mesh::painted(&PAINTS);
-    for ring in from..=to {
+    for ring in from..to + 1 {
         let step = match ring {
             0..12 => 8,
             12..20 => 4,

@@ -17,6 +17,8 @@ const FLAGS: &[&str] = &[
     "-Cpanic=immediate-abort",
     "-Cforce-unwind-tables=no",
     "-Zlocation-detail=none",
+    // Functions of the C library are called as our own are: 80 bytes.
+    "-Zplt=yes",
     "-Zfmt-debug=none",
     "-Zinline-mir-hint-threshold=40",
     "-Zmutable-noalias=no",

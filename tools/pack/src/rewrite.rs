@@ -30,7 +30,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 /// How often the whole program is gone through.
-const PASSES: usize = 2;
+const PASSES: usize = 3;
 
 /// Rewrites an executable.
 pub fn rewrite(file: &[u8]) -> Result<Vec<u8>, String> {

@@ -58,7 +58,8 @@ pub fn put(surface: &mut impl Surface, frame: &Frame) -> Option<()> {
         // What was sent for another size may lie outside of this picture.
         surface.server().send(&[request(CLEAR_AREA, 0, 4), window, 0, 0])?;
     }
-    for first in (0..count).step_by(band_rows) {
+    let mut first = 0;
+    while first < count {
         let rows = first..count.min(first + band_rows);
         let mut band = bytes(&[
             request(PUT_IMAGE, Z_PIXMAP, (PUT_IMAGE_HEAD + rows.len() * columns) as u32),
@@ -78,6 +79,7 @@ pub fn put(surface: &mut impl Surface, frame: &Frame) -> Option<()> {
             }
             rest = &rest[surface.server().push(rest)?..];
         }
+        first += band_rows;
     }
     Some(())
 }
