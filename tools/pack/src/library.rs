@@ -1,4 +1,4 @@
-//! The standard library's sources without what the intro never uses: 3 kB packed; and without the bounds checks of
+//! The standard library's sources without what the intro never uses: 3.6 kB packed; and without the bounds checks of
 //! slices: 1.7 kB more.
 //!
 //! Links lead to the toolchain's own files but for those that are cut.
