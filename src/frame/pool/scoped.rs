@@ -2,7 +2,6 @@
 //! packed.
 
 use super::start::STACK;
-use rustix::thread::CpuSet;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{self, Builder};
 
@@ -45,8 +44,8 @@ impl Pool {
 /// kB packed.
 #[cfg(target_os = "linux")]
 pub fn cores() -> usize {
-    rustix::thread::sched_getaffinity(None)
-        .map_or(1, |cores| (0..CpuSet::MAX_CPU).filter(|&core| cores.is_set(core)).count())
+    use rustix::thread::{CpuSet, sched_getaffinity};
+    sched_getaffinity(None).map_or(1, |cores| (0..CpuSet::MAX_CPU).filter(|&core| cores.is_set(core)).count())
 }
 
 /// The number of cores that this process may use at once.
