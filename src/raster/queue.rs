@@ -68,8 +68,7 @@ impl FragmentQueue {
 /// bits for the number of its samples less one. That point is the mean of its samples, whose sum is `sum`.
 #[inline(always)]
 pub fn fragment(samples: i32, [x, y]: SubPixel) -> u32 {
-    {
-        let (samples, x, y) = (samples as u32, x as u32, y as u32);
-        (samples - 1) << 28 | (y / samples) << 20 | (x / samples) << 12
-    }
+    // Without a sign, which would be looked at before each division.
+    let (samples, x, y) = (samples as u32, x as u32, y as u32);
+    (samples - 1) << 28 | (y / samples) << 20 | (x / samples) << 12
 }

@@ -31,6 +31,7 @@ use crate::texture::Variation;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::Vec3A;
+use std::ops::Range;
 
 /// The number of sizes of squares, from 16 pixels down to one.
 const LEVELS: usize = 5;
@@ -112,15 +113,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     let cutter = Cutter { coarsest, unit, end: (tile.width * unit, tile.height * unit) };
     whole.clear();
     edges.clear();
-    let mut y = 0;
-    while y < cutter.end.1 {
-        let mut x = 0;
-        while x < cutter.end.0 {
-            work[0].push(Square::new(x, y, coarsest));
-            x += coarsest;
-        }
-        y += coarsest;
-    }
+    add_squares(&mut work[0], 0..cutter.end.0, 0..cutter.end.1, coarsest);
     loop {
         for level in 0..LEVELS {
             let squares = std::mem::take(&mut work[level]);
@@ -294,17 +287,22 @@ impl Cutter {
         let ((x, y), size) = (square.place(), square.size());
         let part = size >> if self.unit == 1 && size == 4 { 2 } else { 1 };
         let work = &mut work[(self.coarsest / part).trailing_zeros() as usize];
-        // Not `step_by`, which divides to count its steps.
-        let (right, below) = (self.end.0.min(x + size), self.end.1.min(y + size));
-        let mut row = y;
-        while row < below {
-            let mut column = x;
-            while column < right {
-                work.push(Square::new(column, row, part));
-                column += part;
-            }
-            row += part;
+        add_squares(work, x..self.end.0.min(x + size), y..self.end.1.min(y + size), part);
+    }
+}
+
+/// Adds squares of one size that tile these columns and rows, from the first ones on. Not by `step_by`, which divides to count
+/// its steps.
+#[inline(always)]
+fn add_squares(squares: &mut Vec<Square>, columns: Range<usize>, rows: Range<usize>, size: usize) {
+    let mut y = rows.start;
+    while y < rows.end {
+        let mut x = columns.start;
+        while x < columns.end {
+            squares.push(Square::new(x, y, size));
+            x += size;
         }
+        y += size;
     }
 }
 

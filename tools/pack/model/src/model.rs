@@ -223,7 +223,7 @@ impl Model {
 
     /// Probability, in 65536ths, that the next bit is a one: neither 0 nor 65536.
     pub fn predict(&mut self) -> u32 {
-        // SAFETY: whoever starts a model has seen that the processor has AVX2 and FMA.
+        // SAFETY: whoever starts a model has seen that the processor has AVX2 and FMA, and with them POPCNT.
         unsafe { self.predict_avx2() }
     }
 
