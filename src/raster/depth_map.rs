@@ -157,7 +157,7 @@ impl DepthMap {
         let depths = [first.max(depth), second.max(depth), third.max(depth), fourth.max(depth)];
         let places = (inner_top << 6) + inner_left;
         let (mut upper, mut lower) = ([0; 16], [0; 16]);
-        let mut window = [0.0; 16];
+        let mut window = [[0.0; 8]; 4];
         // Mostly all windows lie in the tile of the first one.
         let (mut met, mut texels) = (u32::MAX, &[0.0; 0][..]);
         for lane in Bits(points.inside.to_bitmask()) {
@@ -169,8 +169,8 @@ impl DepthMap {
                 }
                 pairs(simd, &texels[at..][..3 * Tile::SIZE + 4], Tile::SIZE)
             } else {
-                gather(simd, self, tile as usize, at, &mut window);
-                pairs(simd, &window, 4)
+                let first = gather(simd, self, tile as usize, at, &mut window);
+                pairs(simd, &window.as_flattened()[first & 3..][..28], 8)
             };
             let depth = |row: usize| f32x4::splat(simd, depths[row].as_slice()[lane]);
             upper[lane] = rows[0].simd_le(depth(0).combine(depth(1))).to_bitmask() as u32;
@@ -200,23 +200,28 @@ fn draw<S: Simd>(simd: S, map: &DepthMap, index: usize) -> &[f32; Tile::AREA] {
     })
 }
 
-/// Gathers the 4x4 texels from a place of a tile on, which reach into the next tiles. Those beyond the map are
-/// disregarded; whatever is there will do.
+/// Gathers the 4x4 texels from a place of a tile on, which reach into the next tiles, and tells in which column of `window`
+/// they begin. Those beyond the map are disregarded; whatever is there will do.
 #[simd]
 #[cold] // A tenth of the lookups.
 #[inline(never)]
-fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut [f32; 16]) {
+fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut [[f32; 8]; 4]) -> usize {
     let (left, top) = (at % Tile::SIZE, at / Tile::SIZE);
     let met = |x: usize, y: usize| {
         let below = (top + y) / Tile::SIZE * (map.size / Tile::SIZE);
         map.tile(simd, (tile + below + (left + x) / Tile::SIZE).min(map.tiles.len() - 1))
     };
-    let tiles = [met(0, 0), met(3, 0), met(0, 3), met(3, 3)];
-    for (i, texel) in window.iter_mut().enumerate() {
-        let (x, y) = (left + i % 4, top + i / 4);
-        let tile = tiles[(y / Tile::SIZE * 2 + x / Tile::SIZE) & 3];
-        *texel = tile[y % Tile::SIZE * Tile::SIZE + x % Tile::SIZE];
+    let tiles = [[met(0, 0), met(3, 0)], [met(0, 3), met(3, 3)]];
+    // Four texels of the left tile, and beside them the first four of the right one.
+    let column = left.min(Tile::SIZE - 4);
+    for (y, texels) in window.iter_mut().enumerate() {
+        let row = top + y;
+        let [left, right] = tiles[row / Tile::SIZE & 1];
+        let start = row % Tile::SIZE * Tile::SIZE;
+        f32x4::from_slice(simd, &left[start + column..][..4]).store_slice(&mut texels[..4]);
+        f32x4::from_slice(simd, &right[start..][..4]).store_slice(&mut texels[4..]);
     }
+    left - column
 }
 
 /// The rows of a window of 4x4 texels in pairs; in `texels` they are `stride` apart.

@@ -114,6 +114,8 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     whole.clear();
     edges.clear();
     add_squares(&mut work[0], 0..cutter.end.0, 0..cutter.end.1, coarsest);
+    // Here, so that it is cleared once.
+    let mut mean = [0.0; NUMBERS];
     loop {
         for level in 0..LEVELS {
             let squares = std::mem::take(&mut work[level]);
@@ -122,7 +124,7 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
             }
             grid.trace(simd, job);
             for &square in &squares {
-                match judge(simd, job, tile, grid, square) {
+                match judge(simd, job, tile, grid, square, &mut mean) {
                     Verdict::Whole => whole.push(square),
                     Verdict::Cut => {
                         if square.size() == 2 * unit {
@@ -215,9 +217,16 @@ enum Verdict {
     FaintEdge,
 }
 
-/// Judges a square whose samples are there.
+/// Judges a square whose samples are there; `mean` is memory.
 #[inline(always)]
-fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) -> Verdict {
+fn judge<S: Simd>(
+    simd: S,
+    job: &Job,
+    tile: &Tile,
+    grid: &Grid,
+    square: Square,
+    mean: &mut [f32; NUMBERS],
+) -> Verdict {
     let size = square.size();
     let unit = job.unit();
     if size == 1 {
@@ -231,7 +240,7 @@ fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square) 
         && if size == unit {
             finest > 0
         } else {
-            size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square))
+            size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square), mean)
         };
     match agree {
         true => Verdict::Whole,
@@ -358,15 +367,21 @@ fn mean<S: Simd>(simd: S, samples: [&Sample; 4], mean: &mut Sample) {
 /// Whether a square of `size` pixels may be interpolated whose corners have one path signature.
 ///
 /// The error at the centre is the sum of three: of untextured light; of each hit's gain; and of each hit's texture, which
-/// is displaced by as much as the hit point is off.
+/// is displaced by as much as the hit point is off. What the corners foretell is written to `mean`.
 #[inline(always)]
-fn agree<S: Simd>(simd: S, job: &Job, size: usize, c: [&Sample; 4], centre: &Sample) -> bool {
+fn agree<S: Simd>(
+    simd: S,
+    job: &Job,
+    size: usize,
+    c: [&Sample; 4],
+    centre: &Sample,
+    mean: &mut [f32; NUMBERS],
+) -> bool {
     if c[0].path_signature != centre.path_signature {
         return false;
     }
-    let mut mean = [0.0; NUMBERS];
-    foretell(simd, c, &mut mean);
-    let [found, foretold] = [&centre.numbers, &mean];
+    foretell(simd, c, mean);
+    let [found, foretold] = [&centre.numbers, mean];
     let mut error = distance(&found[..3], &foretold[..3]);
     let mut level = found[0] + found[1] + found[2];
     for n in 0..centre.count as usize {
