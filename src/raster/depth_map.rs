@@ -216,7 +216,7 @@ fn gather<S: Simd>(simd: S, map: &DepthMap, tile: usize, at: usize, window: &mut
     let column = left.min(Tile::SIZE - 4);
     for (y, texels) in window.iter_mut().enumerate() {
         let row = top + y;
-        let [left, right] = tiles[row / Tile::SIZE & 1];
+        let [left, right] = tiles[(row / Tile::SIZE) & 1];
         let start = row % Tile::SIZE * Tile::SIZE;
         f32x4::from_slice(simd, &left[start + column..][..4]).store_slice(&mut texels[..4]);
         f32x4::from_slice(simd, &right[start..][..4]).store_slice(&mut texels[4..]);

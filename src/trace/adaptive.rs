@@ -219,14 +219,7 @@ enum Verdict {
 
 /// Judges a square whose samples are there; `mean` is memory.
 #[inline(always)]
-fn judge<S: Simd>(
-    simd: S,
-    job: &Job,
-    tile: &Tile,
-    grid: &Grid,
-    square: Square,
-    mean: &mut [f32; NUMBERS],
-) -> Verdict {
+fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square, mean: &mut [f32; NUMBERS]) -> Verdict {
     let size = square.size();
     let unit = job.unit();
     if size == 1 {

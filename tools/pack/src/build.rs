@@ -96,6 +96,8 @@ pub fn build(root: &Path, toolchain: &Toolchain, target: &Path, without: Option<
     // Its path starts with a dot so that what was linked before the order was found is linked anew.
     // The linker has no part in FLAGS: cargo names crates by their flags, and no name may depend on a path.
     cargo.args(["--", "-Copt-level=z", "-Clinker=./tools/pack/cc"]);
+    // What is linked is the assembly, after `reloads`, which needs the remarks on what is spilled.
+    cargo.args(["--emit=asm", "-Zverbose-asm"]);
     cargo.args(LLVM.iter().map(|setting| format!("-Cllvm-args={setting}")));
     run(&mut cargo)?;
     link::link(&target.join(TARGET).join("release/paprsek"))

@@ -11,6 +11,7 @@ pub mod marginal;
 pub mod order;
 pub mod packer;
 pub mod pieces;
+pub mod reloads;
 pub mod rewrite;
 pub mod shuffle;
 pub mod stub;

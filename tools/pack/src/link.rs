@@ -1,9 +1,10 @@
-//! Links the intro once more: its functions and data in the order that packs best, nothing that nobody needs, and then its
-//! instructions in the order that packs best.
+//! Links the intro: what the compiler wrote as assembly, without needless reloads; its functions and data in the order that
+//! packs best, nothing that nobody needs; and then its instructions in the order that packs best.
 
 use crate::order::{self, TASTES, Taste, fold::fold};
 use crate::packer;
 use crate::pieces::{GDB_SCRIPTS, Kind, Parts, Pieces, Target};
+use crate::reloads;
 use crate::rewrite::rewrite;
 use object::elf::{RelocationType, SHF_ALLOC, SHF_WRITE, SHT_INIT_ARRAY};
 use object::read::elf::ElfFile64;
@@ -18,12 +19,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{fs, io};
 
-/// Links what `cc` has joined for `executable`, which cargo made, in several orders; gives the path of the one that
-/// packs best, beside it.
+/// Links what cargo has made the assembly of, in several orders; gives the path of the one that packs best, beside the
+/// `executable` that it believes to have made.
 pub fn link(executable: &Path) -> Result<PathBuf, String> {
     let made = linked(executable)?;
-    let (joined, how) = (made.with_extension("all.o"), made.with_extension("link"));
-    let bytes = fs::read(&joined).map_err(failed(&joined))?;
+    let bytes = joined(&made)?;
+    let how = made.with_extension("link");
     let arguments = fs::read_to_string(&how).map_err(failed(&how))?;
     let (object, out) = (made.with_extension("ordered.o"), executable.with_extension("ordered"));
     let mut best: Option<(f64, Vec<u8>)> = None;
@@ -41,13 +42,34 @@ pub fn link(executable: &Path) -> Result<PathBuf, String> {
     Ok(out)
 }
 
-/// Links an object with the arguments that the compiler gave for what it was made of.
+/// The program and its libraries in one object, which keeps to itself what they call by name: else ld takes every function
+/// of compiler_builtins that libm or libgcc_s has too for one that these libraries might call, and leaves none of them out
+/// (24 kB, most of it arithmetic in 128 bits).
+fn joined(made: &Path) -> Result<Vec<u8>, String> {
+    let [assembly, short, object, all, libraries] =
+        ["s", "short.s", "o", "all.o", "libraries"].map(|extension| made.with_extension(extension));
+    let text = fs::read_to_string(&assembly).map_err(failed(&assembly))?;
+    fs::write(&short, reloads::shorten(&text)).map_err(failed(&short))?;
+    let list = fs::read_to_string(&libraries).map_err(failed(&libraries))?;
+    command("as", Command::new("as").arg(&short).arg("-o").arg(&object))?;
+    command("ld", Command::new("ld").args(["-r", "--undefined=main", "-o"]).arg(&all).arg(&object).args(list.lines()))?;
+    command("objcopy", Command::new("objcopy").arg("--keep-global-symbol=main").arg(&all))?;
+    fs::read(&all).map_err(failed(&all))
+}
+
+/// Links an object with the arguments that the compiler gave for what it was made of. Of the startup files only the one with
+/// `_start` comes along: the others serve C++ and profilers.
 fn run(object: &Path, arguments: &str, out: &Path) -> Result<(), String> {
     let start = Command::new("cc").arg("-print-file-name=crt1.o").output().map_err(failed(Path::new("cc")))?;
     let mut cc = Command::new("cc");
     cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(object);
     // Of two `-o` the last one counts.
-    let done = cc.args(arguments.lines()).arg("-o").arg(out).output().map_err(failed(Path::new("cc")))?;
+    command("cc", cc.args(arguments.lines()).arg("-o").arg(out))
+}
+
+/// Runs a tool.
+fn command(tool: &str, command: &mut Command) -> Result<(), String> {
+    let done = command.output().map_err(failed(Path::new(tool)))?;
     if done.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&done.stderr).into_owned()) }
 }
 
