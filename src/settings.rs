@@ -130,7 +130,7 @@ impl Quality {
             imposter: 0.0,
         },
         particles: ParticleSettings { detail: 1.0 / 128.0 },
-        sky: SkySettings { steps: 10, cell: 0.022, grid: 1 },
+        sky: SkySettings { steps: 10, cell: 0.026, grid: 1 },
     };
 
     /// What the intro plays: every shortcut, anti-aliased.

@@ -185,7 +185,7 @@ fn cells_are_as_good_as_pixels() {
     let mut worst = 0;
     for altitude in [50.0, 10.0, 2.0, 0.0, -3.0, -6.0, -10.0, -18.0] {
         let fine = SkySettings { steps: 10, cell: 0.0, grid: 1 };
-        let coarse = SkySettings { cell: 0.022, ..fine };
+        let coarse = SkySettings { cell: 0.026, ..fine };
         let size = (1280, 720);
         let a = frame(&mut renderer, sky(altitude), &fine, 2.0, size);
         let b = frame(&mut renderer, sky(altitude), &coarse, 2.0, size);

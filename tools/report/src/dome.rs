@@ -68,7 +68,7 @@ fn table(quick: bool) {
     let altitudes = [30.0, 0.0, -6.0, -12.0];
     let truth = altitudes.map(|a| views(SkySettings { steps: 50, cell: 0.0, grid: 1 }, a, size, 1).0);
     for (cell, steps) in
-        [(0.0, 24), (0.0, 10), (0.011, 24), (0.011, 16), (0.011, 10), (0.011, 8), (0.011, 6), (0.022, 10), (0.044, 10)]
+        [(0.0, 24), (0.0, 10), (0.013, 24), (0.013, 16), (0.013, 10), (0.013, 8), (0.013, 6), (0.026, 10), (0.052, 10)]
     {
         let quality = SkySettings { steps, cell, grid: 1 };
         let repeat = if cell > 0.0 { 5 } else { 1 };

@@ -118,7 +118,9 @@ pub struct Names {
 
 impl Names {
     fn new(home: Home) -> Self {
-        Self { home, files: HashMap::new(), functions: HashMap::new(), modules: HashSet::new() }
+        // The package itself, though no line may be its root's.
+        let modules = HashSet::from([home.name.as_str().into()]);
+        Self { home, files: HashMap::new(), functions: HashMap::new(), modules }
     }
 
     fn sites(&mut self, context: &Context<Slice>, at: u64) -> Result<Vec<Site>, gimli::Error> {

@@ -162,7 +162,7 @@ pub fn knobs() -> Vec<Sweep> {
     let details = [1.0 / 1024.0, 1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, f32::INFINITY];
     let fires = sweep("particle-detail", ("fast", Truth::ParticleLayer), detail, &details);
     sweeps.push(Sweep { group: Group::Fires, ..fires });
-    sweeps.push(dome("dome-cell", "cell", [0.0, 0.0055, 0.011, 0.022, 0.044, 0.088].map(|cell| (cell, None))));
+    sweeps.push(dome("dome-cell", "cell", [0.0, 0.0065, 0.013, 0.026, 0.052, 0.104].map(|cell| (cell, None))));
     sweeps.push(dome("dome-steps", "steps", [24, 16, 10, 8, 6, 4].map(|steps| (0.0, Some(steps)))));
     sweeps
 }
