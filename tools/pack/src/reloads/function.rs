@@ -49,7 +49,8 @@ impl<'a> Function<'a> {
         function
     }
 
-    /// The lines that change, and what to: nothing where they go. None where the stack pointer cannot be followed.
+    /// The lines that change, and what to: nothing where they go. None of them where the stack pointer cannot be followed, or
+    /// something is spilled that it does not find.
     pub fn changes(&self) -> Vec<(usize, String)> {
         let Some(known) = self.plain.then(|| self.known()).flatten() else { return Vec::new() };
         let mut changes = Vec::new();

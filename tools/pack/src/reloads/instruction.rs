@@ -73,7 +73,7 @@ impl<'a> Instruction<'a> {
         {
             Kind::Reading
         } else if self.name.starts_with('v')
-            && !["vzero", "vgather", "vpgather", "vpcmpi", "vpcmpe"].iter().any(|p| self.name.starts_with(p))
+            && !["vzero", "vgather", "vpgather", "vpcmpistr", "vpcmpestr"].iter().any(|p| self.name.starts_with(p))
             || self.name.starts_with("cmov")
             || self.name.starts_with("set")
             || is(&[
