@@ -91,8 +91,8 @@ impl Writer<'_> {
         for (n, register) in GENERAL.iter().enumerate() {
             self.line(&format!("movq\t{}(%rdi), {}", 8 * n, Self::spelled(register, 8)));
         }
-        for slot in 0..3 {
-            self.line(&format!("movq\t{}, {}(%rsp)\t# 8-byte Spill", Self::spelled(GENERAL[slot], 8), 8 * slot));
+        for (slot, register) in GENERAL[..3].iter().enumerate() {
+            self.line(&format!("movq\t{}, {}(%rsp)\t# 8-byte Spill", Self::spelled(register, 8), 8 * slot));
         }
         for n in 0..4 {
             self.line(&format!("vmovups\t{}(%rdi), %ymm{n}", 128 + 32 * n));
