@@ -6,6 +6,7 @@ use crate::packer;
 use crate::pieces::{GDB_SCRIPTS, Kind, Parts, Pieces, Target};
 use crate::reloads;
 use crate::rewrite::rewrite;
+use crate::toolchain::run;
 use object::elf::{RelocationType, SHF_ALLOC, SHF_WRITE, SHT_INIT_ARRAY};
 use object::read::elf::ElfFile64;
 use object::write::{Object, Relocation, SectionId, Symbol, SymbolId, SymbolSection};
@@ -30,7 +31,7 @@ pub fn link(executable: &Path) -> Result<PathBuf, String> {
     let mut best: Option<(f64, Vec<u8>)> = None;
     for taste in TASTES {
         fs::write(&object, ordered(&bytes, taste)?).map_err(failed(&object))?;
-        run(&object, &arguments, &out)?;
+        finish(&object, &arguments, &out)?;
         let program = fs::read(&out).map_err(failed(&out))?;
         let bits = packer::measure(&program)?.bits.iter().map(|&bits| bits as f64).sum();
         if best.as_ref().is_none_or(|(least, _)| bits < *least) {
@@ -51,26 +52,20 @@ fn joined(made: &Path) -> Result<Vec<u8>, String> {
     let text = fs::read_to_string(&assembly).map_err(failed(&assembly))?;
     fs::write(&short, reloads::shorten(&text)).map_err(failed(&short))?;
     let list = fs::read_to_string(&libraries).map_err(failed(&libraries))?;
-    command("as", Command::new("as").arg(&short).arg("-o").arg(&object))?;
-    command("ld", Command::new("ld").args(["-r", "--undefined=main", "-o"]).arg(&all).arg(&object).args(list.lines()))?;
-    command("objcopy", Command::new("objcopy").arg("--keep-global-symbol=main").arg(&all))?;
+    run(Command::new("as").arg(&short).arg("-o").arg(&object))?;
+    run(Command::new("ld").args(["-r", "--undefined=main", "-o"]).arg(&all).arg(&object).args(list.lines()))?;
+    run(Command::new("objcopy").arg("--keep-global-symbol=main").arg(&all))?;
     fs::read(&all).map_err(failed(&all))
 }
 
 /// Links an object with the arguments that the compiler gave for what it was made of. Of the startup files only the one with
 /// `_start` comes along: the others serve C++ and profilers.
-fn run(object: &Path, arguments: &str, out: &Path) -> Result<(), String> {
+fn finish(object: &Path, arguments: &str, out: &Path) -> Result<(), String> {
     let start = Command::new("cc").arg("-print-file-name=crt1.o").output().map_err(failed(Path::new("cc")))?;
     let mut cc = Command::new("cc");
     cc.arg("-nostartfiles").arg(String::from_utf8_lossy(&start.stdout).trim()).arg(object);
     // Of two `-o` the last one counts.
-    command("cc", cc.args(arguments.lines()).arg("-o").arg(out))
-}
-
-/// Runs a tool.
-fn command(tool: &str, command: &mut Command) -> Result<(), String> {
-    let done = command.output().map_err(failed(Path::new(tool)))?;
-    if done.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&done.stderr).into_owned()) }
+    run(cc.args(arguments.lines()).arg("-o").arg(out))
 }
 
 /// Says at what path something failed.

@@ -1,6 +1,6 @@
 //! Builds the unpacker.
 
-use crate::toolchain::Toolchain;
+use crate::toolchain::{Toolchain, run};
 use crate::{elf, rewrite};
 use object::{Object, ObjectSymbol};
 use std::path::Path;
@@ -88,8 +88,3 @@ const COMMON: [&str; 21] = [
     "-Cllvm-args=-bonus-inst-threshold=0",
     "-Cllvm-args=-disable-loop-idiom-all",
 ];
-
-fn run(command: &mut Command) -> Result<(), String> {
-    let output = command.output().map_err(|error| format!("{:?}: {error}", command.get_program()))?;
-    if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
-}

@@ -65,6 +65,12 @@ fn leaks(name: &str) -> bool {
     ours && !kept.iter().any(|prefix| name.starts_with(prefix))
 }
 
+/// Runs a tool. What it complains of is the error.
+pub fn run(tool: &mut Command) -> Result<(), String> {
+    let output = tool.output().map_err(|error| format!("{:?}: {error}", tool.get_program()))?;
+    if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
+}
+
 /// What a command prints, where it succeeds.
 fn said(command: &mut Command) -> Option<String> {
     let output = command.env_remove("RUSTUP_TOOLCHAIN").output().ok()?;
