@@ -379,9 +379,10 @@ fn spawn<S: Simd>(simd: S, min_weight: f32, node: &mut Node<S>, hit: &Hit<S>, st
         let through = weight.mulv(hit.surface.color(FILTER)) * Lane(one - share);
         let (active, faint) = strength(simd, glass & passes, through, least);
         if (active | faint).any_true() {
-            let ray = RayPacket { direction: refracted, inward: !inside, ..node.ray };
+            let ray = RayPacket { origin: hit.point, direction: refracted, from: hit.object, inward: !inside };
             let start = hit.start.without(simd, active & !inside);
-            stack.push(Node { active, faint, ray, start, weight: through, path: path * 2 + 1, ..*node });
+            let Node { length, level, .. } = *node;
+            stack.push(Node { active, faint, ray, start, weight: through, length, level, path: path * 2 + 1 });
         }
         reflected = V3::select(glass, weight * Lane(share), reflected);
         stays_inside = glass & inside;

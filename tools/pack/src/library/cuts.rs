@@ -563,7 +563,7 @@ impl<T: Default> Default",
     ),
     (
         "std/src/sys/sync/once/futex.rs",
-        // What is made once is made: it does not fail. All who wait are woken, whether there are any or not.
+        // What is made once is made: it does not fail.
         &[
             // Nobody lets go of what is being made.
             (
@@ -584,15 +584,18 @@ impl<T: Default> Default",
             match self.state_and_queued.compare_exchange(INCOMPLETE, RUNNING, Acquire, Acquire) {
                 Ok(_) => return true,
                 Err(COMPLETE) => return false,
-                Err(_) => futex_wait(&self.state_and_queued, RUNNING, None),
-            };
+                Err(_) => {}
+            }
+            _ = self.state_and_queued.compare_exchange(RUNNING, QUEUED, Relaxed, Relaxed);
+            futex_wait(&self.state_and_queued, QUEUED, None);
         }
     }
 
     #[inline(never)]
     pub fn finish(&self) {
-        self.state_and_queued.store(COMPLETE, Release);
-        futex_wake_all(&self.state_and_queued);
+        if self.state_and_queued.swap(COMPLETE, Release) == QUEUED {
+            futex_wake_all(&self.state_and_queued);
+        }
     }
 
     #[cold]
