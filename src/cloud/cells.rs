@@ -15,7 +15,7 @@ use super::seen::{SeenCloud, SeenClouds};
 use super::world::CloudLight;
 use crate::frame::Tile;
 use crate::settings::CloudSettings;
-use crate::simd::block::{Aligned, BLOCK, load, store};
+use crate::simd::block::{BLOCK, load, store};
 use crate::simd::lanes::{Bits, F, Lane, V3};
 use crate::simd::math::to_f32;
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
@@ -316,7 +316,7 @@ fn cast<S: Simd>(
     let grid = clouds.settings.built().grid as u32;
     let step = 1.0 / grid as f32;
     for points in points.chunks(BLOCK) {
-        let mut sum = Aligned([[0.0; BLOCK]; 5]);
+        let mut sum = [[0.0; BLOCK]; 5];
         for part in 0..grid * grid {
             let [mut x, mut y] = [[0.0; BLOCK]; 2];
             let mut depth = [f32::INFINITY; BLOCK];
@@ -328,9 +328,9 @@ fn cast<S: Simd>(
                     depth[i] = 1.0 / tile.inv_depth[column + row * Tile::SIZE];
                 }
             }
-            cast_block(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum.0);
+            cast_block(simd, clouds, near, [&x, &y, &depth], points.len(), &mut sum);
         }
-        for (k, (plane, sum)) in planes.iter_mut().zip(&sum.0).enumerate() {
+        for (k, (plane, sum)) in planes.iter_mut().zip(&sum).enumerate() {
             let share = if k < END { step * step } else { 1.0 };
             for (point, sum) in points.iter().zip(sum) {
                 plane[*point] = sum * share;

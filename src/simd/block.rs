@@ -13,11 +13,6 @@ pub const BLOCK: usize = 64;
 /// x, y and z (or red, green and blue) of the points of a block.
 pub type Block3 = [[f32; BLOCK]; 3];
 
-/// Memory for vectors, none of which lies in two lines of the processor's cache. In a kernel that has some LLVM aligns the
-/// stack, and with it what it spills.
-#[repr(align(32))]
-pub struct Aligned<T>(pub T);
-
 /// The vectors of a number of `lanes` that the first `count` points of a block lie in: at most those of a block.
 #[inline(always)]
 pub fn vectors(count: usize, lanes: usize) -> usize {
