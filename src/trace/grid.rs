@@ -73,9 +73,11 @@ pub struct Grid {
     /// How many of these are foretold and not traced.
     foretold: usize,
     /// Where the samples lie, pixels from the picture's top left, NaN where they are foretold; behind the last sample, the
-    /// points that are wanted.
+    /// points that are wanted. There is room for the whole lattice.
     xs: Vec<f32>,
     ys: Vec<f32>,
+    /// Samples and wanted points.
+    wanted: usize,
 }
 
 impl Grid {
@@ -85,12 +87,13 @@ impl Grid {
         self.step = 1.0 / to_f32(job.unit());
         if self.lattice.is_empty() {
             self.lattice = vec![(0, 0); ROW * LATTICE];
+            self.xs = vec![0.0; LATTICE * LATTICE];
+            self.ys = vec![0.0; LATTICE * LATTICE];
         }
         self.generation = self.generation.wrapping_add(1).max(1);
         self.count = 0;
         self.foretold = 0;
-        self.xs.clear();
-        self.ys.clear();
+        self.wanted = 0;
     }
 
     /// Asks for the sample at a lattice point, if it is not there yet.
@@ -119,15 +122,17 @@ impl Grid {
 
     /// Makes room for the samples at all points that are wanted.
     fn make_room(&mut self) {
-        while self.samples.len() < self.xs.len() {
+        while self.samples.len() < self.wanted {
             self.samples.push(Sample::default());
         }
     }
 
     fn add(&mut self, x: usize, y: usize) {
-        self.lattice[y * ROW + x] = (self.generation, self.xs.len() as u32);
-        self.xs.push(self.first.0 + to_f32(x) * self.step);
-        self.ys.push(self.first.1 + to_f32(y) * self.step);
+        let at = self.wanted;
+        self.lattice[y * ROW + x] = (self.generation, at as u32);
+        self.xs[at] = self.first.0 + to_f32(x) * self.step;
+        self.ys[at] = self.first.1 + to_f32(y) * self.step;
+        self.wanted = at + 1;
     }
 
     /// The number of samples that have been traced.
@@ -138,7 +143,8 @@ impl Grid {
     /// Where the samples lie that have been traced, pixels from the picture's top left.
     #[cfg(feature = "full")]
     pub fn positions(&self) -> impl Iterator<Item = (f32, f32)> {
-        self.xs.iter().copied().zip(self.ys.iter().copied()).filter(|(x, _)| !x.is_nan())
+        let points = self.xs.iter().copied().zip(self.ys.iter().copied());
+        points.take(self.count).filter(|(x, _)| !x.is_nan())
     }
 
     /// The sample at a lattice point, which must be there.
@@ -205,9 +211,10 @@ impl Grid {
     /// Traces the points that are wanted.
     #[inline(always)]
     pub fn trace<S: Simd>(&mut self, simd: S, job: &Job) {
-        let (first, end) = (self.count, self.xs.len());
+        let (first, end) = (self.count, self.wanted);
         self.make_room();
-        packet::trace(simd, &job.context, &self.xs[first..], &self.ys[first..], &mut self.samples[first..end]);
+        let [xs, ys] = [&self.xs, &self.ys].map(|numbers| &numbers[first..end]);
+        packet::trace(simd, &job.context, xs, ys, &mut self.samples[first..end]);
         self.count = end;
     }
 
