@@ -73,10 +73,11 @@ pub struct Grid {
     /// How many of these are foretold and not traced.
     foretold: usize,
     /// Where the samples lie, pixels from the picture's top left, NaN where they are foretold; behind the last sample, the
-    /// points that are wanted. There is room for the whole lattice.
+    /// points that are wanted. There is room for the whole lattice: in the packed file a list that may grow takes three times
+    /// as long to add to.
     xs: Vec<f32>,
     ys: Vec<f32>,
-    /// Samples and wanted points.
+    /// The number of samples and wanted points together.
     wanted: usize,
 }
 
