@@ -25,14 +25,15 @@ fn hash(contexts: u64, partial: usize, before: &[u8]) -> (u32, u32) {
 pub struct Counts {
     pairs: Vec<[u16; 2]>,
     text: Vec<u8>,
-    /// Pairs as they were before each change since the mark, and the length of the text there.
+    /// Pairs as they were before each change since the first mark.
     undo: Vec<(usize, [u16; 2])>,
-    marked: usize,
+    /// The lengths of that and of the text at each mark.
+    marks: Vec<[usize; 2]>,
 }
 
 impl Default for Counts {
     fn default() -> Self {
-        Self { pairs: vec![[0; 2]; 1 << TABLE_BITS], text: Vec::new(), undo: Vec::new(), marked: 0 }
+        Self { pairs: vec![[0; 2]; 1 << TABLE_BITS], text: Vec::new(), undo: Vec::new(), marks: Vec::new() }
     }
 }
 
@@ -53,7 +54,9 @@ impl Counts {
             for (hash, _) in found.into_iter().rev() {
                 let at = (hash >> (32 - TABLE_BITS)) as usize;
                 let pair = &mut self.pairs[at];
-                self.undo.push((at, *pair));
+                if !self.marks.is_empty() {
+                    self.undo.push((at, *pair));
+                }
                 pair[bit] += 1;
                 pair[1 - bit] = pair[1 - bit].div_ceil(2);
             }
@@ -65,15 +68,22 @@ impl Counts {
 
 impl Price for Counts {
     fn mark(&mut self) {
-        self.undo.clear();
-        self.marked = self.text.len();
+        self.marks.push([self.undo.len(), self.text.len()]);
     }
 
     fn back_to_mark(&mut self) {
-        for (at, pair) in self.undo.drain(..).rev() {
+        let Some(&[changes, length]) = self.marks.last() else { return };
+        for (at, pair) in self.undo.drain(changes..).rev() {
             self.pairs[at] = pair;
         }
-        self.text.truncate(self.marked);
+        self.text.truncate(length);
+    }
+
+    fn unmark(&mut self) {
+        self.marks.pop();
+        if self.marks.is_empty() {
+            self.undo.clear();
+        }
     }
 
     fn price(&mut self, bytes: impl Iterator<Item = u8>) -> f64 {
@@ -90,7 +100,6 @@ pub fn compress(text: &[u8]) -> Vec<u8> {
     let (mut counts, mut encoder) = (Counts::default(), Encoder::default());
     for &byte in text {
         counts.learn(byte, |bit, odds| encoder.encode(bit, odds));
-        counts.mark();
     }
     encoder.finish()
 }

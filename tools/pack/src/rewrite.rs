@@ -12,6 +12,11 @@
 //! wherever there is one: 330 bytes more. `mov a, b` and its likes by the opcode that has the operands the other way round:
 //! 11 bytes more. Orders of stores through one register: nothing.
 //!
+//! Tried on a packed file of 61,684 bytes, where one instruction moved at a time: runs of up to 2, 3, 4, 6 and any number change
+//! places, 61,559, 61,522, 61,493, 61,457 and 61,443 bytes. Ways given up 0.5, 1, 2 or 4 bits behind instead of 1.5: 75 to 140
+//! bytes more, chance for the most part. Each half of the program by a thread, from what comes before it as it was: 220 bytes
+//! more, 130 after five passes.
+//!
 //! The unpacker is rewritten too, for the simple model that it is coded with: 69 of 3,493 bytes.
 
 mod instruction;

@@ -62,7 +62,13 @@ proptest! {
             for text in lost {
                 model.mark();
                 model.price(text.iter().copied());
+                // To a place after the first mark, which is forgotten, and from there to the first one.
+                model.mark();
+                model.price(start.iter().copied());
                 model.back_to_mark();
+                model.unmark();
+                model.back_to_mark();
+                model.unmark();
             }
             (before, model.price(rest.iter().copied()), model.position())
         };

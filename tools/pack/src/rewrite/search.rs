@@ -7,6 +7,8 @@ use pack_model::model::Model;
 
 /// How often all changes of a window are tried, unless none is any good.
 const ROUNDS: usize = 3;
+/// A way is given up that is so many bits behind the best one where both go on alike: half of the time.
+const BEHIND: f64 = 1.5;
 /// Bits that a change must save, so that rounding does not make one.
 const LEAST: f64 = 1e-6;
 
@@ -14,10 +16,12 @@ const LEAST: f64 = 1e-6;
 pub trait Price {
     /// Bits that `bytes` are coded in, which the model learns.
     fn price(&mut self, bytes: impl Iterator<Item = u8>) -> f64;
-    /// Remembers this place.
+    /// Marks this place, beside those that are marked.
     fn mark(&mut self);
     /// Goes back to the last place that was marked.
     fn back_to_mark(&mut self);
+    /// Forgets the last mark.
+    fn unmark(&mut self);
 }
 
 impl Price for Model {
@@ -43,6 +47,10 @@ impl Price for Model {
     fn back_to_mark(&mut self) {
         Model::back_to_mark(self);
     }
+
+    fn unmark(&mut self) {
+        Model::unmark(self);
+    }
 }
 
 /// Codes all instructions with the model, in the order that costs least as far as it was found; appends their bytes to
@@ -65,7 +73,6 @@ pub(super) fn search(model: &mut impl Price, mut ops: Vec<Op>, code: &mut Vec<u8
                 op.starts_block = false;
             }
         }
-        model.mark();
         for op in &ops[at..at + kept] {
             model.price(op.bytes.iter().copied());
             code.extend(&op.bytes);
@@ -96,6 +103,13 @@ fn live_flags(ops: &[Op]) -> Vec<bool> {
 }
 
 /// The instructions of a window in an order, and as variants, that the model codes in fewer bits, with the one that follows.
+///
+/// ```text
+/// for each place of the window, from which on ways to go on are tried
+///     variants of the instruction there
+///     orders in which two neighbouring runs of instructions change places, the first of which starts there
+///     what of the best way is at this place is coded
+/// ```
 fn best(
     model: &mut impl Price,
     factory: &mut InstructionInfoFactory,
@@ -106,42 +120,57 @@ fn best(
     let window = Window::new(ops, flags_live);
     let mut order: Vec<usize> = (0..ops.len()).collect();
     let mut ops = ops.to_vec();
-    model.mark();
-    let mut cost = |ops: &[Op], order: &[usize]| {
-        let all = order.iter().map(|&k| &ops[k]).chain(next);
-        let bits = model.price(all.flat_map(|op| op.bytes.iter().copied()));
-        model.back_to_mark();
-        bits
-    };
-    let mut least = cost(&ops, &order);
+    let (end, last) = (ops.len(), ops.len() + usize::from(next.is_some()));
+    // Bits up to each place: of the best way as yet, and of another one.
+    let (mut least, mut other) = (vec![f64::INFINITY; last + 1], Vec::new());
+    least[0] = 0.0;
     for _ in 0..ROUNDS {
-        let before = least;
-        for k in 0..ops.len() {
+        let before = least[last];
+        model.mark();
+        for place in 0..end {
+            model.mark();
+            // Does a way that is another one up to `alike` take fewer bits?
+            let mut better = |ops: &[Op], order: &[usize], alike: usize| {
+                other.clone_from(&least);
+                for (at, op) in (place..).zip(order[place..].iter().map(|&k| &ops[k]).chain(next)) {
+                    other[at + 1] = other[at] + model.price(op.bytes.iter().copied());
+                    if at >= alike && other[at + 1] > least[at + 1] + BEHIND {
+                        other[last] = f64::INFINITY;
+                        break;
+                    }
+                }
+                model.back_to_mark();
+                let better = other[last] < least[last] - LEAST;
+                if better {
+                    std::mem::swap(&mut least, &mut other);
+                }
+                better
+            };
+            if place == 0 && before == f64::INFINITY {
+                better(&ops, &order, 0);
+            }
+            let k = order[place];
             for variant in ops[k].variants(factory) {
                 let old = std::mem::replace(&mut ops[k], variant);
-                let bits = cost(&ops, &order);
-                if bits < least - LEAST {
-                    least = bits;
-                } else {
+                if !better(&ops, &order, place + 1) {
                     ops[k] = old;
                 }
             }
-        }
-        for from in 0..ops.len() {
-            for to in (0..ops.len()).filter(|&to| to != from && to + 1 != from) {
-                let mut moved = order.clone();
-                let k = moved.remove(from);
-                moved.insert(to, k);
-                if !window.allows(&ops, &moved) {
-                    continue;
-                }
-                let bits = cost(&ops, &moved);
-                if bits < least - LEAST {
-                    (least, order) = (bits, moved);
+            for alike in place + 2..end + 1 {
+                for middle in place + 1..alike {
+                    let mut moved = order.clone();
+                    moved[place..alike].rotate_left(middle - place);
+                    if window.allows(&ops, &moved) && better(&ops, &moved, alike) {
+                        order = moved;
+                    }
                 }
             }
+            model.unmark();
+            model.price(ops[order[place]].bytes.iter().copied());
         }
-        if least == before {
+        model.back_to_mark();
+        model.unmark();
+        if least[last] == before {
             break;
         }
     }

@@ -15,19 +15,32 @@ mod log {
     use alloc::boxed::Box;
     use alloc::vec::Vec;
 
-    /// What was there before, since the last mark, if there is one.
+    /// What was there before, since the first mark, if there is one.
     pub struct Undo(Option<Box<Log>>);
 
-    /// What is small, as it was at the mark; what is large by the places that changed, in the order in which they did.
+    /// What is large, by the places that changed, in the order in which they did.
+    #[derive(Default)]
     struct Log {
-        words: [u32; 6],
-        hashes: [u32; CONTEXTS],
-        features: Features,
+        marks: Vec<Mark>,
         heads: Vec<(u32, u32)>,
         lines: Vec<(u32, [u32; 16])>,
         cells: Vec<(Words, Words)>,
         first: Vec<(usize, u32, [Floats; VECTORS])>,
         last: Vec<(usize, u32, Floats)>,
+    }
+
+    /// What is small, as it was at a mark, and the lengths of the lists of a [`Log`].
+    struct Mark {
+        words: [u32; 6],
+        hashes: [u32; CONTEXTS],
+        features: Features,
+        lengths: [usize; 5],
+    }
+
+    impl Log {
+        fn lengths(&self) -> [usize; 5] {
+            [self.heads.len(), self.lines.len(), self.cells.len(), self.first.len(), self.last.len()]
+        }
     }
 
     impl Undo {
@@ -70,46 +83,45 @@ mod log {
         pub fn mark(&mut self) {
             let words = [self.position, self.class, self.match_at, self.match_length, self.predicted, self.place];
             let (hashes, features) = (self.hashes, self.features.clone());
-            match &mut self.undo.0 {
-                // Memory is kept.
-                Some(log) => {
-                    (log.words, log.hashes, log.features) = (words, hashes, features);
-                    log.heads.clear();
-                    log.lines.clear();
-                    log.cells.clear();
-                    log.first.clear();
-                    log.last.clear();
-                }
-                none => {
-                    let (heads, lines, cells, first, last) = Default::default();
-                    *none = Some(Box::new(Log { words, hashes, features, heads, lines, cells, first, last }));
-                }
-            }
+            let log = self.undo.0.get_or_insert_default();
+            let lengths = log.lengths();
+            log.marks.push(Mark { words, hashes, features, lengths });
         }
 
-        /// Forgets all bytes since the mark, but for what they jump to.
+        /// Forgets all bytes since the last mark, but for what they jump to. The mark stays.
         pub fn back_to_mark(&mut self) {
             let Some(log) = &mut self.undo.0 else { return };
-            [self.position, self.class, self.match_at, self.match_length, self.predicted, self.place] = log.words;
-            self.hashes = log.hashes;
-            self.features = log.features.clone();
-            for (at, head) in log.heads.drain(..).rev() {
+            let Some(mark) = log.marks.last() else { return };
+            [self.position, self.class, self.match_at, self.match_length, self.predicted, self.place] = mark.words;
+            self.hashes = mark.hashes;
+            self.features = mark.features.clone();
+            let [heads, lines, cells, first, last] = mark.lengths;
+            for (at, head) in log.heads.drain(heads..).rev() {
                 self.heads[at as usize] = head;
             }
-            let lines = self.cells.0.as_chunks_mut::<16>().0;
-            for (at, line) in log.lines.drain(..).rev() {
-                lines[at as usize] = line;
+            let all = self.cells.0.as_chunks_mut::<16>().0;
+            for (at, line) in log.lines.drain(lines..).rev() {
+                all[at as usize] = line;
             }
-            for (at, cells) in log.cells.drain(..).rev() {
+            for (at, cells) in log.cells.drain(cells..).rev() {
                 for (at, cell) in at.into_iter().zip(cells) {
                     self.cells.0[at as usize] = cell;
                 }
             }
-            for (mixer, row, weights) in log.first.drain(..).rev() {
+            for (mixer, row, weights) in log.first.drain(first..).rev() {
                 self.first.weights[mixer][row as usize] = weights;
             }
-            for (mixer, row, weights) in log.last.drain(..).rev() {
+            for (mixer, row, weights) in log.last.drain(last..).rev() {
                 self.last.weights[mixer][row as usize][0] = weights;
+            }
+        }
+
+        /// Forgets the last mark, and no byte.
+        pub fn unmark(&mut self) {
+            let Some(log) = &mut self.undo.0 else { return };
+            log.marks.pop();
+            if log.marks.is_empty() {
+                self.undo = Undo::ZERO;
             }
         }
     }
