@@ -62,11 +62,13 @@ proptest! {
             for text in lost {
                 model.mark();
                 model.price(text.iter().copied());
-                // To a place after the first mark, which is forgotten, and from there to the first one.
+                // Back to a second mark, which is forgotten then, and what comes after it stays until the first one.
                 model.mark();
                 model.price(start.iter().copied());
                 model.back_to_mark();
+                model.price(rest.iter().copied());
                 model.unmark();
+                model.price(text.iter().copied());
                 model.back_to_mark();
                 model.unmark();
             }

@@ -105,10 +105,10 @@ fn live_flags(ops: &[Op]) -> Vec<bool> {
 /// The instructions of a window in an order, and as variants, that the model codes in fewer bits, with the one that follows.
 ///
 /// ```text
-/// for each place of the window, from which on ways to go on are tried
-///     variants of the instruction there
-///     orders in which two neighbouring runs of instructions change places, the first of which starts there
-///     what of the best way is at this place is coded
+/// for each place of the window
+///     try variants of the instruction there
+///     try orders in which a run of instructions that starts there changes places with the run behind it
+///     code the instruction that the best way has there
 /// ```
 fn best(
     model: &mut impl Price,
