@@ -50,14 +50,14 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32
         let p = q + d * (entry + (step + 0.5) * length);
         let u = (p * half + (half - 0.5)).max(Vec3A::ZERO).min(Vec3A::splat(most));
         let u = V3::splat(simd, u);
-        let leap = first(cloud.voxels.leap(simd, u));
-        if leap < 0.0 {
+        let leap = cloud.voxels.leap(simd, u).as_slice()[0];
+        if leap == 0 {
             depth += first(cloud.voxels.look_up(simd, u)[0]) * thickness;
             if first(opacity(simd, F::<S>::splat(simd, depth))[1]) < opaque {
                 break;
             }
         }
-        step += (leap.max(0.0) * reach).floor() + 1.0;
+        step += (leap.saturating_sub(1) as f32 * reach).floor() + 1.0;
     }
     taken
 }

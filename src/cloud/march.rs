@@ -9,7 +9,7 @@
 use super::grain::grain;
 use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
-use crate::simd::lanes::{F, Lane, U, V3};
+use crate::simd::lanes::{F, Lane, U, V3, float};
 use crate::simd::math::{opacity, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -86,26 +86,32 @@ pub fn march<S: Simd>(
     let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);
     let clip = |(entry, exit): (F<S>, F<S>)| (entry.max(-way), exit.min(limit * (1.0 / cloud.size) - way));
     let (first, beyond) = clip(within(simd, q, d, cloud.voxels.bounds()));
-    let mut end = F::<S>::splat(simd, f32::INFINITY);
+    // The step in which the ray ended.
+    let mut ended = F::<S>::splat(simd, f32::INFINITY);
     if !first.simd_lt(beyond).any_true() {
-        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end };
+        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end: ended };
     }
     let (entry, exit) = clip(within(simd, q, d, CUBE));
     let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
     let steps = steps_along::<S>(exit - entry, steps);
     let length = (exit - entry) / steps;
     let missed = length.simd_le(zero);
-    let (entry, length) = (missed.select(zero, entry), missed.select(zero, length));
+    let (entry, unit) = (missed.select(zero, entry), missed.select(one, length));
+    let length = missed.select(zero, length);
     let most = to_f32(cloud.voxels.edge() - 1);
     let half = to_f32(cloud.voxels.edge()) * 0.5;
+    // In voxels, the middle of the first step and what each adds to it: two operations a step, which wait for the last one.
+    let (first_middle, each) = (d * Lane((entry + length * 0.5) * half), d * Lane(length * half));
+    let voxel = |q: F<S>, middle: F<S>| q * half + middle + (half - 0.5);
+    let start = V3::<S> { x: voxel(q.x, first_middle.x), y: voxel(q.y, first_middle.y), z: voxel(q.z, first_middle.z) };
     // Voxels that one step crosses at most, along any axis, and so the steps per voxel: a little less, lest rounding
     // brings a leap into what it ends before.
-    let stride = length * half * d.x.abs().max(d.y.abs()).max(d.z.abs());
+    let stride = each.x.abs().max(each.y.abs()).max(each.z.abs());
     let reach = F::<S>::splat(simd, 0.9999) / missed.select(one, stride);
     let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
     // From the step in which the ray enters the box, up to the one in which it leaves it. What ends a lane is kept apart from
     // its step, so that the next place does not wait for this one's light.
-    let number = |place: F<S>| (place - entry) / missed.select(one, length);
+    let number = |place: F<S>| (place - entry) / unit;
     let mut step = number(first).floor().max(zero);
     let mut last = missed.select(zero, number(beyond).min(steps));
     loop {
@@ -113,12 +119,11 @@ pub fn march<S: Simd>(
         if !goes.any_true() {
             break;
         }
-        let along = entry + (step + 0.5) * length;
-        let p = q + d * Lane(along);
-        let voxel = |p: F<S>| (p * half + (half - 0.5)).max(0.0).min(most);
-        let u = V3 { x: voxel(p.x), y: voxel(p.y), z: voxel(p.z) };
+        let p = start + each * Lane(step);
+        let inside = |p: F<S>| p.max(0.0).min(most);
+        let u = V3 { x: inside(p.x), y: inside(p.y), z: inside(p.z) };
         let leap = cloud.voxels.leap(simd, u);
-        if (goes & leap.simd_lt(zero)).any_true() {
+        if (goes & leap.simd_eq(0)).any_true() {
             let [mut density, mut sunlit] = cloud.voxels.look_up(simd, u);
             if let Some(fine) = fine {
                 // Neither emptiness nor a cloud's inside has any.
@@ -138,13 +143,19 @@ pub fn march<S: Simd>(
             height += hides * p.y;
             lit += hides * sunlit;
             transmittance = passes;
-            let through = transmittance.simd_ge(opaque);
-            end = (goes & !through).select(along, end);
-            last = through.select(last, zero);
+            let through = goes & transmittance.simd_lt(opaque);
+            ended = through.select(step, ended);
+            last = through.select(zero, last);
         }
-        step += (leap.max(zero) * reach).floor() + one;
+        // A branch, as most steps in a cloud need not wait for their leap.
+        step += one;
+        if leap.simd_gt(1).any_true() {
+            step += (float(simd, leap.max(1) - 1) * reach).floor();
+        }
     }
-    let (upper, end) = ((height + hidden) * 0.5, (way + end + length * 0.5) * cloud.size);
+    // The middle of the lowest voxels is half a voxel above the cube's bottom.
+    let upper = (height + hidden * 0.5) * (0.5 / half);
+    let end = (way + entry + (ended + 1.0) * unit) * cloud.size;
     Passage { hidden, upper, lit, transmittance, end }
 }
 

@@ -16,6 +16,9 @@ const LEAP: usize = 2;
 /// Rings of blocks that are searched for emptiness: a leap is at most `RINGS * LEAP` cells.
 const RINGS: usize = 28 / LEAP;
 
+/// Steps from a point to the next one along y.
+const DOWN: i32 = 1 << 14;
+
 /// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
 /// ones.
 ///
@@ -34,6 +37,8 @@ pub struct Voxels {
     /// For each block, 0 where something is in it, otherwise 1 more than the number of cells around it, along any axis,
     /// within which nothing is.
     leaps: Vec<u8>,
+    /// The binary logarithm of the length of a row of leaps.
+    shift: u32,
     /// See [`Voxels::reach`].
     reach: f32,
     /// See [`Voxels::bounds`].
@@ -45,7 +50,8 @@ impl Voxels {
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
         let (cells, leaps) = (Vec::new(), Vec::new());
-        let mut voxels = Voxels { edge, density, light, cells, leaps, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
+        let shift = (edge / LEAP).next_power_of_two().ilog2();
+        let mut voxels = Voxels { edge, density, light, cells, leaps, shift, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
         voxels.measure();
         voxels.pack();
         voxels
@@ -127,7 +133,7 @@ impl Voxels {
     /// Measures empty space: how far around each block nothing is, and how far the cloud reaches.
     fn measure(&mut self) {
         let mut full = self.occupied();
-        let n = self.edge / LEAP;
+        let n = 1 << self.shift;
         self.leaps = vec![0; full.len()];
         for ring in 0..RINGS + 1 {
             let more = if ring == 0 { 1 } else { LEAP as u8 };
@@ -151,9 +157,9 @@ impl Voxels {
     /// Measures the reach. Returns for each block whether anything is in its cells.
     #[inline(always)]
     fn occupied(&mut self) -> Vec<bool> {
-        let n = self.edge / LEAP;
+        let n = 1 << self.shift;
         let half = to_f32(self.edge) * 0.5;
-        let mut full = vec![false; n * n * n];
+        let mut full = vec![false; n * n * (self.edge / LEAP)];
         (self.reach, self.bounds) = (0.0, [Vec3A::INFINITY, Vec3A::NEG_INFINITY]);
         let mut density = self.density.iter();
         for z in 0..self.edge {
@@ -176,31 +182,37 @@ impl Voxels {
         full
     }
 
-    /// The number of cells along any axis, at least, within which nothing is around the blocks that points `u` are in;
-    /// -1 where something may be in the block. Coordinates are those of [`Voxels::look_up`].
+    /// 0 where something may be in the blocks that points `u` are in; otherwise 1 more than the number of cells along any
+    /// axis, at least, within which nothing is around. Coordinates are those of [`Voxels::look_up`].
     #[inline(always)]
-    pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> F<S> {
-        let n = to_f32(self.edge / LEAP);
-        let block = |u: F<S>| (u * (1.0 / LEAP as f32)).floor();
-        let index = (block(u.x) + (block(u.y) + block(u.z) * n) * n).to_int::<S::i32s>();
-        float(simd, U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32)) - 1.0
+    pub fn leap<S: Simd>(&self, simd: S, u: V3<S>) -> U<S> {
+        let block = |u: F<S>| u.to_int::<S::i32s>().bitcast::<U<S>>() >> LEAP.ilog2();
+        let index = block(u.x) + (block(u.y) << self.shift) + (block(u.z) << (2 * self.shift));
+        U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32)
     }
 
     /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
+    ///
+    /// Along y places have steps of 1 / [`DOWN`] points, since there values are interpolated as whole numbers: two products
+    /// and their sum are one instruction, and half as many numbers become floats.
     #[inline(always)]
     pub fn look_up<S: Simd>(&self, simd: S, u: V3<S>) -> [F<S>; 2] {
         let n = to_f32(self.edge);
-        let base = V3::<S> { x: u.x.floor(), y: u.y.floor(), z: u.z.floor() };
+        let below = |u: F<S>| u.to_int::<S::i32s>().to_float::<F<S>>();
+        let base = V3::<S> { x: below(u.x), y: below(u.y), z: below(u.z) };
         let f = u - base;
         let at = (base.x + (base.y + base.z * n) * n).to_int::<S::i32s>().bitcast();
         let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
+        let share = (f.y * DOWN as f32 + 0.5).to_int::<S::i32s>();
+        // The share of this point, and that of the next one 16 bits higher.
+        let shares = ((share << 16) - share + DOWN).bitcast::<S::i16s>();
         // A loop: what `map` calls is not always inlined, and then no lane operation in it is.
         let mut found = [F::<S>::splat(simd, 0.0); 2];
         let mut k = 0;
         while k < 2 {
             let shift = 8 * k as u32;
-            let (a, b) = (square(simd, near, shift, &f), square(simd, far, shift, &f));
-            found[k] = a + (b - a) * f.z;
+            let (a, b) = (square::<S>(near, shift, shares, f.x), square::<S>(far, shift, shares, f.x));
+            found[k] = (a + (b - a) * f.z) * (1.0 / DOWN as f32);
             k += 1;
         }
         found
@@ -229,15 +241,13 @@ impl Voxels {
     }
 }
 
-/// Bilinear interpolation of a square's four corners: the bytes at `shift` and `shift + 16` of two words, along y, and
-/// the words along x.
+/// Bilinear interpolation of a square's four corners, times [`DOWN`]: the bytes at `shift` and `shift + 16` of two words,
+/// along y by `shares`, and the words along x.
 #[inline(always)]
-fn square<S: Simd>(simd: S, [left, right]: [U<S>; 2], shift: u32, f: &V3<S>) -> F<S> {
-    let (a, b) = (float(simd, left >> shift & 255), float(simd, right >> shift & 255));
-    let (left, right) = (left >> (shift + 16), right >> (shift + 16));
-    let (c, d) = (float(simd, left & 255), float(simd, right & 255));
-    let (a, c) = (a + (b - a) * f.x, c + (d - c) * f.x);
-    a + (c - a) * f.y
+fn square<S: Simd>([left, right]: [U<S>; 2], shift: u32, shares: S::i16s, fx: F<S>) -> F<S> {
+    let a = (left >> shift & 0x00ff_00ff).bitcast::<S::i16s>().pairwise_dot_product(shares).to_float::<F<S>>();
+    let b = (right >> shift & 0x00ff_00ff).bitcast::<S::i16s>().pairwise_dot_product(shares).to_float::<F<S>>();
+    a + (b - a) * fx
 }
 
 /// Bilinear interpolation of a square's four corners, which are the bytes of a word: x fastest.

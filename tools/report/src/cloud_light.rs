@@ -55,7 +55,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3A, d: Vec3A, mode: us
             for step in 0..STEPS {
                 let p = moved(start, d, F::<S>::splat(simd, (step as f32 + 0.5) * length));
                 let u = at(p);
-                if !voxels.leap(simd, u).simd_eq(zero).any_true() {
+                if !voxels.leap(simd, u).simd_eq(0).any_true() {
                     continue;
                 }
                 let [density, baked] = voxels.look_up(simd, u);
