@@ -4,7 +4,7 @@
 //! into one word, and two words lie side by side. Space is divided into blocks of 2 x 2 x 2 cells, each of which knows how
 //! far around it nothing is, so that rays can leap over emptiness.
 
-use crate::simd::lanes::{F, U, V3, float};
+use crate::simd::lanes::{Bits, F, U, V3, float};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use glam::Vec3A;
@@ -25,7 +25,7 @@ const DOWN: i32 = 1 << 14;
 /// What lookups read is derived from the two, and made again whenever either is replaced.
 #[derive(Clone)]
 pub struct Voxels {
-    /// Points along an edge: a multiple of 4.
+    /// Points along an edge: a multiple of 4, at most 128.
     edge: usize,
     /// See [`Voxels::density`].
     density: Vec<u8>,
@@ -37,7 +37,7 @@ pub struct Voxels {
     /// For each block, 0 where something is in it, otherwise 1 more than the number of cells around it, along any axis,
     /// within which nothing is.
     leaps: Vec<u8>,
-    /// The binary logarithm of the length of a row of leaps.
+    /// The binary logarithm of the length of a row of leaps, and of the number of rows in a layer.
     shift: u32,
     /// See [`Voxels::reach`].
     reach: f32,
@@ -46,7 +46,7 @@ pub struct Voxels {
 }
 
 impl Voxels {
-    /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4.
+    /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4 and at most 128.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
         let (cells, leaps) = (Vec::new(), Vec::new());
@@ -132,51 +132,54 @@ impl Voxels {
 
     /// Measures empty space: how far around each block nothing is, and how far the cloud reaches.
     fn measure(&mut self) {
+        let n = self.edge / LEAP;
         let mut full = self.occupied();
-        let n = 1 << self.shift;
-        self.leaps = vec![0; full.len()];
+        let (rows, mut known) = (full.len(), vec![0; full.len()]);
+        self.leaps = vec![(1 + RINGS * LEAP) as u8; rows << self.shift];
         for ring in 0..RINGS + 1 {
-            let more = if ring == 0 { 1 } else { LEAP as u8 };
-            for (leap, full) in self.leaps.iter_mut().zip(&full) {
-                *leap += if *full { 0 } else { more };
-            }
-            // One ring wider, an axis at a time. What runs over an edge comes in at the next row, which can only make
-            // leaps shorter.
-            for stride in [1, n, n * n] {
-                let before = full.clone();
-                for (full, next) in full.iter_mut().zip(&before[stride..]) {
-                    *full |= next;
+            for row in 0..rows {
+                for block in Bits(full[row] & !known[row]) {
+                    self.leaps[(row << self.shift) + block] = (ring * LEAP).saturating_sub(LEAP - 1) as u8;
                 }
-                for (full, last) in full[stride..].iter_mut().zip(&before) {
-                    *full |= last;
+            }
+            known = full.clone();
+            // One ring wider, an axis at a time. What runs over an edge comes in at the next layer, which can only make
+            // leaps shorter.
+            for row in &mut full {
+                *row = (*row | *row << 1 | *row >> 1) & u64::MAX >> (64 - n);
+            }
+            for stride in [1, 1 << self.shift] {
+                let before = full.clone();
+                for row in stride..rows {
+                    full[row] |= before[row - stride];
+                    full[row - stride] |= before[row];
                 }
             }
         }
     }
 
-    /// Measures the reach. Returns for each block whether anything is in its cells.
+    /// Measures the reach. Returns for each row of blocks a word, in which a bit is set where anything is in a block's
+    /// cells.
     #[inline(always)]
-    fn occupied(&mut self) -> Vec<bool> {
-        let n = 1 << self.shift;
+    fn occupied(&mut self) -> Vec<u64> {
         let half = to_f32(self.edge) * 0.5;
-        let mut full = vec![false; n * n * (self.edge / LEAP)];
+        let mut full = vec![0; (self.edge / LEAP) << self.shift];
         (self.reach, self.bounds) = (0.0, [Vec3A::INFINITY, Vec3A::NEG_INFINITY]);
-        let mut density = self.density.iter();
-        for z in 0..self.edge {
-            for y in 0..self.edge {
-                for (x, _) in density.by_ref().take(self.edge).enumerate().filter(|(_, density)| **density > 0) {
-                    let place = [x, y, z];
-                    // Density falls to 0 only at the next point: hence one more.
-                    let at = Vec3A::from(place.map(|i| to_f32(i) + 0.5 - half));
-                    self.reach = self.reach.max((at.abs() + 1.0).length() / half);
-                    let [low, high] = self.bounds;
-                    self.bounds = [low.min((at - 1.0) / half), high.max((at + 1.0) / half)];
-                    // A point belongs to the cells on both of its sides along each axis.
-                    for corner in 0..8 {
-                        let [x, y, z] = [0, 1, 2].map(|axis| place[axis].saturating_sub(corner >> axis & 1) / LEAP);
-                        full[x + n * (y + n * z)] = true;
-                    }
-                }
+        for (number, densities) in self.density.chunks(self.edge).enumerate() {
+            let (y, z) = (number % self.edge, number / self.edge);
+            let mut row = 0;
+            for (x, _) in densities.iter().enumerate().filter(|(_, density)| **density > 0) {
+                // Density falls to 0 only at the next point: hence one more.
+                let at = Vec3A::from([x, y, z].map(|i| to_f32(i) + 0.5 - half));
+                self.reach = self.reach.max((at.abs() + 1.0).length() / half);
+                let [low, high] = self.bounds;
+                self.bounds = [low.min((at - 1.0) / half), high.max((at + 1.0) / half)];
+                // A point belongs to the cells on both of its sides along each axis.
+                row |= 1 << (x / LEAP) | 1 << (x.saturating_sub(1) / LEAP);
+            }
+            for side in 0..4 {
+                let [y, z] = [y.saturating_sub(side & 1), z.saturating_sub(side >> 1)].map(|place| place / LEAP);
+                full[y + (z << self.shift)] |= row;
             }
         }
         full
@@ -205,7 +208,7 @@ impl Voxels {
         let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
         let share = (f.y * DOWN as f32 + 0.5).to_int::<S::i32s>();
         // The share of this point, and that of the next one 16 bits higher.
-        let shares = ((share << 16) - share + DOWN).bitcast::<S::i16s>();
+        let shares = (share << 16 | (-share + DOWN)).bitcast::<S::i16s>();
         // A loop: what `map` calls is not always inlined, and then no lane operation in it is.
         let mut found = [F::<S>::splat(simd, 0.0); 2];
         let mut k = 0;
