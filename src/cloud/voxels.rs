@@ -196,7 +196,7 @@ impl Voxels {
 
     /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
     ///
-    /// Along y places have steps of 1 / [`DOWN`] points, since there values are interpolated as whole numbers: two products
+    /// Along y places have steps of 2^-14 points, since there values are interpolated as whole numbers: two products
     /// and their sum are one instruction, and half as many numbers become floats.
     #[inline(always)]
     pub fn look_up<S: Simd>(&self, simd: S, u: V3<S>) -> [F<S>; 2] {
