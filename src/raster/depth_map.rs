@@ -11,7 +11,7 @@ use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::Workers;
-use crate::simd::lanes::{Bits, F, M, U};
+use crate::simd::lanes::{Bits, F, M, U, float};
 use crate::simd::level;
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
@@ -178,8 +178,8 @@ impl DepthMap {
         }
         // Not shifted before: as one number compilers pack both halves by five instructions more.
         let windows = U::<S>::from_slice(simd, &lower[..lanes]) << 8 | U::<S>::from_slice(simd, &upper[..lanes]);
-        let sums = if smooth { weighted(simd, windows, x - column, y - row) } else { counted(simd, windows) };
-        sums * (1.0 / 9.0)
+        let [fx, fy] = if smooth { [x - column, y - row] } else { [zero; 2] };
+        weighted(simd, windows, fx, fy) * (1.0 / 9.0)
     }
 }
 
@@ -232,35 +232,27 @@ fn pairs<S: Simd>(simd: S, texels: &[f32], stride: usize) -> [f32x8<S>; 2] {
 }
 
 /// Areas of lit texels in windows of 3x3 that begin at (`fx`, `fy`) in the first of 4x4 texels, of which a bit tells
-/// whether it is lit.
+/// whether it is lit. Where all are it is 9 to the bit, and 0 where none is.
 #[inline(always)]
 fn weighted<S: Simd>(simd: S, windows: U<S>, fx: F<S>, fy: F<S>) -> F<S> {
-    let (zero, one) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 1.0));
-    let none = U::<S>::splat(simd, 0);
-    // Nine of ten windows are wholly lit or wholly dark. A lit one has its nine texels whatever its company.
+    let (zero, nine) = (F::<S>::splat(simd, 0.0), F::<S>::splat(simd, 9.0));
+    // Nine of ten windows are wholly lit or wholly dark.
     let lit = windows.simd_eq(U::<S>::splat(simd, 0xffff));
-    let whole = lit.select(F::<S>::splat(simd, 9.0), zero);
-    if (lit | windows.simd_eq(none)).all_true() {
-        return whole;
+    if (lit | windows.simd_eq(U::<S>::splat(simd, 0))).all_true() {
+        return lit.select(nine, zero);
     }
-    let (across, down) = ([one - fx, one, one, fx], [one - fy, one, one, fy]);
-    let mut columns = [zero; 4];
-    let mut i = 0;
-    while i < 16 {
-        let dark = (windows & (1 << i as u32)).simd_eq(none);
-        columns[i % 4] += dark.select(zero, across[i % 4] * down[i / 4]);
-        i += 1;
+    // Four bits for each row: how many of its first three texels are lit, and how many of its last three.
+    let column = |k: u32| windows >> k & 0x1111;
+    let inner = column(1) + column(2);
+    let counts = [column(0) + inner, inner + column(3)];
+    let mut areas = [zero; 2];
+    let mut k = 0;
+    while k < 2 {
+        let rows = counts[k];
+        let (first, last, between) = (rows & 15, rows >> 12, (rows + (rows >> 4)) >> 4 & 15);
+        areas[k] = float(simd, first + between) + float(simd, last - first) * fy;
+        k += 1;
     }
-    lit.select(whole, (columns[0] + columns[1]) + (columns[2] + columns[3]))
-}
-
-/// Numbers of lit texels among the first 3x3 of windows of 4x4.
-#[inline(always)]
-fn counted<S: Simd>(simd: S, windows: U<S>) -> F<S> {
-    let (mut each, mut counts) = ([0; 16], [0.0; 16]);
-    windows.store_slice(&mut each[..F::<S>::LEN]);
-    for (count, window) in counts.iter_mut().zip(each) {
-        *count = (window & 0x777u32).count_ones() as f32;
-    }
-    F::<S>::from_slice(simd, &counts[..F::<S>::LEN])
+    let [left, right] = areas;
+    left + (right - left) * fx
 }
