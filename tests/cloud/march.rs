@@ -260,20 +260,23 @@ fn eight_small_cubes_are_one_large_one() {
 
 #[test]
 fn leaps_leave_nothing_out() {
-    // A needle of one voxel anywhere, met by rays through it from all sides.
+    // A needle of one voxel anywhere, met by rays through it from all sides. Rows of blocks fill a word, or not; their
+    // number is a power of two, or not.
     for k in 0..60usize {
-        let needle = [(k * 7) % 32, (k * 11) % 32, (k * 13) % 32];
-        let cloud = cloud(filled(32, |place| if place == needle { 255 } else { 0 }), 50.0);
-        let target = Vec3A::from(needle.map(|i| (i as f32 + 0.5) / 16.0 - 1.0));
+        let edge = [32, 4, 20, 100, 128][k % 5];
+        let needle = [(k * 7) % edge, (k * 11) % edge, (k * 13) % edge];
+        let cloud = cloud(filled(edge, |place| if place == needle { 255 } else { 0 }), 1.6 * edge as f32);
+        let target = Vec3A::from(needle.map(|i| (i as f32 + 0.5) * (2.0 / edge as f32) - 1.0));
         for side in 0..20 {
             let a = side as f32;
             let eye = target + vec3a((a * 2.1).sin(), (a * 1.3).cos(), (a * 0.7).sin()).normalize() * 4.0;
             let d = (target - eye).normalize();
-            let (light, left) = ray(&cloud, &DAY, eye, d, FOREVER, 100.0);
-            let (exact, exact_left) = truth(&cloud, &DAY, eye, d, 100);
+            let steps = 3 * edge as u32;
+            let (light, left) = ray(&cloud, &DAY, eye, d, FOREVER, steps as f32);
+            let (exact, exact_left) = truth(&cloud, &DAY, eye, d, steps);
             assert!(exact_left < 0.9, "the ray meets it");
             let error = (left as f64 - exact_left).abs().max((light.as_dvec3() - exact).abs().max_element());
-            assert!(error < PLACES, "{needle:?} from {eye}: {left} against {exact_left}");
+            assert!(error < PLACES, "{edge} {needle:?} from {eye}: {left} against {exact_left}");
         }
     }
 }
