@@ -50,6 +50,7 @@ impl Voxels {
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
         let (cells, leaps) = (Vec::new(), Vec::new());
+        debug_assert!(edge.is_multiple_of(4) && edge <= LEAP * u64::BITS as usize);
         let shift = (edge / LEAP).next_power_of_two().ilog2();
         let mut voxels = Voxels { edge, density, light, cells, leaps, shift, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
         voxels.measure();
