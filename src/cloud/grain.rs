@@ -31,16 +31,20 @@ pub fn table() -> Voxels {
     Voxels::new(EDGE, (0..EDGE * EDGE * EDGE).map(point).collect())
 }
 
-/// Detail at points `u` of a cloud, in its voxels: from -1 to 1, and 0 in the mean.
+/// How much detail adds to the density, of its distance to none and to all.
+const GRAIN: f32 = 3.0;
+
+/// What detail adds at points `u` of a cloud, in its voxels, of what it may: from -0.8 to 1.2 times [`GRAIN`], and 0 in
+/// the mean.
 #[inline(always)]
 pub(super) fn grain<S: Simd>(simd: S, table: &Voxels, u: V3<S>) -> F<S> {
     let most = (EDGE - 1) as f32;
-    let mirrored = |x: F<S>| {
-        let turns = x * (0.5 * FINER / most);
-        (turns - (turns + 0.5).floor()).abs() * (2.0 * most)
-    };
+    // There and back through the table in a turn. Beside 1.5 times 2^23 a number of turns has no fraction.
+    let turns = 0.5 * FINER / most;
+    let mirrored = |turns: F<S>| (turns - (turns + 12_582_912.0 - 12_582_912.0)).abs() * (2.0 * most);
     // Askew, so that neither lattice shows in the other.
-    let (x, z) = (u.x * 0.8 + u.y * 0.6, u.y * 0.8 - u.x * 0.6);
-    let place = V3 { x: mirrored(x), y: mirrored(u.z * 0.8 + x * 0.6), z: mirrored(z) };
-    table.look_up(simd, place)[0] * (1.0 / 127.5) - 0.8
+    let (ahead, aside) = (0.8 * turns, 0.6 * turns);
+    let (x, z) = (u.x * ahead + u.y * aside, u.y * ahead - u.x * aside);
+    let place = V3 { x: mirrored(x), y: mirrored(u.z * ahead + x * 0.6), z: mirrored(z) };
+    table.look_up(simd, place)[0] * (2.0 * GRAIN / Voxels::FULL) - 0.8 * GRAIN
 }

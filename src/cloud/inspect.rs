@@ -4,9 +4,10 @@
 use super::imposter::Imposter;
 use super::march::{CUBE, closest, steps_along, within};
 use super::seen::{SeenCloud, SeenClouds};
+use super::voxels::Voxels;
 use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
-use crate::simd::math::{opacity, to_f32};
+use crate::simd::math::{log2, to_f32};
 use crate::vector::unit;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3A;
@@ -43,21 +44,26 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32
     }
     let (most, half) = (to_f32(cloud.voxels.edge() - 1), to_f32(cloud.voxels.edge()) * 0.5);
     let reach = 0.9999 / (length * half * d.abs().max_element());
-    let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
-    let (mut step, mut taken, mut depth) = (((met - entry) / length).floor().max(0.0), 0, 0.0);
+    let thickness = length * (-cloud.extinction * LOG2_E / Voxels::FULL);
+    let least = first(log2(simd, F::<S>::splat(simd, opaque.max(f32::MIN_POSITIVE))));
+    let (mut step, mut taken, mut depth, mut in_cloud) = (((met - entry) / length).floor().max(0.0), 0, 0.0, false);
     while step < ((left - entry) / length).min(steps) {
         taken += 1;
         let p = q + d * (entry + (step + 0.5) * length);
         let u = (p * half + (half - 0.5)).max(Vec3A::ZERO).min(Vec3A::splat(most));
         let u = V3::splat(simd, u);
         let leap = cloud.voxels.leap(simd, u).as_slice()[0];
-        if leap == 0 {
-            depth += first(cloud.voxels.look_up(simd, u)[0]) * thickness;
-            if first(opacity(simd, F::<S>::splat(simd, depth))[1]) < opaque {
-                break;
-            }
+        if !in_cloud && leap > 0 {
+            step += ((leap - 1) as f32 * reach).floor() + 1.0;
+            continue;
         }
-        step += (leap.saturating_sub(1) as f32 * reach).floor() + 1.0;
+        let density = first(cloud.voxels.look_up(simd, u)[0]);
+        in_cloud = density > 0.0;
+        depth += density * thickness;
+        if depth < least {
+            break;
+        }
+        step += 1.0;
     }
     taken
 }

@@ -10,15 +10,14 @@ use super::grain::grain;
 use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
 use crate::simd::lanes::{F, Lane, U, V3, float};
-use crate::simd::math::{opacity, to_f32};
+use crate::simd::math::{log2, opacity, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{DVec3, Vec3A};
 use std::f32::consts::LOG2_E;
 
-/// How much detail below a voxel adds to the density, of its distance to none and to all, and to the light.
-const GRAIN: f32 = 3.0;
-const SHADE: f32 = 0.008;
+/// How much detail below a voxel adds to the light, of what it adds to the density.
+const SHADE: f32 = 0.68;
 
 /// What rays meet in a cloud, without the colours of its light.
 pub struct Passage<S: Simd> {
@@ -64,10 +63,11 @@ impl<S: Simd> Passage<S> {
 /// entry, exit = the ray against the three slabs of the cube, ended by eye and limit
 /// for each step in the box around all that is in the voxels, as long as a lane of the vector has one left:
 ///     u = the middle of the step, in voxels
-///     where something may be at u in any lane:
+///     was the last step's density 0 in every lane, and may nothing be at u in any either?
+///         step over as many steps as the empty space around u is wide
+///     else
 ///         depth += density(u) * extinction * length            for lanes that are not through
 ///         hidden = 1 - exp(-depth)                              and as much as it grows is lit
-///     step over as many steps as the empty space around u is wide
 /// ```
 ///
 /// Lanes are independent: a lane that is through adds an optical depth of 0 as long as others go on, so a ray has the
@@ -92,7 +92,7 @@ pub fn march<S: Simd>(
         return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end: ended };
     }
     let (entry, exit) = clip(within(simd, q, d, CUBE));
-    let (mut hidden, mut height, mut lit, mut depth, mut transmittance) = (zero, zero, zero, zero, one);
+    let (mut hidden, mut height, mut lit) = (zero, zero, zero);
     let steps = steps_along::<S>(exit - entry, steps);
     let length = (exit - entry) / steps;
     let missed = length.simd_le(zero);
@@ -108,12 +108,17 @@ pub fn march<S: Simd>(
     // brings a leap into what it ends before.
     let stride = each.x.abs().max(each.y.abs()).max(each.z.abs());
     let reach = F::<S>::splat(simd, 0.9999) / missed.select(one, stride);
-    let thickness = length * (-cloud.extinction * LOG2_E / 255.0);
+    // Depths are binary logarithms of transmittances: from 0 down. They are compared, and not the transmittances, which take
+    // longer to be known.
+    let thickness = length * (-cloud.extinction * LOG2_E / Voxels::FULL);
+    let mut depth = zero;
+    let least = log2(simd, opaque.max(f32::MIN_POSITIVE));
     // From the step in which the ray enters the box, up to the one in which it leaves it. What ends a lane is kept apart from
     // its step, so that the next place does not wait for this one's light.
     let number = |place: F<S>| (place - entry) / unit;
     let mut step = number(first).floor().max(zero);
     let mut last = missed.select(zero, number(beyond).min(steps));
+    let mut in_cloud = false;
     loop {
         let goes = step.simd_lt(last);
         if !goes.any_true() {
@@ -122,41 +127,43 @@ pub fn march<S: Simd>(
         let p = start + each * Lane(step);
         let inside = |p: F<S>| p.max(0.0).min(most);
         let u = V3 { x: inside(p.x), y: inside(p.y), z: inside(p.z) };
-        let leap = cloud.voxels.leap(simd, u);
-        if (goes & leap.simd_eq(0)).any_true() {
-            let [mut density, mut sunlit] = cloud.voxels.look_up(simd, u);
-            if let Some(fine) = fine {
-                // Neither emptiness nor a cloud's inside has any.
-                let share = density * (density * (-1.0 / 255.0) + 1.0);
-                let share = transmittance.simd_ge(opaque * 16.0).select(share, zero);
-                if (goes & share.simd_gt(zero)).any_true() {
-                    let grain = grain(simd, fine, u) * share;
-                    density = (density + grain * GRAIN).max(zero).min(255.0);
-                    sunlit += sunlit * grain * SHADE;
-                }
+        if !in_cloud {
+            let leap = cloud.voxels.leap(simd, u);
+            if !(goes & leap.simd_eq(0)).any_true() {
+                step += (float(simd, leap.max(1) - 1) * reach).floor() + 1.0;
+                continue;
             }
-            // From the depth so far, and not as what is missing from 1: of a thin cloud that would be rounding alone.
-            depth += goes.select(density * thickness, zero);
-            let [kept, passes] = opacity(simd, depth);
-            let hides = kept - hidden;
-            hidden = kept;
-            height += hides * p.y;
-            lit += hides * sunlit;
-            transmittance = passes;
-            let through = goes & transmittance.simd_lt(opaque);
-            ended = through.select(step, ended);
-            last = through.select(zero, last);
         }
-        // A branch, as most steps in a cloud need not wait for their leap.
+        let [mut density, mut sunlit] = cloud.voxels.look_up(simd, u);
+        in_cloud = (goes & density.simd_gt(zero)).any_true();
+        if let Some(fine) = fine {
+            // Neither emptiness nor a cloud's inside has any.
+            let share = density * (density * (-1.0 / Voxels::FULL) + 1.0);
+            let share = depth.simd_ge(least + 4.0).select(share, zero);
+            if (goes & share.simd_gt(zero)).any_true() {
+                let grain = grain(simd, fine, u) * share;
+                density = (density + grain).max(zero).min(Voxels::FULL);
+                sunlit += sunlit * grain * (SHADE / Voxels::FULL);
+            }
+        }
+        // From the depth so far, and not as what is missing from 1: of a thin cloud that would be rounding alone. Of `goes`
+        // compilers would keep a bit a lane, and take longer to make lanes of these again.
+        let goes = (last - step).simd_gt(zero);
+        depth += goes.select(density * thickness, zero);
+        let [kept, _] = opacity(simd, depth);
+        let hides = kept - hidden;
+        hidden = kept;
+        height += hides * p.y;
+        lit += hides * sunlit;
+        let through = goes & depth.simd_lt(least);
+        ended = through.select(step, ended);
+        last = through.select(zero, last);
         step += one;
-        if leap.simd_gt(1).any_true() {
-            step += (float(simd, leap.max(1) - 1) * reach).floor();
-        }
     }
     // The middle of the lowest voxels is half a voxel above the cube's bottom.
     let upper = (height + hidden * 0.5) * (0.5 / half);
     let end = (way + entry + (ended + 1.0) * unit) * cloud.size;
-    Passage { hidden, upper, lit, transmittance, end }
+    Passage { hidden, upper, lit: lit * (255.0 / Voxels::FULL), transmittance: -hidden + 1.0, end }
 }
 
 /// The steps that ways through a cube are cut into, halves of its edge long, where `steps` are cut along an edge.

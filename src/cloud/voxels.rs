@@ -46,6 +46,9 @@ pub struct Voxels {
 }
 
 impl Voxels {
+    /// What lookups give where the density, or the light, is 255.
+    pub const FULL: f32 = (255 * DOWN) as f32;
+
     /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4 and at most 128.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
         let light = vec![255; density.len()];
@@ -195,28 +198,28 @@ impl Voxels {
         U::<S>::from_fn(simd, |lane| self.leaps[index[lane] as usize] as u32)
     }
 
-    /// Density and light at points `u`, both of 255. Coordinates count points, from 0 to `edge - 1` along each axis.
+    /// Density and light at points `u`, both of [`Voxels::FULL`]. Coordinates count points, from 0 to `edge - 1` along each axis.
     ///
     /// Along y places have steps of 2^-14 points, since there values are interpolated as whole numbers: two products
-    /// and their sum are one instruction, and half as many numbers become floats.
+    /// and their sum are one instruction, and half as many numbers become floats. So are the numbers of points summed up.
     #[inline(always)]
     pub fn look_up<S: Simd>(&self, simd: S, u: V3<S>) -> [F<S>; 2] {
-        let n = to_f32(self.edge);
-        let below = |u: F<S>| u.to_int::<S::i32s>().to_float::<F<S>>();
-        let base = V3::<S> { x: below(u.x), y: below(u.y), z: below(u.z) };
-        let f = u - base;
-        let at = (base.x + (base.y + base.z * n) * n).to_int::<S::i32s>().bitcast();
+        let [x, y, z] = [u.x.to_int::<S::i32s>(), u.y.to_int::<S::i32s>(), u.z.to_int::<S::i32s>()];
+        let (fx, fy, fz) = (u.x - x.to_float::<F<S>>(), u.y - y.to_float::<F<S>>(), u.z - z.to_float::<F<S>>());
+        let (row, layer) = (self.edge as i32, (self.edge * self.edge) as i32);
+        let in_layer = pairwise::<S>(x | y << 16, S::i32s::splat(simd, 1 | row << 16));
+        let at = (in_layer + pairwise::<S>(z, S::i32s::splat(simd, layer))).bitcast();
         let (near, far) = (self.pairs(simd, at, 0), self.pairs(simd, at, self.edge * self.edge));
-        let share = (f.y * DOWN as f32 + 0.5).to_int::<S::i32s>();
+        let share = (fy * DOWN as f32 + 0.5).to_int::<S::i32s>();
         // The share of this point, and that of the next one 16 bits higher.
-        let shares = (share << 16 | (-share + DOWN)).bitcast::<S::i16s>();
+        let shares = share << 16 | (-share + DOWN);
         // A loop: what `map` calls is not always inlined, and then no lane operation in it is.
         let mut found = [F::<S>::splat(simd, 0.0); 2];
         let mut k = 0;
         while k < 2 {
             let shift = 8 * k as u32;
-            let (a, b) = (square::<S>(near, shift, shares, f.x), square::<S>(far, shift, shares, f.x));
-            found[k] = (a + (b - a) * f.z) * (1.0 / DOWN as f32);
+            let (a, b) = (square::<S>(near, shift, shares, fx), square::<S>(far, shift, shares, fx));
+            found[k] = a + (b - a) * fz;
             k += 1;
         }
         found
@@ -248,10 +251,16 @@ impl Voxels {
 /// Bilinear interpolation of a square's four corners, times [`DOWN`]: the bytes at `shift` and `shift + 16` of two words,
 /// along y by `shares`, and the words along x.
 #[inline(always)]
-fn square<S: Simd>([left, right]: [U<S>; 2], shift: u32, shares: S::i16s, fx: F<S>) -> F<S> {
-    let a = (left >> shift & 0x00ff_00ff).bitcast::<S::i16s>().pairwise_dot_product(shares).to_float::<F<S>>();
-    let b = (right >> shift & 0x00ff_00ff).bitcast::<S::i16s>().pairwise_dot_product(shares).to_float::<F<S>>();
-    a + (b - a) * fx
+fn square<S: Simd>([left, right]: [U<S>; 2], shift: u32, shares: S::i32s, fx: F<S>) -> F<S> {
+    let a = pairwise::<S>((left >> shift & 0x00ff_00ff).bitcast(), shares);
+    let b = pairwise::<S>((right >> shift & 0x00ff_00ff).bitcast(), shares);
+    a.to_float::<F<S>>() + (b - a).to_float::<F<S>>() * fx
+}
+
+/// The product of the lower 16 bits, plus that of the upper 16, both signed.
+#[inline(always)]
+fn pairwise<S: Simd>(a: S::i32s, b: S::i32s) -> S::i32s {
+    a.bitcast::<S::i16s>().pairwise_dot_product(b.bitcast::<S::i16s>())
 }
 
 /// Bilinear interpolation of a square's four corners, which are the bytes of a word: x fastest.

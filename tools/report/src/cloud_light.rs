@@ -59,7 +59,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3A, d: Vec3A, mode: us
                     continue;
                 }
                 let [density, baked] = voxels.look_up(simd, u);
-                let hides = passes * (one - exp2(simd, density * (-length * EXTINCTION * LOG2_E / 255.0)));
+                let hides = passes * (one - exp2(simd, density * (-length * EXTINCTION * LOG2_E / Voxels::FULL)));
                 passes -= hides;
                 if hides.simd_le(1e-4).all_true() {
                     continue;
@@ -67,7 +67,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3A, d: Vec3A, mode: us
                 // The distance to the wall of the cube, in halves of its edge.
                 let wall = |p: F<S>, s: f32| (one - p * s.signum()) * (1.0 / s.abs().max(1e-6));
                 let way = wall(p.x, towards.x).min(wall(p.y, towards.y)).min(wall(p.z, towards.z)).max(zero);
-                let baked = baked * (1.0 / 255.0);
+                let baked = baked * (1.0 / Voxels::FULL);
                 let near = (one - way * (32.0 / 70.0)).max(zero);
                 let lit = match mode {
                     0 => {
@@ -76,7 +76,7 @@ fn picture<S: Simd>(simd: S, voxels: &Voxels, towards: Vec3A, d: Vec3A, mode: us
                             let t = way * ((step as f32 + 0.5) / SUN_STEPS as f32);
                             depth += voxels.look_up(simd, at(moved(p, towards, t)))[0];
                         }
-                        let q = depth * way * (EXTINCTION * LOG2_E / (255.0 * SUN_STEPS as f32));
+                        let q = depth * way * (EXTINCTION * LOG2_E / (Voxels::FULL * SUN_STEPS as f32));
                         exp2(simd, q * -0.5) * 0.7 + exp2(simd, q * -0.06) * 0.3
                     }
                     1 => baked,
