@@ -2,12 +2,12 @@
 //! that every machine has, for one ray at a time, so that the executable has it once: every level gives the same bits.
 
 use super::imposter::Imposter;
-use super::march::{CUBE, closest, steps_along, within};
+use super::march::{CUBE, below_log2, closest, steps_along, within};
 use super::seen::{SeenCloud, SeenClouds};
 use super::voxels::Voxels;
 use crate::frame::Tile;
 use crate::simd::lanes::{F, V3};
-use crate::simd::math::{log2, to_f32};
+use crate::simd::math::to_f32;
 use crate::vector::unit;
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use glam::Vec3A;
@@ -45,7 +45,7 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32
     let (most, half) = (to_f32(cloud.voxels.edge() - 1), to_f32(cloud.voxels.edge()) * 0.5);
     let reach = 0.9999 / (length * half * d.abs().max_element());
     let thickness = length * (-cloud.extinction * LOG2_E / Voxels::FULL);
-    let least = first(log2(simd, F::<S>::splat(simd, opaque.max(f32::MIN_POSITIVE))));
+    let least = first(below_log2::<S>(F::<S>::splat(simd, opaque)));
     let (mut step, mut taken, mut depth, mut in_cloud) = (((met - entry) / length).floor().max(0.0), 0, 0.0, false);
     while step < ((left - entry) / length).min(steps) {
         taken += 1;

@@ -23,7 +23,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 /// cleared by one call.
 pub const EMPTY: f32 = f32::from_bits(0xfefe_fefe);
 /// The depths of a tile, row by row.
-type Texels = Box<[f32; Tile::AREA]>;
+pub(super) type Texels = Box<[f32; Tile::AREA]>;
 
 /// What a depth map shows: maps of equal keys are equal.
 #[derive(PartialEq)]
@@ -195,8 +195,7 @@ fn draw<S: Simd>(simd: S, map: &DepthMap, index: usize) -> &[f32; Tile::AREA] {
         let spare = map.spare.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut texels = spare.unwrap_or_else(|| Box::new([0.0; Tile::AREA]));
         texels.fill(EMPTY);
-        map.views[row / tiles as usize].draw(simd, [column, row % tiles as usize], &mut texels);
-        texels
+        map.views[row / tiles as usize].draw(simd, [column, row % tiles as usize], texels)
     })
 }
 

@@ -33,7 +33,7 @@ pub fn lifted(context: &ShadeContext, queue: &FragmentQueue) -> Block3 {
     let mut points = queue.places[POINTS];
     for (i, &id) in queue.id[0].iter().enumerate() {
         let (number, triangle) = parts(id);
-        let body = &context.world.bodies[number];
+        let body = &context.world.bodies[context.raster.bodies[number].0];
         if body.mesh.normals.is_empty() {
             continue;
         }

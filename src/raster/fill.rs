@@ -4,6 +4,7 @@
 //! numbers, and the top-left rule is part of their constants, so each sample on a shared edge belongs to exactly one of
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
+use super::hidden::{UNKNOWN, hidden};
 use super::id::{Id, NOTHING, of_mesh};
 use super::setup::SetupMesh;
 use super::triangle::{SUB, Triangle};
@@ -17,14 +18,14 @@ use fearless_simd_macros::simd;
 pub struct Visible {
     /// Its `inv_depth`, or that of the background.
     pub inv_depth: Box<[f32; Tile::AREA]>,
-    /// The triangle.
-    pub id: Box<[Id; Tile::AREA]>,
+    /// The triangle; empty where that does not matter.
+    pub id: Vec<Id>,
 }
 
 /// To be cleared before use: a buffer of zeros that nobody writes to takes no memory.
 impl Default for Visible {
     fn default() -> Visible {
-        Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: Box::new([0; Tile::AREA]) }
+        Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: vec![0; Tile::AREA] }
     }
 }
 
@@ -45,27 +46,29 @@ pub const CENTER: SubPixel = [SUB / 2; 2];
 const FAR: i64 = 1 << 30;
 
 /// Draws meshes into the tile of a column and a row of tiles, over what is visible there at each sample of its pixels: one
-/// triangle after the other, as most of the time their numbers have to be fetched.
+/// triangle after the other, as most of the time their numbers have to be fetched. The nearer the first ones are, the more
+/// of the others are [`hidden`].
 #[simd]
-pub fn fill<S: Simd>(simd: S, meshes: &[SetupMesh], tile: [usize; 2], planes: &mut [(Visible, SubPixel)]) {
-    for (number, mesh) in meshes.iter().enumerate() {
+#[inline(never)] // For eye and lights one copy, as of what it calls.
+pub fn fill<S: Simd>(
+    simd: S,
+    meshes: &mut dyn Iterator<Item = &SetupMesh>,
+    tile: [usize; 2],
+    planes: &mut [(Visible, SubPixel)],
+) {
+    let mut blocks = UNKNOWN;
+    for (number, mesh) in meshes.enumerate() {
         for (id, triangle) in mesh.in_tile(tile) {
-            for (Visible { inv_depth, id: shown }, sample) in &mut *planes {
-                fill_one(simd, triangle, tile, *sample, inv_depth, Some((of_mesh(number, id), shown)));
+            if !hidden(simd, triangle, tile, planes, &mut blocks) {
+                for (visible, sample) in &mut *planes {
+                    fill_one(simd, triangle, of_mesh(number, id), tile, *sample, visible);
+                }
             }
         }
     }
 }
 
-/// Draws the depths alone of a mesh, at the middles of pixels, into the tile of a column and a row of tiles.
-#[simd]
-pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, tile: [usize; 2], depths: &mut [f32; Tile::AREA]) {
-    for (_, triangle) in mesh.in_tile(tile) {
-        fill_one(simd, triangle, tile, CENTER, depths, None);
-    }
-}
-
-/// Draws one triangle; its number where that is `shown`.
+/// Draws one triangle.
 ///
 /// ```text
 /// for each strip, as wide as a vector, of the triangle's bounding box within the tile
@@ -78,15 +81,9 @@ pub fn fill_depths<S: Simd>(simd: S, mesh: &SetupMesh, tile: [usize; 2], depths:
 ///
 /// Along rows instead the loops would be shorter, and their ends harder to predict.
 #[simd]
-#[inline(never)] // For eye and lights one copy: 0.2 kB packed.
-fn fill_one<S: Simd>(
-    simd: S,
-    t: &Triangle,
-    tile: [usize; 2],
-    sample: SubPixel,
-    depths: &mut [f32; Tile::AREA],
-    mut shown: Option<(Id, &mut Box<[Id; Tile::AREA]>)>,
-) {
+#[inline(never)]
+fn fill_one<S: Simd>(simd: S, t: &Triangle, id: Id, tile: [usize; 2], sample: SubPixel, visible: &mut Visible) {
+    let (depths, ids) = (&mut *visible.inv_depth, &mut *visible.id);
     let lanes = F::<S>::LEN;
     let size = Tile::SIZE as i32;
     let [x, y] = tile.map(|n| n as i32 * size);
@@ -128,10 +125,10 @@ fn fill_one<S: Simd>(
                 // Not what `nearer` selects, which compilers make a masked store of: on AMD's processors that takes as long
                 // as all else here.
                 inside.select(inv_depth, least).max(old).store_slice(depths);
-                if let Some((id, ids)) = &mut shown {
+                if !ids.is_empty() {
                     let ids = &mut ids[place..place + lanes];
                     let old = S::u32s::from_slice(simd, ids);
-                    nearer.select(S::u32s::splat(simd, *id), old).store_slice(ids);
+                    nearer.select(S::u32s::splat(simd, id), old).store_slice(ids);
                 }
                 let mut k = 0;
                 while k < 3 {

@@ -65,7 +65,9 @@ pub fn visible(raster: &Raster, view: &View, x: f32, y: f32) -> Option<Shown> {
     let value = *at + by[0] * (x - anchor[0]) + by[1] * (y - anchor[1]);
     let (depth, normal) = (1.0 / inv_depth, Vec3A::from_vec4(value).normalize_or_zero());
     let point = view.camera().eye + view.ray(x, y) * depth;
-    Some(Shown { triangle: parts(id), point, lifted: point + normal * *bulge, normal, depth })
+    let (mesh, number) = parts(id);
+    let triangle = (raster.bodies[mesh].0, number);
+    Some(Shown { triangle, point, lifted: point + normal * *bulge, normal, depth })
 }
 
 /// The number of the view in which a light's shadow on a point is looked up, from 0; none where the light casts none

@@ -103,7 +103,7 @@ impl RasterLayer {
                     };
                     visible.clear(&tile.hidden);
                 }
-                fill(simd, &raster.meshes, at, planes);
+                fill(simd, &mut raster.meshes.iter(), at, planes);
                 fragments += collect(simd, &context, planes, queues, tile);
             }
             for (texture, queue) in queues.iter_mut().enumerate() {

@@ -6,7 +6,7 @@
 //! once a frame    fit        views of lights, fitted to what the camera sees         (asked for by scenes)
 //!                 setup      faces clipped, snapped and turned into planes
 //!                 bins       the triangles of each body sorted into tiles of 64x64 pixels
-//! per tile        fill       which triangle each sample shows
+//! per tile        fill       which triangle each sample shows, but of those that are `hidden`
 //!                 collect    fragments: the part of a pixel that shows one triangle, gathered by texture
 //!                 shade      surfaces, textures, snow, haze; `illuminate` adds what each light in reach gives
 //! when met        depth_map  a tile of a shadow map, for which `rasters` sets up the bodies that it may show;
@@ -57,6 +57,7 @@ pub mod fill;
 pub mod fit;
 pub mod form;
 pub mod haze;
+mod hidden;
 pub mod id;
 mod illuminate;
 #[cfg(feature = "full")]

@@ -93,6 +93,13 @@ impl Projection {
             .any(|plane| plane.dot(center.extend(1.0)) < -radius * plane.truncate().length())
     }
 
+    /// Metres along the axis of the view, towards the eye or the light: the larger, the nearer a point.
+    pub fn nearness(&self, point: Vec3A) -> f32 {
+        // One of the two is 1 everywhere.
+        let [_, _, inv_depth, w] = self.rows;
+        (inv_depth - w).dot(point.extend(1.0))
+    }
+
     /// First and last column, first and last row of the tiles that a sphere may touch. In perspective they are all.
     pub fn tiles(&self, center: Vec3A, radius: f32) -> [f32; 4] {
         let [x, y, _, w] = self.rows;

@@ -1,31 +1,55 @@
 //! The bodies of a world on the rasters of the camera and of the views of lights.
 
-use super::fill::fill_depths;
+use super::depth_map::Texels;
+use super::fill::{CENTER, Visible, fill};
 use super::id::MESHES;
 use super::project::Projection;
 use super::setup::{SetupMesh, TriangleSetup};
 use super::world::Body;
-use crate::frame::{Tile, Workers};
+use crate::frame::Workers;
 use crate::simd::math::to_f32;
 use fearless_simd::Simd;
 use std::sync::OnceLock;
 
+/// Those bodies that may show on a raster, by their numbers, nearest first: with how near their balls come.
+fn seen(projection: &Projection, bodies: &[Body]) -> Vec<(usize, f32)> {
+    let mut seen: Vec<(usize, f32)> = Vec::new();
+    for (number, body) in bodies.iter().enumerate() {
+        let (center, radius) = body.bound;
+        if !projection.misses(center, radius) {
+            let nearness = projection.nearness(center) + radius;
+            let mut at = seen.len();
+            seen.push((number, nearness));
+            while at > 0 && seen[at - 1].1 < nearness {
+                seen.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+    }
+    seen
+}
+
 /// Bodies on the raster of the camera.
 #[derive(Default)]
 pub struct Raster {
-    /// The triangles of each body.
+    /// The bodies that may be seen, by their numbers in the world, nearest first.
+    pub bodies: Vec<(usize, f32)>,
+    /// The triangles of each of them.
     pub meshes: Vec<SetupMesh>,
 }
 
 impl Raster {
-    /// Sets up every body that the camera may see. Bodies after the first 16,384 are left out.
+    /// Sets up every body that the camera may see. Those after the nearest 16,384 are left out.
     #[inline(always)]
     pub fn new(workers: &Workers, projection: &Projection, bodies: &[Body]) -> Raster {
         let setup = TriangleSetup { projection: *projection, back_faces: false, shaded: true };
-        let mut meshes: Vec<_> = bodies.iter().take(MESHES).map(|_| SetupMesh::default()).collect();
-        let seen = meshes.iter_mut().zip(bodies).filter(|(_, body)| !projection.misses(body.bound.0, body.bound.1));
-        workers.each(seen, |(mesh, body)| *mesh = setup.set_up(&body.mesh, &body.place));
-        Raster { meshes }
+        let seen = seen(projection, bodies);
+        let mut meshes: Vec<_> = seen.iter().take(MESHES).map(|_| SetupMesh::default()).collect();
+        workers.each(meshes.iter_mut().zip(&seen), |(mesh, (number, _))| {
+            let body = &bodies[*number];
+            *mesh = setup.set_up(&body.mesh, &body.place);
+        });
+        Raster { bodies: seen, meshes }
     }
 }
 
@@ -49,17 +73,15 @@ impl LightView {
     pub fn new(projection: &Projection, back_faces: bool, bodies: &[Body]) -> LightView {
         let setup = TriangleSetup { projection: *projection, back_faces, shaded: false };
         let mut casters = Vec::new();
-        for body in bodies {
-            let (center, radius) = body.bound;
-            if !projection.misses(center, radius) {
-                let bound = projection.tiles(center, radius);
-                casters.push(Caster { body: body.clone(), bound, mesh: OnceLock::new() });
-            }
+        for (number, _) in seen(projection, bodies) {
+            let body = &bodies[number];
+            let bound = projection.tiles(body.bound.0, body.bound.1);
+            casters.push(Caster { body: body.clone(), bound, mesh: OnceLock::new() });
         }
         LightView { setup, casters }
     }
 
-    /// The meshes that the tile of a column and a row of tiles may show. Sets up those that no tile has needed before.
+    /// The meshes that the tile of a column and a row of tiles may show, nearest first. Sets up those that no tile has needed before.
     #[inline(always)]
     pub fn at(&self, tile: [usize; 2]) -> impl Iterator<Item = &SetupMesh> {
         let [x, y] = tile.map(to_f32);
@@ -75,9 +97,10 @@ impl LightView {
 
     /// Draws the nearest depths of a tile over what is there.
     #[inline(always)]
-    pub fn draw<S: Simd>(&self, simd: S, tile: [usize; 2], depths: &mut [f32; Tile::AREA]) {
-        for mesh in self.at(tile) {
-            fill_depths(simd, mesh, tile, depths);
-        }
+    pub fn draw<S: Simd>(&self, simd: S, tile: [usize; 2], inv_depth: Texels) -> Texels {
+        let mut planes = [(Visible { inv_depth, id: Vec::new() }, CENTER)];
+        fill(simd, &mut self.at(tile), tile, &mut planes);
+        let [(Visible { inv_depth, .. }, _)] = planes;
+        inv_depth
     }
 }

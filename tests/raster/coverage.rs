@@ -2,11 +2,15 @@
 //!
 //! The projection is the identity, so corners are where a test puts them, in steps of 1/256 pixel.
 
-use paprsek::raster::fill::CENTER;
+use fearless_simd::dispatch;
+use paprsek::frame::Tile;
+use paprsek::raster::fill::{CENTER, Visible, fill};
+use paprsek::raster::id::{NOTHING, PLAIN, join, of_mesh};
+use paprsek::raster::setup::SetupMesh;
 use paprsek::raster::triangle::SUB;
 use testkit::coverage::{
-    Corners, NEARNESS, SHEET, SIZES, Shown, Single, any_triangle, area, counts, covers, deep_triangle, draw, fan, grid,
-    piece, plane, sample_of, single, turn,
+    Corner, Corners, NEARNESS, SHEET, SIZES, Shown, Single, any_triangle, area, counts, covers, deep_triangle, draw,
+    fan, grid, piece, plane, sample_of, single, turn,
 };
 use testkit::{ULP, random::Random};
 
@@ -145,6 +149,65 @@ fn the_nearest_wins_in_any_order() {
         }
     }
     assert!(shared > 10_000, "{shared}");
+}
+
+/// What is hidden is left out before it is drawn, by blocks of all samples: here behind walls that are a little larger than
+/// what is behind them, a little smaller, slanted, or a hair nearer.
+#[test]
+fn hidden_triangles_change_nothing() {
+    const SIZE: [u32; 2] = [64; 2];
+    let mut random = Random(6);
+    for case in 0..40 {
+        let mut triangles = Vec::new();
+        for k in 0..120 {
+            let near = [0.5, 0.25, 0.5, 0.5 + f32::EPSILON, 0.75][if k % 8 == 0 { 0 } else { 1 + k % 4 }];
+            let mut step = |low: f64, high: f64| (random.range(low, high) * f64::from(SUB)) as i32;
+            let [x, y] = [step(0.0, 64.0), step(0.0, 64.0)];
+            let mut t: Corners = [0; 3].map(|_| {
+                let [x, y] = [x + step(-6.0, 6.0), y + step(-6.0, 6.0)];
+                Corner { x, y, near: near + if case % 2 == 0 { 0.0 } else { step(0.0, 0.1) as f32 / SUB as f32 } }
+            });
+            if k % 8 == 0 {
+                // A wall whose upright and level edges run through the pixels along the edges of the tile.
+                let [mut left, mut right, mut top, mut bottom] =
+                    [0, 64, 0, 64].map(|edge| edge * SUB + step(-1.0, 1.0));
+                if k % 16 == 0 {
+                    (left, right) = (right, left);
+                }
+                if k % 32 < 16 {
+                    (top, bottom) = (bottom, top);
+                }
+                for (corner, (x, y)) in t.iter_mut().zip([(left, top), (right, top), (left, bottom)]) {
+                    (corner.x, corner.y) = (x, y);
+                }
+            }
+            if area(&t) > 0 {
+                t.swap(1, 2);
+            }
+            triangles.push(t);
+        }
+        let places = [[40, 200], [100, 20], [160, 100], [220, 240]];
+        for (name, level) in testkit::levels() {
+            let pieces: Vec<SetupMesh> = triangles.iter().map(|t| piece(&[*t], SIZE, false)).collect();
+            let mut planes = places.map(|place| (Visible::default(), place));
+            planes.iter_mut().for_each(|(visible, _)| visible.clear(&[0.0; Tile::AREA]));
+            dispatch!(level, simd => fill(simd, &mut pieces.iter(), [0, 0], &mut planes));
+            for (visible, place) in &planes {
+                // The first of the nearest, where each is drawn alone.
+                let mut truth = vec![(0.0, NOTHING); Tile::AREA];
+                for (number, piece) in pieces.iter().enumerate() {
+                    let alone = draw(level, std::slice::from_ref(piece), SIZE, *place).0;
+                    for (truth, (near, _)) in truth.iter_mut().zip(alone) {
+                        if near > truth.0 {
+                            *truth = (near, of_mesh(number, join(0, PLAIN)));
+                        }
+                    }
+                }
+                let found: Vec<_> = visible.inv_depth.iter().copied().zip(visible.id.iter().copied()).collect();
+                assert_eq!(found, truth, "{name}, case {case}, {place:?}");
+            }
+        }
+    }
 }
 
 /// May a triangle touch the picture, by its bounding box in whole pixels?

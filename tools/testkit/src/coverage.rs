@@ -61,7 +61,7 @@ pub fn draw(level: Level, pieces: &[SetupMesh], size: [u32; 2], sample: SubPixel
         for x in (0..width).step_by(Tile::SIZE) {
             planes[0].0.clear(&[0.0; Tile::AREA]);
             let tile = [x, y].map(|n| n / Tile::SIZE);
-            dispatch!(level, simd => fill(simd, pieces, tile, &mut planes));
+            dispatch!(level, simd => fill(simd, &mut pieces.iter(), tile, &mut planes));
             let out = &planes[0].0;
             for row in 0..Tile::SIZE.min(height - y) {
                 for column in 0..Tile::SIZE.min(width - x) {

@@ -32,7 +32,7 @@ impl Map {
         let mut planes = [(Visible::default(), CENTER)];
         for (y, x) in (0..size / edge).flat_map(|y| (0..size / edge).map(move |x| (y, x))) {
             planes[0].0.clear(&[EMPTY; Tile::AREA]);
-            dispatch!(level, simd => fill(simd, &pieces, [x, y], &mut planes));
+            dispatch!(level, simd => fill(simd, &mut pieces.iter(), [x, y], &mut planes));
             for (row, from) in planes[0].0.inv_depth.chunks(edge).enumerate() {
                 self.texels[(y * edge + row) * size + x * edge..][..edge].copy_from_slice(from);
             }
