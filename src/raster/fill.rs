@@ -47,7 +47,7 @@ const FAR: i64 = 1 << 30;
 
 /// Draws meshes into the tile of a column and a row of tiles, over what is visible there at each sample of its pixels: one
 /// triangle after the other, as most of the time their numbers have to be fetched. The nearer the first ones are, the more
-/// of the others are [`hidden`].
+/// of the others are hidden.
 #[simd]
 #[inline(never)] // For eye and lights one copy, as of what it calls.
 pub fn fill<S: Simd>(
