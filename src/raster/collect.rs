@@ -4,10 +4,10 @@
 //! places. Full queues are shaded at once.
 
 use super::context::ShadeContext;
-use super::fill::{SubPixel, Visible};
 use super::id::{Id, NOTHING, TEXTURE};
 use super::queue::{FragmentQueue, fragment};
 use super::shade::flush;
+use super::visible::{SubPixel, Visible};
 use crate::frame::Tile;
 use crate::simd::block::BLOCK;
 use crate::simd::lanes::{Bits, F, M, STEPS, U};

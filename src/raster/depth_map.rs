@@ -23,7 +23,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 /// cleared by one call.
 pub const EMPTY: f32 = f32::from_bits(0xfefe_fefe);
 /// The depths of a tile, row by row.
-pub(super) type Texels = Box<[f32; Tile::AREA]>;
+type Texels = Box<[f32; Tile::AREA]>;
 
 /// What a depth map shows: maps of equal keys are equal.
 #[derive(PartialEq)]

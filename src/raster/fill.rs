@@ -5,42 +5,14 @@
 //! the two triangles. Depth is a plane over the raster; the larger `inv_depth` wins, and of equals the first one.
 
 use super::hidden::{UNKNOWN, hidden};
-use super::id::{Id, NOTHING, of_mesh};
+use super::id::{Id, of_mesh};
 use super::setup::SetupMesh;
 use super::triangle::{SUB, Triangle};
+use super::visible::{SubPixel, Visible};
 use crate::frame::Tile;
 use crate::simd::lanes::{F, STEPS};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
-
-/// The nearest triangle at one sample of each pixel of a tile.
-#[derive(Clone)]
-pub struct Visible {
-    /// Its `inv_depth`, or that of the background.
-    pub inv_depth: Box<[f32; Tile::AREA]>,
-    /// The triangle; empty where that does not matter.
-    pub id: Vec<Id>,
-}
-
-/// To be cleared before use: a buffer of zeros that nobody writes to takes no memory.
-impl Default for Visible {
-    fn default() -> Visible {
-        Visible { inv_depth: Box::new([0.0; Tile::AREA]), id: vec![0; Tile::AREA] }
-    }
-}
-
-impl Visible {
-    /// Shows nothing anywhere, at a depth of each pixel's own, beyond which nothing will be shown.
-    pub fn clear(&mut self, inv_depth: &[f32; Tile::AREA]) {
-        self.inv_depth.copy_from_slice(inv_depth);
-        self.id.fill(NOTHING);
-    }
-}
-
-/// The place of a sample in its pixel, in steps of 1 / [`SUB`] pixel from the top left corner.
-pub type SubPixel = [i32; 2];
-/// The middle of the pixel.
-pub const CENTER: SubPixel = [SUB / 2; 2];
 
 /// Where the value of an edge function at a tile's corner exceeds this, it has one sign in the whole tile.
 const FAR: i64 = 1 << 30;

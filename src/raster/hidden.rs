@@ -3,8 +3,8 @@
 //! This is the coarse depth of `[Greene93]` at one level, found when it is asked for: nothing is written while triangles
 //! are drawn. It only says what the comparison of each sample would, so no sample changes.
 
-use super::fill::{SubPixel, Visible};
 use super::triangle::Triangle;
+use super::visible::{SubPixel, Visible};
 use crate::frame::Tile;
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;

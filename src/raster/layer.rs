@@ -3,7 +3,7 @@
 use super::collect::collect;
 use super::context::{ShadeContext, ShadowLookup};
 use super::depth_map::MapKey;
-use super::fill::{SubPixel, fill};
+use super::fill::fill;
 #[cfg(feature = "full")]
 use super::inspect;
 use super::memory::{RasterMemory, Scratch};
@@ -12,6 +12,7 @@ use super::rasters::Raster;
 use super::shade::flush;
 use super::shadow_views::ShadowViews;
 use super::triangle::SUB;
+use super::visible::SubPixel;
 use super::world::World;
 use crate::cuts;
 use crate::frame::cache::Kept;

@@ -1,9 +1,9 @@
 //! What the rasterizer keeps in a renderer's cache: shadow maps and scratch memory.
 
-use super::fill::{CENTER, SubPixel, Visible};
 use super::id::PLAIN;
 use super::queue::FragmentQueue;
 use super::shadow_maps::ShadowMaps;
+use super::visible::{CENTER, SubPixel, Visible};
 use crate::frame::cache::keep;
 
 /// Kept from tile to tile, and from frame to frame.

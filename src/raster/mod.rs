@@ -76,6 +76,7 @@ pub mod shadow_maps;
 pub mod shadow_views;
 pub mod snow_cover;
 pub mod triangle;
+pub mod visible;
 pub mod world;
 
 pub use cloud_shadow::CloudShadow;

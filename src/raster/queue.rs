@@ -3,8 +3,8 @@
 //! A fragment is the part of one pixel that shows one triangle, whatever the number of its samples. Blocks of one texture
 //! keep all lanes busy with the same code.
 
-use super::fill::SubPixel;
 use super::id::Id;
+use super::visible::SubPixel;
 use crate::simd::block::{BLOCK, Block3};
 
 /// Where light falls: [`POINTS`], [`LIFTED`] points and [`NORMALS`].

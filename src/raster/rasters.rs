@@ -1,12 +1,12 @@
 //! The bodies of a world on the rasters of the camera and of the views of lights.
 
-use super::depth_map::Texels;
-use super::fill::{CENTER, Visible, fill};
+use super::fill::fill;
 use super::id::MESHES;
 use super::project::Projection;
 use super::setup::{SetupMesh, TriangleSetup};
+use super::visible::{CENTER, Visible};
 use super::world::Body;
-use crate::frame::Workers;
+use crate::frame::{Tile, Workers};
 use crate::simd::math::to_f32;
 use fearless_simd::Simd;
 use std::sync::OnceLock;
@@ -97,7 +97,12 @@ impl LightView {
 
     /// Draws the nearest depths of a tile over what is there.
     #[inline(always)]
-    pub fn draw<S: Simd>(&self, simd: S, tile: [usize; 2], inv_depth: Texels) -> Texels {
+    pub fn draw<S: Simd>(
+        &self,
+        simd: S,
+        tile: [usize; 2],
+        inv_depth: Box<[f32; Tile::AREA]>,
+    ) -> Box<[f32; Tile::AREA]> {
         let mut planes = [(Visible { inv_depth, id: Vec::new() }, CENTER)];
         fill(simd, &mut self.at(tile), tile, &mut planes);
         let [(Visible { inv_depth, .. }, _)] = planes;

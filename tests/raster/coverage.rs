@@ -4,10 +4,11 @@
 
 use fearless_simd::dispatch;
 use paprsek::frame::Tile;
-use paprsek::raster::fill::{CENTER, Visible, fill};
+use paprsek::raster::fill::fill;
 use paprsek::raster::id::{NOTHING, PLAIN, join, of_mesh};
 use paprsek::raster::setup::SetupMesh;
 use paprsek::raster::triangle::SUB;
+use paprsek::raster::visible::{CENTER, Visible};
 use testkit::coverage::{
     Corner, Corners, NEARNESS, SHEET, SIZES, Shown, Single, any_triangle, area, counts, covers, deep_triangle, draw,
     fan, grid, piece, plane, sample_of, single, turn,

@@ -7,10 +7,11 @@ use super::random::Random;
 use fearless_simd::{Level, dispatch};
 use glam::{Affine3A, Vec3A, Vec4, vec3a};
 use paprsek::frame::Tile;
-use paprsek::raster::fill::{CENTER, SubPixel, Visible, fill};
+use paprsek::raster::fill::fill;
 use paprsek::raster::id::{NOTHING, parts};
 use paprsek::raster::setup::{SetupMesh, TriangleSetup};
 use paprsek::raster::triangle::SUB;
+use paprsek::raster::visible::{CENTER, SubPixel, Visible};
 use paprsek::raster::{Face, Mesh, Paint, Projection};
 
 /// Steps of 1/256 pixel, and nearness.

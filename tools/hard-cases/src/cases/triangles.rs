@@ -4,8 +4,8 @@ use super::rays::any3;
 use crate::case::{Case, Effort, Runs};
 use glam::{DVec3, Vec3A, vec3a};
 use paprsek::raster::World;
-use paprsek::raster::fill::CENTER;
 use paprsek::raster::project::NEAR;
+use paprsek::raster::visible::CENTER;
 use paprsek::settings::Quality;
 use paprsek::view::Camera;
 use testkit::coverage::{

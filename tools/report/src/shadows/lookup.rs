@@ -6,8 +6,9 @@ use fearless_simd::{Level, dispatch};
 use glam::{Affine3A, DMat4, DVec3, Vec3A};
 use paprsek::frame::Tile;
 use paprsek::raster::depth_map::EMPTY;
-use paprsek::raster::fill::{CENTER, Visible, fill};
+use paprsek::raster::fill::fill;
 use paprsek::raster::setup::{SetupMesh, TriangleSetup};
+use paprsek::raster::visible::{CENTER, Visible};
 use paprsek::raster::{Bias, Projection};
 
 /// A shadow map.
