@@ -7,7 +7,7 @@
 use super::voxels::Voxels;
 use crate::noise::octaves;
 use crate::simd::lanes::{F, V3};
-use crate::simd::math::to_f32;
+use crate::simd::math::{WHOLE, to_f32};
 use fearless_simd::prelude::*;
 use glam::Vec3A;
 
@@ -39,9 +39,9 @@ const GRAIN: f32 = 3.0;
 #[inline(always)]
 pub(super) fn grain<S: Simd>(simd: S, table: &Voxels, u: V3<S>) -> F<S> {
     let most = (EDGE - 1) as f32;
-    // There and back through the table in a turn. Beside 1.5 times 2^23 a number of turns has no fraction.
+    // There and back through the table in a turn.
     let turns = 0.5 * FINER / most;
-    let mirrored = |turns: F<S>| (turns - (turns + 12_582_912.0 - 12_582_912.0)).abs() * (2.0 * most);
+    let mirrored = |turns: F<S>| (turns - (turns + WHOLE - WHOLE)).abs() * (2.0 * most);
     // Askew, so that neither lattice shows in the other.
     let (ahead, aside) = (0.8 * turns, 0.6 * turns);
     let (x, z) = (u.x * ahead + u.y * aside, u.y * ahead - u.x * aside);

@@ -52,10 +52,12 @@ fn steps_in<S: Simd>(simd: S, seen: &SeenCloud, eye: Vec3A, d: Vec3A, limit: f32
         let p = q + d * (entry + (step + 0.5) * length);
         let u = (p * half + (half - 0.5)).max(Vec3A::ZERO).min(Vec3A::splat(most));
         let u = V3::splat(simd, u);
-        let leap = cloud.voxels.leap(simd, u).as_slice()[0];
-        if !in_cloud && leap > 0 {
-            step += ((leap - 1) as f32 * reach).floor() + 1.0;
-            continue;
+        if !in_cloud {
+            let leap = cloud.voxels.leap(simd, u).as_slice()[0];
+            if leap > 0 {
+                step += ((leap - 1) as f32 * reach).floor() + 1.0;
+                continue;
+            }
         }
         let density = first(cloud.voxels.look_up(simd, u)[0]);
         in_cloud = density > 0.0;

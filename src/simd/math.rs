@@ -11,6 +11,9 @@ use fearless_simd_macros::simd;
 use glam::Vec3A;
 use std::f32::consts::{FRAC_1_PI, FRAC_1_SQRT_2, LOG2_E};
 
+/// 1.5 times 2^23. Beside it a number has no fraction, and its lowest bits are the whole number nearest to it.
+pub const WHOLE: f32 = 12_582_912.0;
+
 /// `2^x`, with `x` clamped to -126..127: relative error 2e-7, exact for integers.
 #[inline(always)]
 pub fn exp2<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
@@ -25,9 +28,8 @@ pub fn exp2<S: Simd>(simd: S, x: S::f32s) -> S::f32s {
 #[inline(always)]
 pub fn opacity<S: Simd>(_simd: S, x: S::f32s) -> [S::f32s; 2] {
     let x = x.max(-126.0).min(127.0);
-    // Beside 1.5 times 2^23 a number has no fraction, and its lowest bits are the whole number nearest to it.
-    let near = x + 12_582_912.0;
-    let f = x - (near - 12_582_912.0);
+    let near = x + WHOLE;
+    let f = x - (near - WHOLE);
     // Terms in pairs rather than Horner's chain, here and in `log2`: a chain, in which each operation waits for the
     // last one's result, took a third longer.
     let q = f * f;

@@ -152,8 +152,8 @@ fn the_nearest_wins_in_any_order() {
     assert!(shared > 10_000, "{shared}");
 }
 
-/// What is hidden is left out before it is drawn, by blocks of all samples: here behind walls that are a little larger than
-/// what is behind them, a little smaller, slanted, or a hair nearer.
+/// What is hidden is left out before it is drawn, by blocks of all samples: here behind walls, level or slanted, whose
+/// edges run between the samples of the tile's outer pixels.
 #[test]
 fn hidden_triangles_change_nothing() {
     const SIZE: [u32; 2] = [64; 2];
