@@ -16,7 +16,7 @@ use super::world::CloudLight;
 use crate::frame::Tile;
 use crate::settings::CloudSettings;
 use crate::simd::block::{BLOCK, load, store};
-use crate::simd::lanes::{Bits, F, Lane, V3};
+use crate::simd::lanes::{Bits, F, Lane, V3, masked};
 use crate::simd::math::to_f32;
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use fearless_simd_macros::simd;
@@ -113,7 +113,7 @@ fn foresee_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile
             let passes = F::<S>::from_slice(simd, &free[TRANSMITTANCE][point.clone()]);
             let end = F::<S>::from_slice(simd, &free[END][point]);
             let ends = passes.simd_lt(clouds.settings.built().hidden.max(NOTHING));
-            let hidden = ends.select(F::<S>::splat(simd, 1.0) / end, F::<S>::splat(simd, 0.0));
+            let hidden = masked::<S>(F::<S>::splat(simd, 1.0) / end, ends);
             hidden.store_slice(&mut tile.hidden[x + y * Tile::SIZE..][..lanes]);
         }
     }

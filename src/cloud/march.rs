@@ -9,7 +9,7 @@
 use super::grain::grain;
 use super::voxels::Voxels;
 use super::world::{Cloud, CloudLight};
-use crate::simd::lanes::{F, Lane, U, V3, float};
+use crate::simd::lanes::{F, Lane, U, V3, float, masked};
 use crate::simd::math::{opacity, to_f32};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -86,10 +86,9 @@ pub fn march<S: Simd>(
     let (q, way) = closest((eye.as_dvec3() - cloud.centre.as_dvec3()) / cloud.size as f64, d);
     let clip = |(entry, exit): (F<S>, F<S>)| (entry.max(-way), exit.min(limit * (1.0 / cloud.size) - way));
     let (first, beyond) = clip(within(simd, q, d, cloud.voxels.bounds()));
-    // The step in which the ray ended.
-    let mut ended = F::<S>::splat(simd, f32::INFINITY);
+    let never = F::<S>::splat(simd, f32::INFINITY);
     if !first.simd_lt(beyond).any_true() {
-        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end: ended };
+        return Passage { hidden: zero, upper: zero, lit: zero, transmittance: one, end: never };
     }
     let (entry, exit) = clip(within(simd, q, d, CUBE));
     let (mut hidden, mut height, mut lit) = (zero, zero, zero);
@@ -139,7 +138,7 @@ pub fn march<S: Simd>(
         if let Some(fine) = fine {
             // Neither emptiness nor a cloud's inside has any.
             let share = density * (density * (-1.0 / Voxels::FULL) + 1.0);
-            let share = depth.simd_ge(least + 4.0).select(share, zero);
+            let share = masked::<S>(share, depth.simd_ge(least + 4.0));
             if (goes & share.simd_gt(zero)).any_true() {
                 let grain = grain(simd, fine, u) * share;
                 density = (density + grain).max(zero).min(Voxels::FULL);
@@ -149,20 +148,19 @@ pub fn march<S: Simd>(
         // From the depth so far, and not as what is missing from 1: of a thin cloud that would be rounding alone. Of `goes`
         // compilers would keep a bit a lane, and take longer to make lanes of these again.
         let goes = (last - step).simd_gt(zero);
-        depth += goes.select(density * thickness, zero);
+        depth += masked::<S>(density * thickness, goes);
         let [kept, _] = opacity(simd, depth);
         let hides = kept - hidden;
         hidden = kept;
         height += hides * p.y;
         lit += hides * sunlit;
-        let through = goes & depth.simd_lt(least);
-        ended = through.select(step, ended);
-        last = through.select(zero, last);
+        // The step in which the ray ends is its last one.
+        last = (goes & depth.simd_lt(least)).select(step, last);
         step += one;
     }
     // The middle of the lowest voxels is half a voxel above the cube's bottom.
     let upper = (height + hidden * 0.5) * (0.5 / half);
-    let end = (way + entry + (ended + 1.0) * unit) * cloud.size;
+    let end = depth.simd_lt(least).select((way + entry + (last + 1.0) * unit) * cloud.size, never);
     Passage { hidden, upper, lit: lit * (255.0 / Voxels::FULL), transmittance: -hidden + 1.0, end }
 }
 

@@ -4,7 +4,7 @@
 //! arm and branches that leave it at 60 degrees, as in the drawings of `[Snow07]`. The distance to the nearest border,
 //! in pixels, gives an edge that is one pixel wide at any size.
 
-use crate::simd::lanes::F;
+use crate::simd::lanes::{F, masked};
 use fearless_simd::prelude::*;
 
 /// Radius in pixels from which on a flake is more than a soft disc.
@@ -39,5 +39,5 @@ pub fn weight<S: Simd>(simd: S, u: F<S>, v: F<S>, radius: f32) -> F<S> {
     let edge = (inside * radius + 0.5).max(zero).min(one);
     let share = ((radius - LEAST) * 0.4).min(1.0);
     // Which pixels beyond the disc are asked for depends on the number of lanes.
-    rest.simd_gt(zero).select(rest * rest + (edge - rest * rest) * share, zero)
+    masked::<S>(rest * rest + (edge - rest * rest) * share, rest.simd_gt(zero))
 }

@@ -11,7 +11,7 @@ use crate::cuts;
 use crate::frame::Tile;
 #[cfg(feature = "full")]
 use crate::frame::Workers;
-use crate::simd::lanes::{Bits, F, M, U, float};
+use crate::simd::lanes::{Bits, F, M, U, float, masked};
 use crate::simd::level;
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
@@ -238,7 +238,7 @@ fn weighted<S: Simd>(simd: S, windows: U<S>, fx: F<S>, fy: F<S>) -> F<S> {
     // Nine of ten windows are wholly lit or wholly dark.
     let lit = windows.simd_eq(U::<S>::splat(simd, 0xffff));
     if (lit | windows.simd_eq(U::<S>::splat(simd, 0))).all_true() {
-        return lit.select(nine, zero);
+        return masked::<S>(nine, lit);
     }
     // Four bits for each row: how many of its first three texels are lit, and how many of its last three.
     let column = |k: u32| windows >> k & 0x1111;

@@ -13,7 +13,7 @@ use super::queue::Places;
 use super::shadow_views::{Bias, ShadowViews};
 use crate::cuts;
 use crate::simd::block::{Block3, vectors};
-use crate::simd::lanes::{Bits, F, Lane, M, V3};
+use crate::simd::lanes::{Bits, F, Lane, M, V3, masked};
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
@@ -102,7 +102,7 @@ fn faded<S: Simd>(simd: S, distance: F<S>, falloff: Vec2, reach: f32) -> F<S> {
     let loss = distance * falloff.x + distance * distance * falloff.y;
     // With f(d) = 1 / (1 + loss) this is (f(d) - f(reach)) / (1 - f(reach)).
     let left = one / (loss + 1.0) * (one - loss * end).max(zero);
-    distance.simd_le(reach).select(left, zero)
+    masked::<S>(left, distance.simd_le(reach))
 }
 
 /// A piece of surface as a light sees it.

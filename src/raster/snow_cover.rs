@@ -8,7 +8,7 @@
 use super::light::Light;
 use super::queue::{FragmentQueue, POINTS};
 use crate::simd::block::{BLOCK, Block3, load, store};
-use crate::simd::lanes::{F, Lane, V3};
+use crate::simd::lanes::{F, Lane, V3, masked};
 use crate::simd::math;
 use crate::texture::{Palette, Pattern, Texture};
 use fearless_simd::prelude::*;
@@ -103,6 +103,6 @@ impl SnowCover {
         let side = (half - half.floor()) * (4.0 * STANCE) - STANCE;
         let (u, v) = ((steps - step - 0.5) * (STEP / PRINT[0]), (across - side) * (1.0 / PRINT[1]));
         let print = (one - u * u - v * v).max(zero).min(one);
-        (along.simd_ge(zero) & along.simd_le(length)).select(print, zero)
+        masked::<S>(print, along.simd_ge(zero) & along.simd_le(length))
     }
 }

@@ -90,10 +90,15 @@ impl<S: Simd> V3<S> {
 
     /// `self` where the mask is set, else zero.
     #[inline(always)]
-    pub fn masked(self, simd: S, mask: M<S>) -> V3<S> {
-        let zero = F::<S>::splat(simd, 0.0);
-        V3 { x: mask.select(self.x, zero), y: mask.select(self.y, zero), z: mask.select(self.z, zero) }
+    pub fn masked(self, mask: M<S>) -> V3<S> {
+        V3 { x: masked::<S>(self.x, mask), y: masked::<S>(self.y, mask), z: masked::<S>(self.z, mask) }
     }
+}
+
+/// `x` where the mask is set, else zero. Of [`Select::select`] with a zero compilers make two instructions at AVX2.
+#[inline(always)]
+pub fn masked<S: Simd>(x: F<S>, mask: M<S>) -> F<S> {
+    (x.bitcast::<S::i32s>() & mask.to_vector()).bitcast()
 }
 
 impl<S: Simd> Add for V3<S> {

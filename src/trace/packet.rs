@@ -23,7 +23,7 @@ use super::shape::FAR;
 use super::surface::{ALBEDO, EXPONENT, FILTER, IOR, SPECULAR, Surface, SurfaceNumbers, TEXTURED, fresnel, resolve};
 use super::world::{NOWHERE, World};
 use crate::simd::block::BLOCK;
-use crate::simd::lanes::{Bits, F, Lane, M, U, V3};
+use crate::simd::lanes::{Bits, F, Lane, M, U, V3, masked};
 use crate::simd::math;
 use crate::texture;
 use crate::view::View;
@@ -183,7 +183,7 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
         let missed = (active & !lanes) | node.faint;
         if missed.any_true() {
             let behind = background(simd, &world.background, node.ray.direction);
-            light = light + behind.mulv(weight).masked(simd, missed);
+            light = light + behind.mulv(weight).masked(missed);
         }
         let mut states = U::<S>::splat(simd, UNLIT);
         let mut goes_on = false;
@@ -191,22 +191,22 @@ fn packet<S: Simd>(simd: S, context: &TraceContext, ray: V3<S>, out: &mut [Sampl
             let hit = Hit::new(simd, context, &node, object, t, lanes);
             let inv_depth = step / hit.length;
             if level == 1 {
-                first_inv_depth = lanes.select(inv_depth, zero);
+                first_inv_depth = masked::<S>(inv_depth, lanes);
             }
 
             // Shade: the surface's own light is what is left beside the mirror.
             let matte = lanes & !hit.glass;
             let shaded = matte | (hit.glass & hit.surface.numbers[SPECULAR].simd_gt(zero));
-            let local = (weight - weight.mulv(hit.mirror)).masked(simd, matte);
+            let local = (weight - weight.mulv(hit.mirror)).masked(matte);
             let lit = illuminate(simd, context, &node, &hit, shaded);
             states = lit.states;
             // Glass shows the lights themselves and nothing else of its own.
             let shine = lit.specular.mulv(V3::select(hit.glass, weight, local));
-            light = light + shine.masked(simd, shaded);
+            light = light + shine.masked(shaded);
             let gain = local.mulv(lit.diffuse);
             gathered += gain.max_element();
             let textured = matte & hit.surface.numbers[TEXTURED].simd_gt(zero) & detailed;
-            light = light + gain.mulv(hit.surface.color(ALBEDO)).masked(simd, matte & !textured);
+            light = light + gain.mulv(hit.surface.color(ALBEDO)).masked(matte & !textured);
             if textured.any_true() {
                 remember(simd, world, textured.to_bitmask(), &object, &[gain, hit.point], &inv_depth, out);
             }
@@ -333,11 +333,11 @@ fn illuminate<S: Simd>(simd: S, context: &TraceContext, node: &Node<S>, hit: &Hi
         let mut shine = zero;
         if shiny.any_true() {
             let power = math::powf(simd, glint, hit.surface.numbers[EXPONENT]);
-            shine = shiny.select(power * shininess, zero);
+            shine = masked::<S>(power * shininess, shiny);
         }
         // Lanes that are not lit may have anything, also what is not a number.
-        let color = V3::splat(simd, source.color).mulv(seen).masked(simd, lit);
-        diffuse = diffuse + color * Lane(lit.select(cos_light, zero));
+        let color = V3::splat(simd, source.color).mulv(seen).masked(lit);
+        diffuse = diffuse + color * Lane(masked::<S>(cos_light, lit));
         specular = specular + color * Lane(shine);
         let bright = lit & (shine * most * node.weight.max_element()).simd_gt(F::<S>::splat(simd, HIGHLIGHT));
         let partly = lit & most.simd_ne(one);

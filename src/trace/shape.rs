@@ -7,7 +7,7 @@
 //! The same arithmetic in scalar code is in [`super::reference`]; `tests/trace/shapes.rs` holds both against exact numbers.
 
 use crate::cuts;
-use crate::simd::lanes::{F, Lane, M, V3};
+use crate::simd::lanes::{F, Lane, M, V3, masked};
 use fearless_simd::prelude::*;
 use fearless_simd_macros::simd;
 use glam::{Mat3A, Vec3A};
@@ -175,14 +175,14 @@ impl Shape {
             Shape::Block { center, half, turn } => {
                 let q = turned(turn, p.sub1(center));
                 let (x, y, z) = (q.x * (1.0 / half.x), q.y * (1.0 / half.y), q.z * (1.0 / half.z));
-                let (one, zero) = (F::<S>::splat(simd, 1.0), F::<S>::splat(simd, 0.0));
+                let one = F::<S>::splat(simd, 1.0);
                 let on_x = x.abs().simd_ge(y.abs()) & x.abs().simd_ge(z.abs());
                 let on_y = !on_x & y.abs().simd_ge(z.abs());
                 let on_z = !on_x & !on_y;
                 let local = V3 {
-                    x: on_x.select(one.copysign(x), zero),
-                    y: on_y.select(one.copysign(y), zero),
-                    z: on_z.select(one.copysign(z), zero),
+                    x: masked::<S>(one.copysign(x), on_x),
+                    y: masked::<S>(one.copysign(y), on_y),
+                    z: masked::<S>(one.copysign(z), on_z),
                 };
                 turned(turn.transpose(), local)
             }
