@@ -5,7 +5,7 @@
 mod undo;
 
 use crate::features::{self, Features, Targets, hash};
-use crate::mix::{Layer, VECTORS, squash, stretch};
+use crate::mix::{Mixers, stretch};
 use crate::slot;
 use crate::vector::{Words, gather, put_floats, put_words, scatter, words};
 use core::arch::x86_64::*;
@@ -16,15 +16,7 @@ pub const CONTEXTS: usize = 8 * GROUPS;
 const GROUPS: usize = 2;
 /// Groups of slots: those of the contexts, those of their histories, and a last one that needs no hash.
 const SLOTS: usize = 2 * GROUPS + 1;
-/// The first mixers' weights at first. Others for histories, and for what counts how often it was seen, are no better.
-const WEIGHT: f32 = 0.028;
-/// The last mixers'.
-const LAST_WEIGHT: f32 = 0.15;
-/// Mixers of all of that, and mixers of their results, which are averaged.
-const MIXERS: [usize; 2] = [8, 3];
-/// How fast both learn.
-const RATES: [f32; 2] = [6.4e-10, 2.4e-10];
-/// They learn nothing from errors up to this, in 65536ths, which are half of all: a tenth of the time.
+/// The mixers learn nothing from errors up to this, in 65536ths, which are half of all: a tenth of the time.
 const LEAST_ERROR: u32 = 512;
 /// Longest text, in bytes.
 pub const MOST: usize = 1 << 22;
@@ -83,8 +75,7 @@ pub struct Model {
     match_length: u32,
     sets: Sets,
     features: Features,
-    first: Layer,
-    last: Layer,
+    mixers: Mixers,
     heads: [u32; 1 << 16],
     targets: Targets,
     text: [u8; MOST],
@@ -114,8 +105,7 @@ impl Model {
         rows: [0; 8],
         sets: [[0; CONTEXTS]; 2],
         features: Features::ZERO,
-        first: Layer::ZERO,
-        last: Layer::ZERO,
+        mixers: Mixers::ZERO,
         heads: [0; 1 << 16],
         targets: [false; MOST],
         text: [0; MOST],
@@ -133,9 +123,7 @@ impl Model {
         for (i, base) in self.bases.as_flattened_mut().iter_mut().enumerate() {
             *base = HISTORIES + 256 * i as u32;
         }
-        let (first, last) = (&mut self.first, &mut self.last);
-        first.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(WEIGHT);
-        last.weights.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(LAST_WEIGHT);
+        self.mixers.start();
         self.contexts();
     }
 
@@ -189,22 +177,29 @@ impl Model {
         }
     }
 
+    /// Has the lines of the next four bits fetched, while the model still learns from the last one: a fourteenth of the time.
+    /// Those beside them are looked at too where they are another context's: a twentieth.
+    fn fetch(&mut self) {
+        let cells = self.cells.0.as_chunks::<16>().0;
+        for hash in &mut self.hashes {
+            *hash = features::hash(*hash, self.partial);
+            let at = (*hash >> (32 - LINE_BITS)) as usize;
+            // SAFETY: nothing is read.
+            unsafe {
+                _mm_prefetch::<_MM_HINT_T0>((&raw const cells[at]).cast());
+                _mm_prefetch::<_MM_HINT_T0>((&raw const cells[at ^ 1]).cast());
+            }
+        }
+    }
+
     /// Finds the lines of the next four bits.
+    #[target_feature(enable = "avx2,fma")]
     #[inline(never)]
     fn look_up(&mut self) {
         let (lines, (cells, _)) = (self.lines.as_flattened_mut(), self.cells.0.as_chunks_mut::<16>());
-        // Two loops, so that the processor waits for all lines at once. The first keeps the checks it finds.
-        for (hash, line) in self.hashes.iter_mut().zip(&mut *lines) {
-            *hash = features::hash(*hash, self.partial);
-            let at = (*hash >> (32 - LINE_BITS)) as usize;
-            // The line beside it is looked at too where this one is another context's: a twentieth of the time.
-            // SAFETY: nothing is read.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>((&raw const cells[at ^ 1]).cast()) };
-            *line = cells[at][0];
-        }
         for (&check, line) in self.hashes.iter().zip(lines) {
             let mut at = check >> (32 - LINE_BITS);
-            if *line != check {
+            if cells[at as usize][0] != check {
                 // The line beside it may be this context's, or know less.
                 let other = &cells[at as usize ^ 1];
                 if other[0] == check || slot::count(other[1]) < slot::count(cells[at as usize][1]) {
@@ -214,7 +209,9 @@ impl Model {
             let cells = &mut cells[at as usize];
             self.undo.line(at, cells);
             if cells[0] != check {
-                cells.fill(0);
+                for half in cells.as_chunks_mut::<8>().0 {
+                    put_words(_mm256_setzero_si256(), half);
+                }
                 cells[0] = check;
             }
             *line = at * 16;
@@ -227,11 +224,11 @@ impl Model {
         unsafe { self.predict_avx2() }
     }
 
-    /// Learns the bit.
+    /// Learns the bit, which by then is behind: what is needed of it was kept.
     pub fn update(&mut self, bit: u32) {
+        self.step(bit);
         // SAFETY: as above.
         unsafe { self.update_avx2(bit) };
-        self.step(bit);
     }
 
     #[target_feature(enable = "avx2,fma,popcnt")]
@@ -263,13 +260,13 @@ impl Model {
             let slots = unsafe { gather(&self.cells.0, &self.at[i]) };
             let p = slot::centred(slots);
             put_words(slots, &mut self.slots[i]);
-            put_floats(stretch(p), &mut self.first.inputs[i]);
+            put_floats(stretch(p), &mut self.mixers.inputs[i]);
             if i < GROUPS {
                 let n = slot::counts(slots);
                 let unseen = _mm256_castsi256_ps(_mm256_cmpeq_epi32(n, _mm256_setzero_si256()));
                 known += 8 - _mm256_movemask_ps(unseen).count_ones();
                 let linear = _mm256_mullo_epi32(p, _mm256_min_epi32(n, _mm256_set1_epi32(20)));
-                put_floats(_mm256_cvtepi32_ps(_mm256_slli_epi32::<5>(linear)), &mut self.first.inputs[SLOTS + i]);
+                put_floats(_mm256_cvtepi32_ps(_mm256_slli_epi32::<5>(linear)), &mut self.mixers.inputs[SLOTS + i]);
                 let place =
                     _mm256_set1_epi32(((self.place & 31 | (self.bit & 4) << 3) * (256 * CONTEXTS) as u32) as i32);
                 let at = _mm256_add_epi32(_mm256_add_epi32(slot::histories(slots), words(&self.bases[i])), place);
@@ -278,7 +275,7 @@ impl Model {
         }
 
         let (f, class) = (&self.features.f, self.class << 8);
-        // The last mixers take the first of these.
+        // Each mixer has 2048.
         self.rows = [
             // The opcode, before it is known the last instruction's.
             if class != 0 {
@@ -288,31 +285,25 @@ impl Model {
             } else {
                 f[12] & 1023 | 1024
             },
-            self.place | self.bit << 6 | (self.predicted & 256) << 1,
-            f[0] | class,
-            self.partial | (self.place & 7) << 8,
-            known | self.place << 5,
-            f[6] & 127 | self.bit << 7 | class << 2,
-            f[12] & 1023 | (self.bit & 4) << 8,
-            f[1] | (self.place & 7) << 8,
+            self.place | self.bit << 6 | (self.predicted & 256) << 1 | 1 << 11,
+            f[0] | class | 2 << 11,
+            self.partial | (self.place & 7) << 8 | 3 << 11,
+            known | self.place << 5 | 4 << 11,
+            f[6] & 127 | self.bit << 7 | class << 2 | 5 << 11,
+            f[12] & 1023 | (self.bit & 4) << 8 | 6 << 11,
+            f[1] | (self.place & 7) << 8 | 7 << 11,
         ];
-        let (first, last) = (&mut self.first, &mut self.last);
-        first.mix(&self.rows, MIXERS[0], VECTORS);
-        last.inputs[0] = first.sums;
-        last.mix(&self.rows, MIXERS[1], 1);
-        let [a, b, c, ..] = last.sums;
-        let p = squash(_mm256_set1_ps((a + b + c) * (1.0 / MIXERS[1] as f32)));
+        self.mixers.mix(&self.rows);
         // Truncated, 1 to 65535, as what is squashed is clamped.
-        self.p = _mm_cvttss_si32(_mm256_castps256_ps128(_mm256_mul_ps(p, _mm256_set1_ps(65536.0)))) as u32;
+        self.p = _mm_cvttss_si32(_mm_set_ss(self.mixers.result[0] * 65536.0)) as u32;
         self.p
     }
 
     #[target_feature(enable = "avx2,fma")]
     fn update_avx2(&mut self, bit: u32) {
         if (bit << 16).abs_diff(self.p) > LEAST_ERROR {
-            self.undo.weights(&self.rows, &self.first, &self.last);
-            self.first.learn(&self.rows, MIXERS[0], VECTORS, bit, RATES[0]);
-            self.last.learn(&self.rows, MIXERS[1], 1, bit, RATES[1]);
+            self.undo.weights(&self.rows, &self.mixers);
+            self.mixers.learn(&self.rows, bit);
         }
         self.undo.cells(&self.at[GROUPS..], &self.slots[GROUPS..]);
         for (slots, at) in self.slots.iter().zip(&self.at) {
@@ -334,6 +325,9 @@ impl Model {
             let code = self.class == 0;
             self.features.push(byte, self.position, code, &mut self.targets);
             self.contexts();
+        }
+        if self.bit & 3 == 0 {
+            self.fetch();
         }
     }
 

@@ -33,6 +33,12 @@ _start:
     syscall
     test    eax, eax
     js      8f
+    // MADV_HUGEPAGE: pages of 2 MB save time, those of this stage a 25th of it. Where it is refused, nothing is lost.
+    push    14
+    pop     rdx
+    push    28
+    pop     rax
+    syscall
     // Eight zeros precede the second stage.
     add     edi, 8
     push    rdi

@@ -52,8 +52,6 @@ static MODEL: Shared = Shared(UnsafeCell::new(Model::ZERO));
 
 /// The model, all zeros. To be called once.
 pub fn model() -> &'static mut Model {
-    // MADV_HUGEPAGE, for 24 bytes: pages of 2 MB save a twentieth of the time. Where it is refused, nothing is lost.
-    call(28, MODEL.0.get() as usize, size_of::<Model>(), 14);
     // SAFETY: the only caller calls once, in the only thread.
     unsafe { &mut *core::hint::black_box(MODEL.0.get()) }
 }

@@ -8,10 +8,10 @@ pub use nothing::Undo;
 
 #[cfg(feature = "undo")]
 mod log {
-    use super::super::{CONTEXTS, MIXERS, Model};
+    use super::super::{CONTEXTS, Model};
     use crate::features::Features;
-    use crate::mix::{Layer, VECTORS};
-    use crate::vector::{Floats, Words};
+    use crate::mix::{Mixers, Weights};
+    use crate::vector::Words;
     use alloc::boxed::Box;
     use alloc::vec::Vec;
 
@@ -25,8 +25,7 @@ mod log {
         heads: Vec<(u32, u32)>,
         lines: Vec<(u32, [u32; 16])>,
         cells: Vec<(Words, Words)>,
-        first: Vec<(usize, u32, [Floats; VECTORS])>,
-        last: Vec<(usize, u32, Floats)>,
+        weights: Vec<(u32, Weights)>,
     }
 
     /// What is small, as it was at a mark, and the lengths of the lists of a [`Log`].
@@ -34,12 +33,12 @@ mod log {
         words: [u32; 6],
         hashes: [u32; CONTEXTS],
         features: Features,
-        lengths: [usize; 5],
+        lengths: [usize; 4],
     }
 
     impl Log {
-        fn lengths(&self) -> [usize; 5] {
-            [self.heads.len(), self.lines.len(), self.cells.len(), self.first.len(), self.last.len()]
+        fn lengths(&self) -> [usize; 4] {
+            [self.heads.len(), self.lines.len(), self.cells.len(), self.weights.len()]
         }
     }
 
@@ -69,11 +68,9 @@ mod log {
         }
 
         /// The weights in use, before they learn.
-        pub fn weights(&mut self, rows: &Words, first: &Layer, last: &Layer) {
+        pub fn weights(&mut self, rows: &Words, mixers: &Mixers) {
             if let Some(log) = &mut self.0 {
-                let row = |layer: &Layer, mixer: usize| layer.weights[mixer][rows[mixer] as usize];
-                log.first.extend((0..MIXERS[0]).map(|mixer| (mixer, rows[mixer], row(first, mixer))));
-                log.last.extend((0..MIXERS[1]).map(|mixer| (mixer, rows[mixer], row(last, mixer)[0])));
+                log.weights.extend(rows.map(|row| (row, mixers.weights[row as usize])));
             }
         }
     }
@@ -95,7 +92,7 @@ mod log {
             [self.position, self.class, self.match_at, self.match_length, self.predicted, self.place] = mark.words;
             self.hashes = mark.hashes;
             self.features = mark.features.clone();
-            let [heads, lines, cells, first, last] = mark.lengths;
+            let [heads, lines, cells, weights] = mark.lengths;
             for (at, head) in log.heads.drain(heads..).rev() {
                 self.heads[at as usize] = head;
             }
@@ -108,11 +105,8 @@ mod log {
                     self.cells.0[at as usize] = cell;
                 }
             }
-            for (mixer, row, weights) in log.first.drain(first..).rev() {
-                self.first.weights[mixer][row as usize] = weights;
-            }
-            for (mixer, row, weights) in log.last.drain(last..).rev() {
-                self.last.weights[mixer][row as usize][0] = weights;
+            for (row, weights) in log.weights.drain(weights..).rev() {
+                self.mixers.weights[row as usize] = weights;
             }
         }
 
@@ -129,7 +123,7 @@ mod log {
 
 #[cfg(not(feature = "undo"))]
 mod nothing {
-    use crate::mix::Layer;
+    use crate::mix::Mixers;
     use crate::vector::Words;
 
     /// Takes no note.
@@ -153,6 +147,6 @@ mod nothing {
 
         /// See the packer's.
         #[inline(always)]
-        pub fn weights(&mut self, _rows: &Words, _first: &Layer, _last: &Layer) {}
+        pub fn weights(&mut self, _rows: &Words, _mixers: &Mixers) {}
     }
 }
