@@ -52,7 +52,8 @@ impl<S: Simd> Passage<S> {
 ///
 /// The way through the cube is cut into equal steps, whose length is the nearest to the cube's edge over `steps`. A ray
 /// ends where its transmittance falls below `opaque`, or less by up to 6 %. Detail below a voxel is that of the table
-/// `fine`, if there is one; there is none where less than 16 times `opaque` comes through.
+/// `fine`, if there is one; there is none where less than 16 times `opaque` comes through. Above an `opaque` of 1 the end of a
+/// ray that meets nothing says nothing.
 ///
 /// Directions have to have the length 1: they are not normalised, and the depth is in proportion to it. The cube is
 /// closed: a ray along an axis that runs within a face is in the cloud. `limit` may be infinite; where it is 0 or less

@@ -177,8 +177,9 @@ impl Model {
         }
     }
 
-    /// Has the lines of the next four bits fetched, while the model still learns from the last one: a fourteenth of the time.
-    /// Those beside them are looked at too where they are another context's: a twentieth.
+    /// Takes the byte's bits so far into the hashes, and has the lines of the next four fetched while the model still learns
+    /// from the last one: a fourteenth of the time. Those beside them are looked at too where they are another context's: a
+    /// twentieth.
     fn fetch(&mut self) {
         let cells = self.cells.0.as_chunks::<16>().0;
         for hash in &mut self.hashes {
