@@ -170,15 +170,19 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
         for pass in 0..3 {
             for &at in &cells {
                 let cell = Cell { at, size };
-                match pass {
-                    0 if size == 1 => lattice.want(at),
-                    0 => {
-                        for corner in cell.corners() {
-                            lattice.want(corner);
-                        }
+                let [a, b, c, d] = cell.corners();
+                let points = [a, b, c, d, cell.middle()];
+                let wanted = match pass {
+                    0 if size == 1 => 0..1,
+                    0 => 0..4,
+                    1 => 4..5,
+                    _ => {
+                        lattice.fill_or_cut(simd, tile, cell, allowed);
+                        continue;
                     }
-                    1 => lattice.want(cell.middle()),
-                    _ => lattice.fill_or_cut(simd, tile, cell, allowed),
+                };
+                for &point in &points[wanted] {
+                    lattice.want(point);
                 }
             }
             cast(simd, clouds, near, tile, &lattice.wanted, false, lattice.planes);
@@ -193,6 +197,7 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
 }
 
 impl Lattice<'_> {
+    #[inline(always)]
     fn want(&mut self, at: usize) {
         if !self.known[at] {
             self.known[at] = true;
@@ -235,22 +240,24 @@ impl Lattice<'_> {
                 a = a.max(b).max(c).max(d);
                 (b, c, d, off) = (a, a, a, 0.0);
             }
-            for y in 0..size {
-                let row = &mut plane[at + y * ROW..][..size];
-                let down = to_f32(y) * share;
-                let bend = 4.0 * down.min(1.0 - down) * off;
-                let mut u = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]) * share;
-                // What is written is a cell's width and no more: vectors that hang over would have to read what the cell
-                // before has just written, and wait for it.
-                for row in row.chunks_mut(4) {
-                    let (above, below) = (u * (b - a) + a, u * (d - c) + c);
-                    let light = above + (below - above) * down + u.min(-u + 1.0) * bend;
+            let mut u = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]) * share;
+            for column in (0..size).step_by(4) {
+                let (above, below) = (u * (b - a) + a, u * (d - c) + c);
+                let (change, tent) = (below - above, u.min(-u + 1.0));
+                let mut down = f32x4::splat(simd, 0.0);
+                for y in 0..size {
+                    let light = above + change * down + tent * (down.min(-down + 1.0) * 4.0 * off);
+                    // What is written is a cell's width and no more: vectors that hang over would have to read what the
+                    // cell before has just written, and wait for it.
+                    let width = size.min(4);
+                    let row = &mut plane[at + column + y * ROW..][..width];
                     match row.first_chunk_mut::<4>() {
                         Some(row) => light.store_slice(row),
                         None => row[..2].copy_from_slice(&light.as_slice()[..2]),
                     }
-                    u += 4.0 * share;
+                    down += share;
                 }
+                u += 4.0 * share;
             }
         }
     }

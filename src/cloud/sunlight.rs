@@ -41,13 +41,12 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
     // Light that enters the bounds has met nothing before, and nothing in them is behind what has left them.
     let (layers, along, across) = (voxels.extent(main), voxels.extent(u), voxels.extent(v));
-    let (density, light) = voxels.density_and_light();
     for step in 0..layers.len() {
         let layer = strides[main] * if way[main] > 0.0 { layers.end - 1 - step } else { layers.start + step };
         for j in across.clone() {
             let first = layer + j * strides[v];
             for i in along.clone() {
-                values[i] = density[first + i * strides[u]] as u32;
+                values[i] = voxels.density()[first + i * strides[u]] as u32;
             }
             let share = to_f32(j) + dv - (to_f32(j) + dv.floor());
             for i in along.clone().step_by(lanes) {
@@ -68,12 +67,11 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
                 (light + 0.5).to_int::<S::i32s>().bitcast::<U<S>>().store_slice(&mut values[i..i + lanes]);
             }
             for i in along.clone() {
-                light[first + i * strides[u]] = values[i] as u8;
+                voxels.put_light(first + i * strides[u], values[i] as u8);
             }
         }
         std::mem::swap(&mut before, &mut after);
     }
-    voxels.pack();
 }
 
 /// The vector that begins at a place of a row.

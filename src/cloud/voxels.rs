@@ -29,11 +29,9 @@ pub struct Voxels {
     edge: usize,
     /// See [`Voxels::density`].
     density: Vec<u8>,
-    /// See [`Voxels::light`].
-    light: Vec<u8>,
-    /// For each point, of one layer more than there are: density and light of the point and of the next one along y, a
-    /// byte each.
-    cells: Vec<u32>,
+    /// For each point, density and light of its own and of the next one along y. A layer and a point more: every lookup
+    /// reads the next points along all axes, even where their share is 0.
+    cells: Vec<[u8; 4]>,
     /// For each block, 0 where something is in it, otherwise 1 more than the number of cells around it, along any axis,
     /// within which nothing is.
     leaps: Vec<u8>,
@@ -51,13 +49,11 @@ impl Voxels {
 
     /// Fully lit voxels of `edge^3` densities, where `edge` is a multiple of 4 and at most 128.
     pub fn new(edge: usize, density: Vec<u8>) -> Voxels {
-        let light = vec![255; density.len()];
-        let (cells, leaps) = (Vec::new(), Vec::new());
+        let (cells, leaps) = (vec![[255; 4]; edge * edge * (edge + 1) + 1], Vec::new());
         debug_assert!(edge.is_multiple_of(4) && edge <= LEAP * u64::BITS as usize);
         let shift = (edge / LEAP).next_power_of_two().ilog2();
-        let mut voxels = Voxels { edge, density, light, cells, leaps, shift, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
+        let mut voxels = Voxels { edge, density, cells, leaps, shift, reach: 0.0, bounds: [Vec3A::ZERO; 2] };
         voxels.measure();
-        voxels.pack();
         voxels
     }
 
@@ -65,13 +61,13 @@ impl Voxels {
     pub fn set_density(&mut self, density: Vec<u8>) {
         self.density = density;
         self.measure();
-        self.pack();
     }
 
     /// Replaces the light of all `edge^3` points.
     pub fn set_light(&mut self, light: Vec<u8>) {
-        self.light = light;
-        self.pack();
+        for (point, light) in light.into_iter().enumerate() {
+            self.put_light(point, light);
+        }
     }
 
     /// Points along an edge.
@@ -84,17 +80,10 @@ impl Voxels {
         &self.density
     }
 
-    /// The share of the sun's light that reaches each point and is scattered there, of 255. It matters within the
+    /// The share of the sun's light that reaches a point and is scattered there, of 255. It matters within the
     /// [bounds](Voxels::bounds).
-    pub fn light(&self) -> &[u8] {
-        &self.light
-    }
-
-    /// Densities, and light to be written. [`Voxels::pack`] is called afterwards; empty space stays where it is, so it
-    /// need not be measured again.
-    #[inline(always)]
-    pub(super) fn density_and_light(&mut self) -> (&[u8], &mut [u8]) {
-        (&self.density, &mut self.light)
+    pub fn light(&self, point: usize) -> u8 {
+        self.cells[point][1]
     }
 
     /// Distance from the centre of the cube to the farthest point where the density is not 0, halves of the cube's
@@ -120,22 +109,26 @@ impl Voxels {
         point(low[axis])..point(high[axis]) + 1
     }
 
-    /// Makes the words that lookups read, after density or light have changed.
-    pub(super) fn pack(&mut self) {
-        let n = self.edge;
-        self.cells.clear();
-        // One layer more than there are, since every lookup reads two; and one point more, since it reads two of a row.
-        for row in 0..n * (n + 1) {
-            let (j, l) = (row % n, (row / n).min(n - 1));
-            let (this, next) = ((j + n * l) * n, ((j + 1).min(n - 1) + n * l) * n);
-            let [near, far] = [this, next].map(|at| self.density[at..at + n].iter().zip(&self.light[at..at + n]));
-            self.cells.extend(near.zip(far).map(|((a, b), (c, d))| u32::from_le_bytes([*a, *b, *c, *d])));
-        }
-        self.cells.push(0);
+    /// Writes the light of a point.
+    #[inline(always)]
+    pub(super) fn put_light(&mut self, point: usize, light: u8) {
+        self.put(point, 1, light);
     }
 
-    /// Measures empty space: how far around each block nothing is, and how far the cloud reaches.
+    /// Writes a point's density, part 0, or light, part 1, into the words that lookups read.
+    #[inline(always)]
+    fn put(&mut self, point: usize, part: usize, value: u8) {
+        self.cells[point][part] = value;
+        if let Some(before) = point.checked_sub(self.edge) {
+            self.cells[before][2 + part] = value;
+        }
+    }
+
+    /// Derives from the density what lookups read, how far around each block nothing is, and how far the cloud reaches.
     fn measure(&mut self) {
+        for point in 0..self.density.len() {
+            self.put(point, 0, self.density[point]);
+        }
         let n = self.edge / LEAP;
         let mut full = self.occupied();
         let (rows, mut known) = (full.len(), vec![0; full.len()]);
@@ -238,7 +231,7 @@ impl Voxels {
                 |lane| {
                     let at = at[k * S::u64s::LEN + lane] as usize;
                     let pair = &cells[at..at + 2];
-                    pair[0] as u64 | (pair[1] as u64) << 32
+                    u32::from_le_bytes(pair[0]) as u64 | (u32::from_le_bytes(pair[1]) as u64) << 32
                 },
             );
             *half = pairs.bitcast();

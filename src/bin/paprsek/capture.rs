@@ -79,11 +79,13 @@ fn ppm(frame: &Frame) -> impl Iterator<Item = Vec<u8>> {
     let mut head = fill("P6\n% %\n255\n", &[&digits(frame.width), &digits(frame.height)]);
     frame.pixels.chunks(PIECE).map(move |pixels| {
         let head = take(&mut head);
-        let mut bytes = vec![0; head.len() + 3 * pixels.len() + 1];
-        bytes[..head.len()].copy_from_slice(&head);
-        for (i, pixel) in pixels.iter().enumerate() {
+        let mut at = head.len();
+        let mut bytes = vec![0; at + 3 * pixels.len() + 1];
+        bytes[..at].copy_from_slice(&head);
+        for pixel in pixels {
             // Four bytes are one instruction; the next pixel overwrites the last of them.
-            bytes[head.len() + 3 * i..][..4].copy_from_slice(&(pixel << 8).to_be_bytes());
+            bytes[at..at + 4].copy_from_slice(&(pixel << 8).to_be_bytes());
+            at += 3;
         }
         bytes.pop();
         bytes
