@@ -16,9 +16,9 @@ use super::world::CloudLight;
 use crate::frame::Tile;
 use crate::settings::CloudSettings;
 use crate::simd::block::{BLOCK, load, store};
-use crate::simd::lanes::{Bits, F, Lane, V3, masked};
+use crate::simd::lanes::{Bits, F, Lane, STEPS, V3, masked};
 use crate::simd::math::to_f32;
-use fearless_simd::{Level, dispatch, f32x4, prelude::*};
+use fearless_simd::{Level, dispatch, f32x8, prelude::*, u32x8};
 use fearless_simd_macros::simd;
 use glam::Vec3A;
 use std::f32::consts::SQRT_2;
@@ -240,24 +240,25 @@ impl Lattice<'_> {
                 a = a.max(b).max(c).max(d);
                 (b, c, d, off) = (a, a, a, 0.0);
             }
-            let mut u = f32x4::from_slice(simd, &[0.0, 1.0, 2.0, 3.0]) * share;
-            for column in (0..size).step_by(4) {
+            let one = f32x8::splat(simd, 1.0);
+            let mut u = u32x8::from_slice(simd, &STEPS[..8]).to_float::<f32x8<S>>() * share;
+            for column in (0..size).step_by(8) {
                 let (above, below) = (u * (b - a) + a, u * (d - c) + c);
-                let (change, tent) = (below - above, u.min(-u + 1.0));
-                let mut down = f32x4::splat(simd, 0.0);
+                let (change, tent) = (below - above, u.min(one - u));
+                let mut down = f32x8::splat(simd, 0.0);
                 for y in 0..size {
-                    let light = above + change * down + tent * (down.min(-down + 1.0) * 4.0 * off);
+                    let light = above + change * down + tent * (down.min(one - down) * (4.0 * off));
                     // What is written is a cell's width and no more: vectors that hang over would have to read what the
                     // cell before has just written, and wait for it.
-                    let width = size.min(4);
-                    let row = &mut plane[at + column + y * ROW..][..width];
-                    match row.first_chunk_mut::<4>() {
-                        Some(row) => light.store_slice(row),
-                        None => row[..2].copy_from_slice(&light.as_slice()[..2]),
+                    let row = &mut plane[at + column + y * ROW..];
+                    match size {
+                        2 => row[..2].copy_from_slice(&light.as_slice()[..2]),
+                        4 => row[..4].copy_from_slice(&light.as_slice()[..4]),
+                        _ => light.store_slice(&mut row[..8]),
                     }
                     down += share;
                 }
-                u += 4.0 * share;
+                u += 8.0 * share;
             }
         }
     }
