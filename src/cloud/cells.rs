@@ -137,8 +137,7 @@ fn draw_near<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &
 ///
 /// ```text
 /// for each size of cells, from the coarsest to 1:
-///     cast rays through the corners of all cells of that size
-///     cast rays through their middles
+///     cast rays through the corners and the middles of all cells of that size
 ///     interpolate each cell, or cut it into four of half the size
 /// ```
 ///
@@ -167,29 +166,24 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
     }
     loop {
         let cells = std::mem::take(&mut lattice.cells);
-        for pass in 0..3 {
-            for &at in &cells {
-                let cell = Cell { at, size };
-                let [a, b, c, d] = cell.corners();
-                let points = [a, b, c, d, cell.middle()];
-                let wanted = match pass {
-                    0 if size == 1 => 0..1,
-                    0 => 0..4,
-                    1 => 4..5,
-                    _ => {
-                        lattice.fill_or_cut(simd, tile, cell, allowed);
-                        continue;
-                    }
-                };
-                for &point in &points[wanted] {
-                    lattice.want(point);
+        for &at in &cells {
+            let cell = Cell { at, size };
+            let [a, b, c, d] = cell.corners();
+            // Of a pixel the middle is its first corner.
+            for &point in &[cell.middle(), a, b, c, d][..if size == 1 { 1 } else { 5 }] {
+                if !lattice.known[point] {
+                    lattice.known[point] = true;
+                    lattice.wanted.push(point);
                 }
             }
-            cast(simd, clouds, near, tile, &lattice.wanted, false, lattice.planes);
-            lattice.wanted.clear();
-            if size == 1 {
-                return;
-            }
+        }
+        cast(simd, clouds, near, tile, &lattice.wanted, false, lattice.planes);
+        lattice.wanted.clear();
+        if size == 1 {
+            return;
+        }
+        for &at in &cells {
+            lattice.fill_or_cut(simd, tile, Cell { at, size }, allowed);
         }
         size /= 2;
         allowed *= 2.0 * SQRT_2;
@@ -197,14 +191,6 @@ fn find<S: Simd>(simd: S, clouds: &SeenClouds, near: &[&SeenCloud], tile: &Tile,
 }
 
 impl Lattice<'_> {
-    #[inline(always)]
-    fn want(&mut self, at: usize) {
-        if !self.known[at] {
-            self.known[at] = true;
-            self.wanted.push(at);
-        }
-    }
-
     /// Interpolates a cell where its middle is off by at most `allowed`; cuts it into four otherwise.
     #[inline(always)]
     fn fill_or_cut<S: Simd>(&mut self, simd: S, tile: &Tile, cell: Cell, allowed: f32) {

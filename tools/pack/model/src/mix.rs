@@ -88,11 +88,10 @@ impl Mixers {
         let mut last = _mm256_setzero_ps();
         for (product, &row) in self.products.iter_mut().zip(rows) {
             let weights = &self.weights[row as usize & (ROWS - 1)];
-            let mut sum = _mm256_setzero_ps();
-            for (x, w) in self.inputs.iter().zip(weights) {
-                sum = _mm256_fmadd_ps(floats(x), floats(w), sum);
-            }
-            put_floats(sum, product);
+            // Not a loop, which would load every input anew for each mixer.
+            let add = |sum, i: usize| _mm256_fmadd_ps(floats(&self.inputs[i]), floats(&weights[i]), sum);
+            let sum = _mm256_mul_ps(floats(&self.inputs[0]), floats(&weights[0]));
+            put_floats(add(add(add(add(add(add(sum, 1), 2), 3), 4), 5), 6), product);
             last = _mm256_add_ps(last, floats(&weights[VECTORS]));
         }
         // The sums of eight by eight.
