@@ -22,7 +22,8 @@ const DOWN: i32 = 1 << 14;
 /// Density and sunlight at the points of a cubic lattice, trilinear between the points and constant beyond the outer
 /// ones.
 ///
-/// What lookups read is derived from the two, and made again whenever either is replaced.
+/// Light is kept in the words that lookups read alone; what is derived from the density is made again whenever that is
+/// replaced.
 #[derive(Clone)]
 pub struct Voxels {
     /// Points along an edge: a multiple of 4, at most 128.
@@ -75,13 +76,13 @@ impl Voxels {
         self.edge
     }
 
-    /// Density of each point, x fastest, then y; 255 has the extinction coefficient of the [`Cloud`](super::Cloud).
+    /// Density of each point, x fastest, then y, then z; 255 has the extinction coefficient of the [`Cloud`](super::Cloud).
     pub fn density(&self) -> &[u8] {
         &self.density
     }
 
-    /// The share of the sun's light that reaches a point and is scattered there, of 255. It matters within the
-    /// [bounds](Voxels::bounds).
+    /// The share of the sun's light that reaches a point, numbered as [densities](Voxels::density) are, and is scattered
+    /// there, of 255. It matters within the [bounds](Voxels::bounds).
     pub fn light(&self, point: usize) -> u8 {
         self.cells[point][1]
     }

@@ -170,7 +170,7 @@ fn look_up(voxels: &Voxels, u: DVec3) -> [f64; 2] {
             weight *= if far == 1 { f[axis] } else { 1.0 - f[axis] };
         }
         sum[0] += weight * voxels.density()[at] as f64;
-        sum[1] += weight * voxels.light()[at] as f64;
+        sum[1] += weight * voxels.light(at) as f64;
     }
     sum
 }

@@ -240,7 +240,7 @@ fn slab(_: &Effort) -> Found {
                 let truth = 255.0 * voxels::lit(extinction as f64 * sum / 255.0 * 2.0 / 64.0);
                 let mut index = [31; 3];
                 index[axis] = at;
-                let light = voxels.light()[index[0] + 64 * (index[1] + 64 * index[2])] as f64;
+                let light = voxels.light(index[0] + 64 * (index[1] + 64 * index[2])) as f64;
                 found.see((light - truth).abs(), || {
                     format!("{extinction}, axis {axis}, voxel {at}: {light} for {truth}")
                 });

@@ -22,7 +22,7 @@ struct Cloud<'a> {
 
 impl Cloud<'_> {
     /// Trilinear lookup of one of the channels, 0 to 1; 0 outside of the cube.
-    fn at(&self, channel: &[u8], p: DVec3) -> f64 {
+    fn at(&self, channel: impl Fn(usize) -> u8, p: DVec3) -> f64 {
         if p.abs().max_element() >= 1.0 {
             return 0.0;
         }
@@ -35,7 +35,7 @@ impl Cloud<'_> {
             let bits = [corner & 1, corner >> 1 & 1, corner >> 2];
             let axis = |k: usize| (base[k] as i64 + bits[k] as i64).clamp(0, edge as i64 - 1) as usize;
             let weight: f64 = (0..3).map(|k| if bits[k] == 1 { share[k] } else { 1.0 - share[k] }).product();
-            sum += weight * f64::from(channel[(axis(2) * edge + axis(1)) * edge + axis(0)]);
+            sum += weight * f64::from(channel((axis(2) * edge + axis(1)) * edge + axis(0)));
         }
         sum / 255.0
     }
@@ -43,8 +43,9 @@ impl Cloud<'_> {
     /// Share of the light that passes from a point to the sun.
     fn passes(&self, p: DVec3) -> f64 {
         let step = 2.0 / 48.0;
-        let depth: f64 =
-            (0..80).map(|k| self.at(self.voxels.density(), p + self.towards * (f64::from(k) + 0.5) * step)).sum();
+        let depth: f64 = (0..80)
+            .map(|k| self.at(|point| self.voxels.density()[point], p + self.towards * (f64::from(k) + 0.5) * step))
+            .sum();
         (-EXTINCTION * step * depth).exp()
     }
 
@@ -58,7 +59,7 @@ impl Cloud<'_> {
                 if p.dot(d) > 2.0 || p.length_squared() > 12.0 {
                     return light;
                 }
-                if random.next() < self.at(self.voxels.density(), p) {
+                if random.next() < self.at(|point| self.voxels.density()[point], p) {
                     break;
                 }
             }
@@ -73,8 +74,8 @@ impl Cloud<'_> {
         let (mut light, mut left, step) = (0.0, 1.0, 0.02);
         for k in 0..180 {
             let at = p + d * (f64::from(k) + 0.5) * step;
-            let opaque = 1.0 - (-EXTINCTION * step * self.at(self.voxels.density(), at)).exp();
-            light += left * opaque * self.at(self.voxels.light(), at);
+            let opaque = 1.0 - (-EXTINCTION * step * self.at(|point| self.voxels.density()[point], at)).exp();
+            light += left * opaque * self.at(|point| self.voxels.light(point), at);
             left *= 1.0 - opaque;
         }
         light
