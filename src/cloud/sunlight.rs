@@ -35,19 +35,22 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
     let width = n + 20;
     let mut before = vec![0.0; width * (n + 3)];
     let mut after = before.clone();
-    // Densities of a row, in whose place comes their light.
-    let mut values = vec![0; width];
+    // Densities of a layer, in whose place comes their light. One row at a time, vectors would be read before its bytes are in
+    // memory, and wait for them.
+    let mut values = vec![0; width * n];
     let [column, row] = [du, dv].map(|step| (step.floor() + 1.0) as i32 as usize);
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));
     // Light that enters the bounds has met nothing before, and nothing in them is behind what has left them.
     let (layers, along, across) = (voxels.extent(main), voxels.extent(u), voxels.extent(v));
     for step in 0..layers.len() {
         let layer = strides[main] * if way[main] > 0.0 { layers.end - 1 - step } else { layers.start + step };
+        let point = |i: usize, j: usize| layer + i * strides[u] + j * strides[v];
         for j in across.clone() {
-            let first = layer + j * strides[v];
             for i in along.clone() {
-                values[i] = voxels.density()[first + i * strides[u]] as u32;
+                values[j * width + i] = voxels.density()[point(i, j)] as u32;
             }
+        }
+        for j in across.clone() {
             let share = to_f32(j) + dv - (to_f32(j) + dv.floor());
             for i in along.clone().step_by(lanes) {
                 let place = steps + to_f32(i);
@@ -56,7 +59,7 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
                 let (a, b): (F<S>, F<S>) = (take(simd, &before, at), take(simd, &before, at + 1));
                 let (c, d): (F<S>, F<S>) = (take(simd, &before, at + width), take(simd, &before, at + width + 1));
                 let (a, b) = (a + (b - a) * aside, c + (d - c) * aside);
-                let own = float(simd, U::<S>::from_slice(simd, &values[i..i + lanes]));
+                let own = float(simd, U::<S>::from_slice(simd, &values[j * width + i..][..lanes]));
                 let depth = a + (b - a) * share + own * (2.0 * half);
                 let inside = place.simd_lt(to_f32(along.end));
                 let kept = inside.select(depth, F::<S>::splat(simd, 0.0));
@@ -64,10 +67,10 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
                 // As far as the centre of the voxel.
                 let q = (depth - own * half) * LOG2_E;
                 let light = exp2(simd, q * -0.5) * (0.7 * 255.0) + exp2(simd, q * -0.06) * (0.3 * 255.0);
-                (light + 0.5).to_int::<S::i32s>().bitcast::<U<S>>().store_slice(&mut values[i..i + lanes]);
+                (light + 0.5).to_int::<S::i32s>().bitcast::<U<S>>().store_slice(&mut values[j * width + i..][..lanes]);
             }
             for i in along.clone() {
-                voxels.put_light(first + i * strides[u], values[i] as u8);
+                voxels.put_light(point(i, j), values[j * width + i] as u8);
             }
         }
         std::mem::swap(&mut before, &mut after);
