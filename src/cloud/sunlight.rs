@@ -35,8 +35,8 @@ pub fn bake<S: Simd>(simd: S, voxels: &mut Voxels, towards: Vec3A, extinction: f
     let width = n + 20;
     let mut before = vec![0.0; width * (n + 3)];
     let mut after = before.clone();
-    // Densities of a layer, in whose place comes their light. One row at a time, vectors would be read before its bytes are in
-    // memory, and wait for them.
+    // Densities of a layer, in whose place comes their light. Row by row, a vector would be read from words just written, and
+    // wait until they are in memory.
     let mut values = vec![0; width * n];
     let [column, row] = [du, dv].map(|step| (step.floor() + 1.0) as i32 as usize);
     let steps = float(simd, U::<S>::from_slice(simd, &STEPS[..lanes]));

@@ -89,6 +89,7 @@ impl Mixers {
         for (product, &row) in self.products.iter_mut().zip(rows) {
             let weights = &self.weights[row as usize & (ROWS - 1)];
             // Not a loop, which would load every input anew for each mixer.
+            const { assert!(VECTORS == 7) };
             let add = |sum, i: usize| _mm256_fmadd_ps(floats(&self.inputs[i]), floats(&weights[i]), sum);
             let sum = _mm256_mul_ps(floats(&self.inputs[0]), floats(&weights[0]));
             put_floats(add(add(add(add(add(add(sum, 1), 2), 3), 4), 5), 6), product);

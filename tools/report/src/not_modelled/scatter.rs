@@ -40,12 +40,14 @@ impl Cloud<'_> {
         sum / 255.0
     }
 
+    fn density(&self, p: DVec3) -> f64 {
+        self.at(|point| self.voxels.density()[point], p)
+    }
+
     /// Share of the light that passes from a point to the sun.
     fn passes(&self, p: DVec3) -> f64 {
         let step = 2.0 / 48.0;
-        let depth: f64 = (0..80)
-            .map(|k| self.at(|point| self.voxels.density()[point], p + self.towards * (f64::from(k) + 0.5) * step))
-            .sum();
+        let depth: f64 = (0..80).map(|k| self.density(p + self.towards * (f64::from(k) + 0.5) * step)).sum();
         (-EXTINCTION * step * depth).exp()
     }
 
@@ -59,7 +61,7 @@ impl Cloud<'_> {
                 if p.dot(d) > 2.0 || p.length_squared() > 12.0 {
                     return light;
                 }
-                if random.next() < self.at(|point| self.voxels.density()[point], p) {
+                if random.next() < self.density(p) {
                     break;
                 }
             }
@@ -74,7 +76,7 @@ impl Cloud<'_> {
         let (mut light, mut left, step) = (0.0, 1.0, 0.02);
         for k in 0..180 {
             let at = p + d * (f64::from(k) + 0.5) * step;
-            let opaque = 1.0 - (-EXTINCTION * step * self.at(|point| self.voxels.density()[point], at)).exp();
+            let opaque = 1.0 - (-EXTINCTION * step * self.density(at)).exp();
             light += left * opaque * self.at(|point| self.voxels.light(point), at);
             left *= 1.0 - opaque;
         }
