@@ -11,7 +11,8 @@ use crate::cuts;
 pub struct TraceSettings {
     /// Edge of the coarsest square of the corner grid, pixels: a power of two from 2 to 16. At 1 every pixel is traced.
     pub cell: usize,
-    /// A square is interpolated where the error estimated at its centre is at most this, in linear light.
+    /// A square is interpolated where the error estimated at its centre is at most this, in linear light. With anti-aliasing
+    /// one of two pixels whose corners are of one surface needs no such estimate, unless `contrast` is 0.
     pub threshold: f32,
     /// A secondary ray whose weight is below this is not traced and takes the sky's light. Where the brightest light
     /// exceeds 1, its weight counts that many times. At 0 every ray is traced, up to the depth limit.
@@ -135,7 +136,13 @@ impl Quality {
 
     /// What the intro plays: every shortcut, anti-aliased.
     pub const DEFAULT: Quality = Quality {
-        trace: TraceSettings { min_weight: 1.0 / 256.0, min_detail: 1.0 / 7.0, antialias: true, ..Quality::FAST.trace },
+        trace: TraceSettings {
+            threshold: 0.02,
+            min_weight: 1.0 / 256.0,
+            min_detail: 1.0 / 7.0,
+            antialias: true,
+            ..Quality::FAST.trace
+        },
         raster: RasterSettings { coverage: 4, ..Quality::FAST.raster },
         ..Quality::FAST
     };
@@ -211,11 +218,14 @@ impl Default for Quality {
 // other values would need is left out.
 
 impl TraceSettings {
-    /// These settings; in the 64 kB build all but three are those of [`Quality::FAST`].
+    /// These settings; in the 64 kB build all but four are those of [`Quality::FAST`].
     #[inline(always)]
     pub const fn built(&self) -> TraceSettings {
-        let TraceSettings { min_weight, min_detail, antialias, .. } = *self;
-        if cuts::QUALITIES { *self } else { TraceSettings { min_weight, min_detail, antialias, ..Quality::FAST.trace } }
+        if cuts::QUALITIES {
+            return *self;
+        }
+        let TraceSettings { threshold, min_weight, min_detail, antialias, .. } = *self;
+        TraceSettings { threshold, min_weight, min_detail, antialias, ..Quality::FAST.trace }
     }
 }
 

@@ -25,7 +25,7 @@ use super::job::Job;
 use super::sample::{self, GAIN, NUMBERS, POINT, REMEMBERED, Sample, hit_point, hits};
 use super::surface::ALBEDO;
 use crate::frame::Tile;
-use crate::simd::lanes::F;
+use crate::settings::TraceSettings;
 use crate::simd::math::to_f32;
 use crate::texture::Variation;
 use fearless_simd::prelude::*;
@@ -120,16 +120,14 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
         for level in 0..LEVELS {
             let squares = std::mem::take(&mut work[level]);
             for &square in &squares {
-                want(grid, square, unit);
+                want(job, grid, square);
             }
             grid.trace(simd, job);
             for &square in &squares {
                 match judge(simd, job, tile, grid, square, &mut mean) {
                     Verdict::Whole => whole.push(square),
                     Verdict::Cut => {
-                        if square.size() == 2 * unit {
-                            foretell_sides(simd, job, tile, grid, square);
-                        }
+                        foretell_sides(simd, job, tile, grid, square);
                         cutter.cut(work, square);
                     }
                     Verdict::FaintEdge => edges.push(square),
@@ -150,21 +148,29 @@ fn subdivide<S: Simd>(simd: S, job: &Job, tile: &Tile, scratch: &mut Scratch) {
     }
 }
 
-/// Asks for the samples that a square is judged by: its corners, and its centre if it is larger than a pixel of `unit`
-/// lattice steps. Where a corner is a pixel, a pixel has one sample.
+/// Asks for the samples that a square is judged by: its corners, and its centre if they are not enough. Where a corner is a
+/// pixel, a pixel has one sample.
 #[inline(always)]
-fn want(grid: &mut Grid, square: Square, unit: usize) {
+fn want(job: &Job, grid: &mut Grid, square: Square) {
     let ((x, y), size) = (square.place(), square.size());
     grid.want(x, y);
-    if size == 1 && unit == 1 {
+    if size == 1 && job.unit() == 1 {
         return;
     }
     grid.want(x + size, y);
     grid.want(x, y + size);
     grid.want(x + size, y + size);
-    if size > unit {
+    if size > by_corners(job) {
         grid.want(x + size / 2, y + size / 2);
     }
+}
+
+/// Edge of the largest squares that are judged by their corners alone, lattice steps: pixels, and with anti-aliasing squares
+/// of two pixels. At a contrast of 0 every sample is traced.
+#[inline(always)]
+fn by_corners(job: &Job) -> usize {
+    let TraceSettings { antialias, contrast, .. } = job.settings.built();
+    if antialias && contrast > 0.0 { 2 * job.unit() } else { job.unit() }
 }
 
 /// Asks for the samples within a pixel that an edge runs through: its centre, and the middle of every side that the edge
@@ -172,7 +178,7 @@ fn want(grid: &mut Grid, square: Square, unit: usize) {
 fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
     let (x, y) = pixel.point((1, 1));
     grid.want(x, y);
-    let trusted = trusts_ends(job, tile, pixel);
+    let trusted = trusted(job, tile, pixel);
     for &(middle, ends) in &SIDES {
         let [a, b] = grid.pair(pixel, ends);
         if !(trusted && a.path_signature == b.path_signature) {
@@ -182,27 +188,35 @@ fn want_within(job: &Job, tile: &Tile, grid: &mut Grid, pixel: Square) {
     }
 }
 
-/// Foretells the middle of every side that the edge which runs through a square of two pixels does not cross, so that it is
-/// not traced.
+/// Foretells the middle of every side that the edge which runs through a square of two or four pixels does not cross, so
+/// that it is not traced.
 fn foretell_sides<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &mut Grid, square: Square) {
-    if !job.settings.antialias || same_path(grid.corners(square)) || !trusts_ends(job, tile, square) {
+    let pixels = job.pixels(square.size());
+    if !trusted(job, tile, square) || pixels > 4 || same_path(grid.corners(square)) {
         return;
     }
-    let mut sample = Sample::default();
+    if pixels == 4 && !one_edge(grid, square) {
+        return;
+    }
     for &(middle, ends) in &SIDES {
-        let (x, y) = square.point(middle);
-        let [a, b] = grid.pair(square, ends);
-        if !grid.has(x, y) && a.path_signature == b.path_signature {
-            mean(simd, [a, b, a, b], &mut sample);
-            grid.foretell(x, y, &sample);
-        }
+        grid.foretell(simd, square, middle, ends);
     }
 }
 
-/// Whether a side of a square of one or two pixels is taken for one surface where its ends are of one. Nothing smaller than
-/// the square may be there, and at a contrast of 0 every sample is traced.
-fn trusts_ends(job: &Job, tile: &Tile, square: Square) -> bool {
-    finest(job, tile, square) >= job.pixels(square.size()) && job.settings.built().contrast > 0.0
+/// Whether the corners and the centre of a square see two surfaces at most. What is seen at the centre alone may be a line
+/// that leaves the square between two corners.
+fn one_edge(grid: &Grid, square: Square) -> bool {
+    let (first, mut second) = (grid.centre(square).path_signature, None);
+    grid.corners(square).iter().all(|corner| {
+        corner.path_signature == first || corner.path_signature == *second.get_or_insert(corner.path_signature)
+    })
+}
+
+/// Whether a side of a square is taken for one surface where its ends are of one. Nothing smaller than the square may be
+/// there, and at a contrast of 0 every sample is traced.
+fn trusted(job: &Job, tile: &Tile, square: Square) -> bool {
+    let TraceSettings { antialias, contrast, .. } = job.settings.built();
+    antialias && contrast > 0.0 && finest(job, tile, square) >= job.pixels(square.size())
 }
 
 /// What becomes of a square.
@@ -233,7 +247,8 @@ fn judge<S: Simd>(simd: S, job: &Job, tile: &Tile, grid: &Grid, square: Square, 
         && if size == unit {
             finest > 0
         } else {
-            size <= unit * finest && agree(simd, job, job.pixels(size), corners, grid.centre(square), mean)
+            size <= unit * finest
+                && (size <= by_corners(job) || agree(simd, job, job.pixels(size), corners, grid.centre(square), mean))
         };
     match agree {
         true => Verdict::Whole,
@@ -324,7 +339,7 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
         } else {
             let corners = grid.corners(square);
             let footprint = fill::footprints(corners);
-            mean(simd, corners, &mut middle);
+            middle.set_mean(simd, corners);
             fill::add(simd, job, tile, deferred, square, &middle, share, &footprint);
         }
     }
@@ -336,25 +351,6 @@ fn paint<S: Simd>(simd: S, job: &Job, tile: &mut Tile, share: f32, scratch: &mut
             fill::add(simd, job, tile, deferred, square, &group.mean, group.share, &[0.0; REMEMBERED]);
         }
     }
-}
-
-/// Writes the numbers that the corners of a square foretell of its centre: their mean.
-#[simd]
-fn foretell<S: Simd>(simd: S, c: [&Sample; 4], mean: &mut [f32; NUMBERS]) {
-    for i in (0..c[0].used()).step_by(F::<S>::LEN) {
-        let sum = sample::load(simd, &c[0].numbers, i)
-            + sample::load(simd, &c[1].numbers, i)
-            + sample::load(simd, &c[2].numbers, i)
-            + sample::load(simd, &c[3].numbers, i);
-        sample::store::<S>(sum * 0.25, mean, i);
-    }
-}
-
-/// Writes the sample in the middle of samples that have one path signature.
-#[inline(always)]
-fn mean<S: Simd>(simd: S, samples: [&Sample; 4], mean: &mut Sample) {
-    (mean.path_signature, mean.count, mean.object) = (samples[0].path_signature, samples[0].count, samples[0].object);
-    foretell(simd, samples, &mut mean.numbers);
 }
 
 /// Whether a square of `size` pixels may be interpolated whose corners have one path signature.
@@ -373,7 +369,7 @@ fn agree<S: Simd>(
     if c[0].path_signature != centre.path_signature {
         return false;
     }
-    foretell(simd, c, mean);
+    sample::mean(simd, c, mean);
     let [found, foretold] = [&centre.numbers, mean];
     let mut error = distance(&found[..3], &foretold[..3]);
     let mut level = found[0] + found[1] + found[2];

@@ -4,7 +4,7 @@
 //! surface in a pixel has its textures evaluated once.
 
 use super::grid::{Grid, SIDES, Square};
-use super::sample::{self, NUMBERS, Sample};
+use super::sample::{self, Sample};
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
 
@@ -91,19 +91,19 @@ impl Groups {
             at += 1;
         }
         let group = &mut self.list[at];
-        if at == self.count {
+        let first = at == self.count;
+        if first {
             self.count += 1;
             // Field by field, because a whole sample would be copied twice.
             group.share = 0.0;
             (group.mean.path_signature, group.mean.count, group.mean.object) =
                 (sample.path_signature, sample.count, sample.object);
-            group.mean.numbers = [0.0; NUMBERS];
         }
         group.share += weight;
         for i in (0..sample.used()).step_by(F::<S>::LEN) {
-            let sum = sample::load(simd, &group.mean.numbers, i);
-            let number = sample::load(simd, &sample.numbers, i);
-            sample::store::<S>(sum + number * weight, &mut group.mean.numbers, i);
+            let number = sample::load(simd, &sample.numbers, i) * weight;
+            let sum = if first { number } else { sample::load(simd, &group.mean.numbers, i) + number };
+            sample::store::<S>(sum, &mut group.mean.numbers, i);
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::job::Job;
 use super::packet;
 use super::sample::Sample;
+use crate::cuts;
 use crate::frame::Tile;
 use crate::simd::math::to_f32;
 use fearless_simd::prelude::*;
@@ -111,14 +112,25 @@ impl Grid {
         self.lattice[y * ROW + x].0 == self.generation
     }
 
-    /// Puts a sample at a lattice point that has none, instead of tracing it. No point may be wanted.
-    pub fn foretell(&mut self, x: usize, y: usize, sample: &Sample) {
+    /// Puts the mean of a side's ends in its middle, instead of tracing it, where nothing is there and both ends are of one
+    /// surface. No point may be wanted.
+    #[inline(always)]
+    pub fn foretell<S: Simd>(&mut self, simd: S, square: Square, middle: Place, ends: [Place; 2]) {
+        let (x, y) = square.point(middle);
+        let [a, b] = self.pair(square, ends);
+        if self.has(x, y) || a.path_signature != b.path_signature {
+            return;
+        }
+        let [a, b] = ends.map(|end| self.index(square.point(end)));
         self.add(x, y);
         self.make_room();
-        self.samples[self.count] = *sample;
-        self.xs[self.count] = f32::NAN;
+        let (known, new) = self.samples.split_at_mut(self.count);
+        new[0].set_mean(simd, [&known[a], &known[b], &known[a], &known[b]]);
+        if cuts::BENCH {
+            self.xs[self.count] = f32::NAN;
+            self.foretold += 1;
+        }
         self.count += 1;
-        self.foretold += 1;
     }
 
     /// Makes room for the samples at all points that are wanted.
@@ -150,7 +162,13 @@ impl Grid {
 
     /// The sample at a lattice point, which must be there.
     pub fn at(&self, x: usize, y: usize) -> &Sample {
-        &self.samples[self.lattice[y * ROW + x].1 as usize]
+        &self.samples[self.index((x, y))]
+    }
+
+    /// The index of the sample at a lattice point.
+    #[inline(always)]
+    fn index(&self, (x, y): (usize, usize)) -> usize {
+        self.lattice[y * ROW + x].1 as usize
     }
 
     /// The samples at two places of a square.

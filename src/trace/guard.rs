@@ -96,6 +96,7 @@ impl Guard {
 
     /// Cuts the squares under the shadow of a ball that stands for a part of the body `caster`.
     #[allow(clippy::too_many_arguments)]
+    #[inline(never)] // 57 bytes less packed.
     fn shadow(
         &mut self,
         world: &World,
@@ -199,9 +200,9 @@ fn landing<S: Simd>(
 /// The range of blocks below `end` that a ball's picture may touch along one axis; its centre and radius are pixels.
 fn blocks(at: f32, radius: f32, end: usize) -> (usize, usize) {
     let end = end as i32;
-    let block = |pixel: f32| (pixel / BLOCK as f32).floor().clamp(-1.0, end as f32) as i32;
-    let low = block(at - radius - 1.0).max(0);
-    let high = (block(at + radius + 1.0) + 1).clamp(low, end.max(low));
+    let block = |pixel: f32| pixel as i32 >> BLOCK.trailing_zeros();
+    let low = block(at - radius - 1.0).max(0).min(end);
+    let high = (block(at + radius + 1.0) + 1).max(low).min(end);
     (low as usize, high as usize)
 }
 

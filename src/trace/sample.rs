@@ -5,6 +5,7 @@
 
 use crate::simd::lanes::F;
 use fearless_simd::prelude::*;
+use fearless_simd_macros::simd;
 
 /// Textured hits that a sample can remember. Later ones, the deepest and of least weight, are looked up on the spot.
 pub const REMEMBERED: usize = 4;
@@ -62,9 +63,29 @@ impl Sample {
         self.object.iter().copied().zip(hits(&self.numbers)).take(self.count as usize)
     }
 
+    /// Makes this the sample in the middle of samples that have one path signature.
+    #[inline(always)]
+    pub fn set_mean<S: Simd>(&mut self, simd: S, samples: [&Sample; 4]) {
+        (self.path_signature, self.count, self.object) =
+            (samples[0].path_signature, samples[0].count, samples[0].object);
+        mean(simd, samples, &mut self.numbers);
+    }
+
     /// The count of numbers in use.
     pub fn used(&self) -> usize {
         PLAIN + HIT * self.count as usize
+    }
+}
+
+/// Writes the means of the numbers of samples that have one path signature.
+#[simd]
+pub fn mean<S: Simd>(simd: S, samples: [&Sample; 4], mean: &mut [f32; NUMBERS]) {
+    for i in (0..samples[0].used()).step_by(F::<S>::LEN) {
+        let sum = load(simd, &samples[0].numbers, i)
+            + load(simd, &samples[1].numbers, i)
+            + load(simd, &samples[2].numbers, i)
+            + load(simd, &samples[3].numbers, i);
+        store::<S>(sum * 0.25, mean, i);
     }
 }
 
