@@ -17,6 +17,9 @@ use fearless_simd_macros::simd;
 /// Where the value of an edge function at a tile's corner exceeds this, it has one sign in the whole tile.
 const FAR: i64 = 1 << 30;
 
+/// Of fewer rows all are drawn, as it takes as long to find those that an edge leaves out.
+const FEW: i32 = 3;
+
 /// Draws meshes into the tile of a column and a row of tiles, over what is visible there at each sample of its pixels: one
 /// triangle after the other, as most of the time their numbers have to be fetched. The nearer the first ones are, the more
 /// of the others are hidden.
@@ -147,7 +150,8 @@ impl Edge {
 #[inline(always)]
 fn strips<S: Simd>(simd: S, edges: &[Edge; 3], rows: [i32; 2], columns: S::i32s) -> [S::i32s; 2] {
     let [mut first, mut last] = rows.map(|row| S::i32s::splat(simd, row));
-    for &Edge { a, b, start } in edges {
+    let worth = rows[1] - rows[0] >= FEW;
+    for &Edge { a, b, start } in edges.iter().filter(|_| worth) {
         let best = if a > 0 { F::<S>::LEN as i32 - 1 } else { 0 };
         let value: F<S> = (columns * a + (start + best * a)).to_float();
         // The row where the edge passes, half of the least value below 0; where the edge is level, one beyond the tile.
