@@ -83,6 +83,8 @@ struct Ramp {
     pixel: [u16; BLOCK],
     /// The number of pixels.
     count: usize,
+    /// The square's edge, pixels.
+    size: usize,
     /// Share of the square's edge that a pixel takes.
     step: f32,
 }
@@ -115,7 +117,7 @@ impl Ramps {
             ramps.clear();
             for first in (0..size * size).step_by(count) {
                 let step = 1.0 / to_f32(size);
-                let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, step };
+                let mut ramp = Ramp { u: [0.0; BLOCK], v: [0.0; BLOCK], pixel: [0; BLOCK], count, size, step };
                 for i in 0..count {
                     let (x, y) = ((first + i) % size, (first + i) / size);
                     ramp.u[i] = (to_f32(x) + offset) / to_f32(size);
@@ -158,11 +160,16 @@ impl Patch {
     fn values<S: Simd>(&self, simd: S, ramp: &Ramp, out: &mut [[f32; BLOCK]]) {
         for (k, row) in out.iter_mut().enumerate() {
             let (start, down) = (F::<S>::splat(simd, self.start[k]), F::<S>::splat(simd, self.down[k]));
-            let mut i = 0;
-            while i * F::<S>::LEN < ramp.count {
-                let (u, v): (F<S>, F<S>) = (load(simd, &ramp.u, i), load(simd, &ramp.v, i));
-                store(start + u * self.along[k] + v * (down + u * self.twist[k]), row, i);
-                i += 1;
+            // u is the same in every row of pixels, so it is for vectors that are this far apart.
+            let apart = (ramp.size / F::<S>::LEN).max(1);
+            for first in 0..apart {
+                let u: F<S> = load(simd, &ramp.u, first);
+                let (top, fall) = (start + u * self.along[k], down + u * self.twist[k]);
+                let mut i = first;
+                while i * F::<S>::LEN < ramp.count {
+                    store(top + load::<S, F<S>>(simd, &ramp.v, i) * fall, row, i);
+                    i += apart;
+                }
             }
         }
     }
