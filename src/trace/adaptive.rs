@@ -14,6 +14,8 @@
 //! * Squares that a small object or shadow may touch are cut in any case ([`super::guard`]).
 //! * With anti-aliasing, corners lie on the corners of pixels, so that a pixel is a square like any other; without it, on
 //!   the centres of pixels, so that a corner is a pixel.
+//! * With anti-aliasing, squares of two pixels are judged by their corners alone, and the middles of sides that no edge
+//!   crosses are foretold in squares of two and four pixels that one does.
 //!
 //! The limit without approximation is a coarsest square of 1 pixel, which traces every pixel.
 
@@ -212,8 +214,8 @@ fn one_edge(grid: &Grid, square: Square) -> bool {
     })
 }
 
-/// Whether a side of a square is taken for one surface where its ends are of one. Nothing smaller than the square may be
-/// there, and at a contrast of 0 every sample is traced.
+/// Whether a side of a square is taken for one surface where its ends are of one: with anti-aliasing, where nothing smaller
+/// than the square may be. At a contrast of 0 every sample is traced.
 fn trusted(job: &Job, tile: &Tile, square: Square) -> bool {
     let TraceSettings { antialias, contrast, .. } = job.settings.built();
     antialias && contrast > 0.0 && finest(job, tile, square) >= job.pixels(square.size())
