@@ -168,11 +168,17 @@ fn want(job: &Job, grid: &mut Grid, square: Square) {
 }
 
 /// Edge of the largest squares that are judged by their corners alone, lattice steps: pixels, and with anti-aliasing squares
-/// of two pixels. At a contrast of 0 every sample is traced.
+/// of two pixels.
 #[inline(always)]
 fn by_corners(job: &Job) -> usize {
+    if foretells(job) { 2 * job.unit() } else { job.unit() }
+}
+
+/// Whether a sample may be left out that others foretell: with anti-aliasing, but at a contrast of 0, where all are traced.
+#[inline(always)]
+fn foretells(job: &Job) -> bool {
     let TraceSettings { antialias, contrast, .. } = job.settings.built();
-    if antialias && contrast > 0.0 { 2 * job.unit() } else { job.unit() }
+    antialias && contrast > 0.0
 }
 
 /// Asks for the samples within a pixel that an edge runs through: its centre, and the middle of every side that the edge
@@ -214,11 +220,10 @@ fn one_edge(grid: &Grid, square: Square) -> bool {
     })
 }
 
-/// Whether a side of a square is taken for one surface where its ends are of one: with anti-aliasing, where nothing smaller
-/// than the square may be. At a contrast of 0 every sample is traced.
+/// Whether a side of a square is taken for one surface where its ends are of one, as nothing smaller than the square may be
+/// there.
 fn trusted(job: &Job, tile: &Tile, square: Square) -> bool {
-    let TraceSettings { antialias, contrast, .. } = job.settings.built();
-    antialias && contrast > 0.0 && finest(job, tile, square) >= job.pixels(square.size())
+    foretells(job) && finest(job, tile, square) >= job.pixels(square.size())
 }
 
 /// What becomes of a square.

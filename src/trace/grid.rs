@@ -117,11 +117,10 @@ impl Grid {
     #[inline(always)]
     pub fn foretell<S: Simd>(&mut self, simd: S, square: Square, middle: Place, ends: [Place; 2]) {
         let (x, y) = square.point(middle);
-        let [a, b] = self.pair(square, ends);
-        if self.has(x, y) || a.path_signature != b.path_signature {
+        let [a, b] = ends.map(|end| self.index(square.point(end)));
+        if self.has(x, y) || self.samples[a].path_signature != self.samples[b].path_signature {
             return;
         }
-        let [a, b] = ends.map(|end| self.index(square.point(end)));
         self.add(x, y);
         self.make_room();
         let (known, new) = self.samples.split_at_mut(self.count);
